@@ -15,8 +15,7 @@ import numpy as np
 
 from mbla.cli import main
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import Page, add_legend, add_words, open_page
-from mbla.results.pictures.palette import INK, VERMILION
+from mbla.results.pictures.page import INK, VERMILION, Page, add_legend, add_words, open_page
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.analytic.frictional_arch import least_friction, least_thickness, rotational_friction

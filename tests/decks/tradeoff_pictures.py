@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import add_words, open_page
-from mbla.results.pictures.palette import BLUE, GREEN, INK, VERMILION
+from mbla.results.pictures.page import BLUE, GREEN, INK, VERMILION, add_words, open_page
 from tests.decks.tradeoff_record import FOLDER, Entry
 from tests.decks.tradeoff_text import RULES
 from tests.performance.standard_set import FLOW_RULES

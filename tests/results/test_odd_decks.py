@@ -15,7 +15,7 @@ from mbla.results.diff.comparison import compare_results
 from mbla.results.diff.words import comparison_text
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import verification_lines
-from mbla.results.notebook.html import _table
+from mbla.results.notebook.display import _table
 from mbla.results.notebook.run import Run
 from mbla.results.outcome import result_of
 from mbla.results.pictures.options import KINDS, PictureOptions

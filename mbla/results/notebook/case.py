@@ -14,8 +14,7 @@ from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.listing.answers import reaction_of
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
-from mbla.results.notebook.picture import Picture, case_picture
-from mbla.results.notebook.view import View
+from mbla.results.notebook.display import Picture, View, case_picture
 from mbla.results.outcome import associative_of, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.tilt_angle import angle_of
@@ -203,7 +202,7 @@ class Case:
         return f"<mbla load case {self.summary}>"
 
     def _repr_html_(self) -> str:
-        from mbla.results.notebook.html import case_html
+        from mbla.results.notebook.display import case_html
 
         return case_html(self)
 

@@ -14,8 +14,7 @@ from mbla.results.chosen_cases import no_such_case
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.notebook.case import Case
-from mbla.results.notebook.picture import Picture
-from mbla.results.notebook.view import View
+from mbla.results.notebook.display import Picture, View
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.series import series_of
@@ -170,6 +169,6 @@ class Run:
         return f"<mbla run of {self.summary}>"
 
     def _repr_html_(self) -> str:
-        from mbla.results.notebook.html import run_html
+        from mbla.results.notebook.display import run_html
 
         return run_html(self)

@@ -11,8 +11,19 @@ from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import Page, add_words, open_page
-from mbla.results.pictures.palette import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING
+from mbla.results.pictures.page import (
+    BLUE,
+    GHOST,
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    VERMILION,
+    WARNING,
+    Page,
+    add_words,
+    open_page,
+)
 from mbla.results.pictures.scene import Scene
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Status

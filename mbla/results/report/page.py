@@ -1,4 +1,4 @@
-"""Templates filled (only importer of jinja2; it comes with the extra ``mbla[report]``).
+"""A report as a page: templates filled (only importer of jinja2, extra ``report``), and its views to be turned.
 
 Everything of a result is untrusted text: titles, names and decks come from anywhere. The templates escape all of it; a
 Content-Security-Policy in the page forbids every request, and every script but those whose hashes it names.
@@ -14,6 +14,7 @@ from importlib.resources import files
 from typing import Any
 
 from mbla.errors import UsageError
+from mbla.results.results import CaseResult, Results
 
 SCRIPT = re.compile(r"<script\b[^>]*>(.*?)</script\s*>", re.DOTALL | re.IGNORECASE)
 
@@ -64,3 +65,26 @@ def _hash(text: str) -> str:
     """As a browser counts it, with line ends as newlines."""
     whole = text.replace("\r\n", "\n").replace("\r", "\n")
     return base64.b64encode(hashlib.sha256(whole.encode("utf-8")).digest()).decode("ascii")
+
+
+# --- The views of a report that can be turned (its one door to them) ------------------------------------------------
+
+
+def case_view(results: Results, case: CaseResult, view: tuple[float, float] | None, *, first: bool) -> str:
+    """Trusted HTML of the view of a case; what all views need comes with the first one of a page.
+
+    view : azimuth and elevation in degrees from which it is seen first, as in its pictures
+
+    Raises
+    ------
+    UsageError
+        The extra for reports is not installed.
+    """
+    from mbla.results.view3d.view import library_html, view_html
+
+    html = view_html(results, case, include_library=False, view=view)
+    return f"{library_html()}<script>{_begin_when_seen()}</script>\n{html}" if first else html
+
+
+def _begin_when_seen() -> str:
+    return files("mbla.results.report").joinpath("views.js").read_text(encoding="utf-8")

@@ -16,12 +16,9 @@ from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import notices_of
 from mbla.results.report.blocks import blocks_of
-from mbla.results.report.case_content import CaseContent, case_content
+from mbla.results.report.content import CaseContent, case_content, notice_kinds, verdict_table
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
-from mbla.results.report.notice_content import notice_kinds
-from mbla.results.report.page import library, render
-from mbla.results.report.verdict_table import verdict_table
-from mbla.results.report.views import case_view
+from mbla.results.report.page import case_view, library, render
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.whole_file import write_whole

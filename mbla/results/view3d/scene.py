@@ -27,10 +27,8 @@ from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab
 from mbla.results.results import CaseResult, Results
-from mbla.results.view3d.arrow import LoadArrow, load_arrow
-from mbla.results.view3d.colours import Colouring, by_group, by_part, by_value
-from mbla.results.view3d.marks import Mark, block_eccentricity, force_marks, mechanism_marks
-from mbla.results.view3d.triangles import face_triangles, triangle_normals
+from mbla.results.view3d.marks import LoadArrow, Mark, block_eccentricity, force_marks, load_arrow, mechanism_marks
+from mbla.results.view3d.surface import Colouring, by_group, by_part, by_value, face_triangles, triangle_normals
 from mbla.solution.solution import Status
 
 FAR = 1e3

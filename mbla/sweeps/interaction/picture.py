@@ -17,8 +17,19 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.listing.text import counted
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import Page, add_legend, add_words, open_page
-from mbla.results.pictures.palette import BLUE, GHOST, GREEN, INK, SKY, VERMILION, WARNING
+from mbla.results.pictures.page import (
+    BLUE,
+    GHOST,
+    GREEN,
+    INK,
+    SKY,
+    VERMILION,
+    WARNING,
+    Page,
+    add_legend,
+    add_words,
+    open_page,
+)
 from mbla.sweeps.interaction.extremes import extremes
 from mbla.sweeps.interaction.point import Point
 from mbla.sweeps.interaction.question import DIRECTION

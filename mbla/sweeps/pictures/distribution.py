@@ -17,7 +17,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import VERMILION
+from mbla.results.pictures.page import VERMILION
 from mbla.sweeps.answers import Answers
 from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
 from mbla.sweeps.pictures.view import View, axis_of, column_by_name, grid_axes, is_sampled

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
-from mbla.results.pictures.palette import GROUPS, INK
+from mbla.results.pictures.page import GROUPS, INK
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
 from mbla.sweeps.pictures.sheet import (

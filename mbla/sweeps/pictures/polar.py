@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import INK
+from mbla.results.pictures.page import INK
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.pictures import sphere
 from mbla.sweeps.pictures.cells import Cells, pooled

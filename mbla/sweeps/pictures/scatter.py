@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import BLUE, CASES
+from mbla.results.pictures.page import BLUE, CASES
 from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
 from mbla.sweeps.pictures.sheet import (
     MANY,

@@ -15,8 +15,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.errors import UsageError
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
-from mbla.results.pictures.page import LETTER, Page, add_legend, add_words, open_page
-from mbla.results.pictures.palette import GHOST, INK, PURPLE, WARNING
+from mbla.results.pictures.page import GHOST, INK, LETTER, PURPLE, WARNING, Page, add_legend, add_words, open_page
 from mbla.sweeps.answers import Answer, Answers
 from mbla.sweeps.pictures.view import Axis, View
 from mbla.sweeps.results import STATUS

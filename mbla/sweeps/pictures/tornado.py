@@ -18,7 +18,7 @@ from scipy.stats import rankdata
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import BLUE, GHOST, INK, VERMILION
+from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION
 from mbla.sweeps.answers import numbers_of, told_apart
 from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
 from mbla.sweeps.pictures.view import Axis, View, axis_of, design_columns, over_sphere

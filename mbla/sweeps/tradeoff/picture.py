@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import Page, add_words, open_page
-from mbla.results.pictures.palette import BLUE, GHOST, INK, VERMILION, WARNING
+from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION, WARNING, Page, add_words, open_page
 from mbla.sweeps.tradeoff.label_places import Box, label_places
 from mbla.sweeps.tradeoff.trade import CaseTrade, Row
 from mbla.sweeps.tradeoff.words import reference_words

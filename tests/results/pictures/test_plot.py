@@ -14,7 +14,7 @@ from mbla.errors import FileError, UsageError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.palette import CASES, HINGE
+from mbla.results.pictures.page import CASES, HINGE
 from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.results import Results
 from mbla.results.write import write_outputs

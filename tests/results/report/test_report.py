@@ -17,7 +17,7 @@ from mbla.results.listing.text import Entry, Heading, Table, elements_of, number
 from mbla.results.outcome import notices_of
 from mbla.results.records.json_record import results_json
 from mbla.results.report import report
-from mbla.results.report.case_content import alarm_of
+from mbla.results.report.content import alarm_of
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results

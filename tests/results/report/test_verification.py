@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.results.report.verification import FAILED, NOT_JUDGED, PASSED, checks_of
+from mbla.results.report.content import FAILED, NOT_JUDGED, PASSED, checks_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
 from mbla.solution.verification.residuals import Residuals

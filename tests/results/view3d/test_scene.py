@@ -9,10 +9,9 @@ import pytest
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.solids.blocks import Blocks
 from mbla.results.results import Results
-from mbla.results.view3d.arrow import BESIDE, load_arrow
-from mbla.results.view3d.colours import MOST_NAMES, by_part
-from mbla.results.view3d.marks import HINGE
+from mbla.results.view3d.marks import BESIDE, HINGE, load_arrow
 from mbla.results.view3d.scene import eye_of, light_from, packed, scene_of, shades
+from mbla.results.view3d.surface import MOST_NAMES, by_part
 from mbla.solution.solution import Status
 from tests.results.no_contacts import without_contacts
 from tests.results.pictures.rows_and_columns import row_of_blocks

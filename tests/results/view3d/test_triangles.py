@@ -6,7 +6,7 @@ import pytest
 
 from mbla.contacts.polygons import triangulate
 from mbla.model.solids.blocks import Blocks
-from mbla.results.view3d.triangles import face_triangles, reentrant_faces, triangle_normals
+from mbla.results.view3d.surface import face_triangles, reentrant_faces, triangle_normals
 from tests.results.synthetic import cuboids
 
 L_SHAPE = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], float)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.results.pictures.palette import GROUPS
+from mbla.results.pictures.page import GROUPS
 from mbla.sweeps.pictures.map import NO_POINT_COLOUR
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.view import value_words

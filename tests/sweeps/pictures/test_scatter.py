@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.results.pictures.palette import BLUE, CASES
+from mbla.results.pictures.page import BLUE, CASES
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, names_along, words

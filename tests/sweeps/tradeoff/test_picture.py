@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import GHOST, VERMILION
+from mbla.results.pictures.page import GHOST, VERMILION
 from mbla.sweeps.tradeoff.ladder_run import RungRun
 from mbla.sweeps.tradeoff.picture import draw_trade
 from tests.sweeps.drawn import places

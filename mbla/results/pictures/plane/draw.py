@@ -1,4 +1,4 @@
-"""A plane figure of one case: model, mechanism or forces."""
+"""Plane pictures of each kind: model, forces, mechanism."""
 
 from __future__ import annotations
 
@@ -7,23 +7,124 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.arrays import FloatArray
+from mbla.results.collapse.thrust import OUTSIDE
+from mbla.results.listing.text import number
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import add_legend, add_words, open_page
-from mbla.results.pictures.palette import CASES, DEAD_LOAD, FIXED_BLOCK, LIVE_LOAD, REST
+from mbla.results.pictures.page import (
+    CASES,
+    DEAD_LOAD,
+    FIXED_BLOCK,
+    HINGE,
+    INK,
+    LIVE_LOAD,
+    REST,
+    SLIDE,
+    THRUST,
+    add_legend,
+    add_words,
+    open_page,
+    shade,
+)
 from mbla.results.pictures.plane.flat import Flat
-from mbla.results.pictures.plane.forces import draw_forces
 from mbla.results.pictures.plane.joint_marks import draw_joint_marks
 from mbla.results.pictures.plane.load_arrows import draw_arrow_from, draw_loads
-from mbla.results.pictures.plane.sheet import Sheet, add_scale_bar, lay_out, new_sheet
-from mbla.results.pictures.plane.structure import (
+from mbla.results.pictures.plane.sheet import (
+    Sheet,
+    add_scale_bar,
     colours_by_group,
     colours_by_part,
     draw_blocks,
     draw_ghost,
     draw_grounds,
+    lay_out,
+    new_sheet,
     number_parts,
 )
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
+
+MIDDLE_THIRD, EDGE = 1 / 3, 0.99
+"""eccentricity beyond which a joint without tension is not pressed all over, and from which the force is at its edge"""
+USED = 0.999
+"""share of the friction from which all of it counts as used: forces are known to about a thousandth of it"""
+WIDEST, FINEST = 9.0, 0.7
+"""width of the largest force and of the least, points"""
+LENGTH = 0.7
+"""of a force over the typical side of a block"""
+KEY = (1.0, 0.5, 0.1)
+"""forces shown in the key, over the largest"""
+
+
+def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
+    """Resultants as short lines along the force, the wider and darker the larger; marks on eccentric ones."""
+    thrust, use = scene.thrust, scene.joint_use
+    if thrust is None or use is None or not thrust.carried.any():
+        return
+    rows = np.flatnonzero(thrust.carried)
+    points, vectors = flat.project(scene.thrust_points[rows]), flat.project(thrust.forces[rows])
+    sizes = np.linalg.norm(vectors, axis=1)
+    side = float(np.median(np.sqrt(scene.model.blocks.volumes / _depths(scene, flat))))
+    half = LENGTH * min(side, 0.2 * sheet.size) / 2 * vectors / sizes[:, None]
+    share = sizes / sizes.max()
+    order = np.argsort(share)
+    lines = np.stack([points - half, points + half], axis=1)[order]
+    widths = _widths(share)[order]
+    sheet.lines(lines, widths, [shade(value) for value in share[order]], zorder=4)
+    _draw_thrust_lines(sheet, flat, scene)
+    _mark_eccentric(sheet, points, thrust.eccentricity[rows], use[rows])
+    unit = scene.model.units.force
+    for value in KEY:
+        width = float(_widths(np.array(value)))
+        sheet.name(f"{number(float(f'{value * sizes.max():.3g}'))} {unit}", color=shade(value), linewidth=width)
+
+
+def _widths(share: FloatArray) -> FloatArray:
+    """Width of forces by their share of the largest, points: by the root, so that small ones can be seen."""
+    return np.asarray(np.maximum(WIDEST * np.sqrt(share), FINEST))
+
+
+def _depths(scene: Scene, flat: Flat) -> FloatArray:
+    """Extent of each block across the plane, (n_blocks,)."""
+    place = scene.model.blocks.vertices @ flat.towards
+    start = scene.model.blocks.vertex_start[:-1]
+    return np.asarray(np.maximum.reduceat(place, start) - np.minimum.reduceat(place, start))
+
+
+def _draw_thrust_lines(sheet: Sheet, flat: Flat, scene: Scene) -> None:
+    paths = [flat.project(line) for line in scene.thrust_lines]
+    if paths:
+        sheet.lines(paths, 3.2, "white", zorder=4.5)
+        sheet.lines(paths, 1.6, THRUST, zorder=4.6)
+        sheet.name("line of thrust", color=THRUST, linewidth=1.6)
+
+
+def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, use: FloatArray) -> None:
+    few = len(points) < 60
+    style = {"linewidths": 1.6, "zorder": 6}
+    outside = (eccentricity > MIDDLE_THIRD) & (eccentricity < EDGE)
+    look = {"linestyle": "none", "markersize": 9}
+    if outside.any():
+        sheet.dots(points[outside], 8.0 if few else 3.5, facecolors="white", edgecolors=HINGE, **style)
+        label = "outside the middle third"
+        sheet.name(label, marker="o", markerfacecolor="white", markeredgecolor=HINGE, **look)
+    edge = (eccentricity >= EDGE) & (eccentricity <= OUTSIDE)
+    if edge.any():
+        sheet.dots(points[edge], 9.0 if few else 4.5, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
+        sheet.name("at the edge of the joint", marker="o", markerfacecolor=HINGE, markeredgecolor=INK, **look)
+    beyond = eccentricity > OUTSIDE
+    if beyond.any():
+        sheet.dots(points[beyond], 10.0 if few else 5.0, facecolors="white", edgecolors=HINGE, marker="D", **style)
+        sheet.name(OUTSIDE_WORDS, marker="D", markerfacecolor="white", markeredgecolor=HINGE, **look)
+    used = use >= USED
+    if used.any():
+        sheet.dots(
+            points[used], 7.0 if few else 3.5, facecolors=SLIDE, edgecolors=INK, linewidths=0.8, zorder=3.8, marker="s"
+        )
+        sheet.name("all friction used", marker="s", markerfacecolor=SLIDE, markeredgecolor=INK, **look)
+
+
+# --- A plane figure of one case: model, mechanism or forces ---------------------------------------------------------
+
 
 MOST_CASES = 6
 """load cases whose loads the legend of a picture of the model names"""
@@ -64,12 +165,12 @@ def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     case = scene.case.load_case
     draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
     cases = {each.load_case.deck_name: each.load_case for each in scene.shown_cases}
-    for number, (name, _) in enumerate(cases.items()):
+    for row, (name, _) in enumerate(cases.items()):
         for each in scene.shown_cases:
             if each.load_case.deck_name == name:
-                colour = CASES[number % len(CASES)]
+                colour = CASES[row % len(CASES)]
                 label = f"live load {name}" if len(cases) > 1 else "live load"
-                _draw_live_load(sheet, flat, scene.with_case(each), label, colour, named=number < MOST_CASES)
+                _draw_live_load(sheet, flat, scene.with_case(each), label, colour, named=row < MOST_CASES)
 
 
 def _draw_live_load(sheet: Sheet, flat: Flat, scene: Scene, label: str, colour: str, named: bool = True) -> None:

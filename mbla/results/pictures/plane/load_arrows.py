@@ -10,7 +10,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import TravelPosition
 from mbla.results.collapse.motion import moved_points
 from mbla.results.pictures.load_marks import BESIDE, OFF_PATH, LoadMarks, load_marks
-from mbla.results.pictures.palette import pale
+from mbla.results.pictures.page import pale
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene

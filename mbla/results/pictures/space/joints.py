@@ -15,7 +15,7 @@ from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points
 from mbla.results.listing.text import counted
-from mbla.results.pictures.palette import CRUSH, HINGE, OPEN, SLIDE
+from mbla.results.pictures.page import CRUSH, HINGE, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.shapes import (
     Faces,
@@ -23,13 +23,13 @@ from mbla.results.pictures.space.shapes import (
     Shape,
     arrows,
     balls,
+    interface_faces,
     painted,
     rgb,
     rods,
     together,
     turning_arrows,
 )
-from mbla.results.pictures.space.structure import interface_faces
 
 MOST_LINES, MOST_PLANES = 30, 20
 """hinge lines and sliding planes that stand out, those that move most; more hide each other"""

@@ -13,7 +13,7 @@ from mbla.model.model import LoadCase
 from mbla.results.collapse.motion import moved_points
 from mbla.results.pictures.geometry import box_of
 from mbla.results.pictures.load_marks import BESIDE, OFF_PATH, LoadMarks, load_marks
-from mbla.results.pictures.palette import CASES, DEAD_LOAD, LIVE_LOAD, SETTLEMENT, pale
+from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD, SETTLEMENT, pale
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.shapes import Shape, arrows, rgb, turning_arrows
 

@@ -1,13 +1,17 @@
-"""What a spatial picture is made of, as arrays: coloured faces and lines; rods, arrows and balls as faces."""
+"""Shapes of a picture in space, drawings made of them, and the structure as such."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.results.pictures.geometry import block_edges, edges_of_blocks
+from mbla.results.pictures.page import GHOST, INK
+from mbla.results.pictures.scene import Scene
 
 SIDES = 12
 """of the prism that stands for a round rod"""
@@ -160,3 +164,108 @@ def together(parts: Sequence[Faces]) -> Faces:
         parts[0].opacity,
         parts[0].lit,
     )
+
+
+# --- A spatial picture before it is rendered ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class ColourScale:
+    """A bar of colours with what it means, from ``low`` to ``high``; colours (n, 3) from the one to the other."""
+
+    label: str
+    low: float
+    high: float
+    colours: FloatArray
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """Shapes and how they are told.
+
+    solid  : what hides things, the structure
+    marks  : what shines through where the structure hides it
+    loads  : marks of the whole, left out where a part of it is enlarged: their arrows are cut there
+    shine  : strength of hidden marks, 0 to 1
+    extent : (n, 3) m, what must fit into the picture
+    legend : names and colours
+    scale  : of colours, None without one
+    notes  : further lines below the legend
+    """
+
+    solid: tuple[Shape, ...]
+    marks: tuple[Shape, ...]
+    shine: float
+    extent: FloatArray
+    legend: tuple[tuple[str, str], ...]
+    scale: ColourScale | None = None
+    notes: tuple[str, ...] = ()
+    loads: tuple[Shape, ...] = ()
+
+    def solid_from(self, elevation: float) -> tuple[Shape, ...]:
+        """What hides things from an eye at an elevation in degrees: from below all but the ground."""
+        if elevation >= 0:
+            return self.solid
+        return tuple(shape for shape in self.solid if not (isinstance(shape, Faces) and shape.ground))
+
+
+# --- The structure in a spatial picture: blocks and their edges, ghost of what moves, ground ------------------------
+
+
+MANY = 400
+"""blocks from which edges are drawn thinner, and of the ghost only the outline"""
+SLAB = "#C4C4C4"
+SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+"""of a box whose corners are ordered with the first coordinate fastest"""
+
+
+def block_faces(scene: Scene, points: FloatArray, colours: FloatArray, lit: bool = True) -> Faces:
+    """Blocks at given places of their vertices, (n_vertices, 3) m, with the colour of each block, (n_blocks, 3)."""
+    blocks = scene.model.blocks
+    return Faces(points, blocks.loop_start, blocks.loops, colours[blocks.block_of_face], lit=lit)
+
+
+def edge_lines(scene: Scene, points: FloatArray, colour: str = INK, opacity: float = 1.0) -> Lines:
+    """Edges of all blocks."""
+    width = 1.5 if len(scene.model.blocks) < MANY else 1.0
+    return Lines(points, block_edges(scene.model.blocks), colour, width, opacity)
+
+
+def ghost_lines(scene: Scene, moving: BoolArray) -> Lines:
+    """Edges of the blocks that move where they were; of many only those that bound them together."""
+    blocks = scene.model.blocks
+    edges = edges_of_blocks(blocks, block_edges(blocks), moving)
+    if int(moving.sum()) > MANY:
+        edges = _single(blocks.vertices, edges, 1e-6 * scene.size)
+    return Lines(blocks.vertices, edges, GHOST, 1.1, 0.55)
+
+
+def _single(points: FloatArray, edges: IntArray, size: float) -> IntArray:
+    """Edges whose middle is that of no other edge: joints between blocks have at least two each."""
+    middle = np.round((points[edges[:, 0]] + points[edges[:, 1]]) / 2 / size).astype(np.int64)
+    _, row, count = np.unique(middle, axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(edges[count[row.ravel()] == 1])
+
+
+def grounds(scene: Scene) -> tuple[Faces | Lines, ...]:
+    """Slabs of ground with their edges."""
+    if not scene.slabs:
+        return ()
+    faces = [painted(corners, 4 * np.arange(7), SLAB_FACES.ravel(), SLAB) for corners in scene.slabs]
+    pairs = np.unique(np.sort(np.stack([SLAB_FACES, np.roll(SLAB_FACES, -1, axis=1)], axis=2).reshape(-1, 2)), axis=0)
+    every = np.vstack([pairs + 8 * row for row in range(len(scene.slabs))])
+    return replace(together(faces), ground=True), Lines(np.vstack(scene.slabs), every, GHOST, 1.0)
+
+
+def interface_faces(
+    contacts: Contacts, points: FloatArray, chosen: IntArray, shift: FloatArray
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Outlines of interfaces as polygons: points (n, 3) m, start and loops as in ``Faces``.
+
+    points : (n_points, 3) contact points as moved; shift : (n_chosen, 3) m, added to keep faces off those of blocks
+    """
+    counts = contacts.outline[chosen]
+    start = np.concatenate([[0], np.cumsum(counts)])
+    place = np.arange(start[-1]) - np.repeat(start[:-1], counts)
+    rows = np.repeat(contacts.point_start[chosen], counts) + place
+    return points[rows] + np.repeat(shift, counts, axis=0), start, np.arange(start[-1])

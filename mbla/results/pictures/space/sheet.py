@@ -9,12 +9,10 @@ from typing import Any
 import numpy as np
 
 from mbla.results.listing.text import number
-from mbla.results.pictures.page import Page, add_words
-from mbla.results.pictures.palette import GHOST, INK
+from mbla.results.pictures.page import GHOST, INK, Page, add_words
 from mbla.results.pictures.scene import Scene
-from mbla.results.pictures.space.camera import Camera
-from mbla.results.pictures.space.drawing import ColourScale, Drawing
-from mbla.results.pictures.space.panels import Panel
+from mbla.results.pictures.space.camera import Camera, Panel
+from mbla.results.pictures.space.shapes import ColourScale, Drawing
 
 Room = tuple[float, float]
 

@@ -8,7 +8,7 @@ import pytest
 
 from mbla.model.model import Settlement
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.palette import CASES, HINGE, LIVE_LOAD, OPEN
+from mbla.results.pictures.page import CASES, HINGE, LIVE_LOAD, OPEN
 from mbla.results.pictures.plane.sheet import round_length
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.scene import Scene, scene_of

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.pictures.palette import THRUST, rgb
-from mbla.results.pictures.plane.forces import draw_forces
+from mbla.results.pictures.page import THRUST, rgb
+from mbla.results.pictures.plane.draw import draw_forces
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
 from tests.results.pictures.plane.sheets import OPTIONS, drawn_alone
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks

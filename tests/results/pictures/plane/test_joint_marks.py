@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.results.pictures.palette import SLIDE, rgb
+from mbla.results.pictures.page import SLIDE, rgb
 from mbla.results.pictures.plane.joint_marks import LARGE, draw_joint_marks
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene, scene_of

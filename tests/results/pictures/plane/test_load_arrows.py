@@ -11,8 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.model.model import TravelPosition
 from mbla.results.pictures.load_marks import OFF_PATH
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import open_page
-from mbla.results.pictures.palette import LIVE_LOAD
+from mbla.results.pictures.page import LIVE_LOAD, open_page
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.plane.load_arrows import LONGEST, LONGEST_OF_MANY, MANY, draw_loads
 from mbla.results.pictures.plane.sheet import Sheet, new_sheet

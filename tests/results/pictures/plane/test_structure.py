@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import open_page
-from mbla.results.pictures.palette import GROUPS
+from mbla.results.pictures.page import GROUPS, open_page
 from mbla.results.pictures.plane.flat import flat_of
-from mbla.results.pictures.plane.sheet import Sheet, new_sheet
-from mbla.results.pictures.plane.structure import (
+from mbla.results.pictures.plane.sheet import (
     MOST_GROUPS,
     MOST_NUMBERS,
+    Sheet,
     colours_by_group,
     colours_by_part,
     draw_grounds,
+    new_sheet,
     number_parts,
 )
 from mbla.results.pictures.scene import Scene, scene_of

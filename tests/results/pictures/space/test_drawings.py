@@ -10,20 +10,15 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import PURPLE, SLIDE, THRUST
-from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
+from mbla.results.pictures.page import PURPLE, SLIDE, THRUST
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of, tint_of_part
 from mbla.results.pictures.space import can_draw
 from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.forces import forces_drawing
+from mbla.results.pictures.space.drawings import MOST_GROUPS, PARTS, forces_drawing, mechanism_drawing, model_drawing
 from mbla.results.pictures.space.joints import joint_marks
-from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing
-from mbla.results.pictures.space.model import MOST_GROUPS, model_drawing
-from mbla.results.pictures.space.picture import draw_in_space
+from mbla.results.pictures.space.picture import USUAL, best_view, draw_in_space
 from mbla.results.pictures.space.renderer import Renderer
-from mbla.results.pictures.space.shapes import Faces, painted, rgb
-from mbla.results.pictures.space.structure import MANY, ghost_lines, grounds
-from mbla.results.pictures.space.views import USUAL, best_view
-from mbla.results.pictures.tints import tint_of_part
+from mbla.results.pictures.space.shapes import MANY, Faces, ghost_lines, grounds, painted, rgb
 from mbla.results.results import Results
 from mbla.solution.solution import ContactMode
 from tests.results.opengl import needs_opengl

@@ -9,7 +9,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Settlement
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import CASES, DEAD_LOAD, SETTLEMENT
+from mbla.results.pictures.page import CASES, DEAD_LOAD, SETTLEMENT
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.loads import LONGEST, SHARE_OF_BLOCK, all_load_arrows, live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb

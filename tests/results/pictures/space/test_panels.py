@@ -7,7 +7,7 @@ import pytest
 
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
-from mbla.results.pictures.space.panels import CLOSE, focus_of, panels_of
+from mbla.results.pictures.space.camera import CLOSE, focus_of, panels_of
 from tests.results.synthetic import tower_results
 
 VIEW, ASPECT = (-60.0, 25.0), 1.6

@@ -10,13 +10,10 @@ import numpy as np
 import pytest
 
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import Page, open_page
-from mbla.results.pictures.palette import HINGE, SLIDE
+from mbla.results.pictures.page import HINGE, SLIDE, Page, open_page
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.drawing import ColourScale, Drawing
-from mbla.results.pictures.space.panels import Panel
-from mbla.results.pictures.space.shapes import rgb
+from mbla.results.pictures.space.camera import Panel, fitted
+from mbla.results.pictures.space.shapes import ColourScale, Drawing, rgb
 from mbla.results.pictures.space.sheet import ROOM, add_images, fill_sheet
 from tests.results.synthetic import tower_results
 

@@ -10,20 +10,23 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.results.collapse.force_freedom import ForceFreedom
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.palette import FIXED_BLOCK, HINGE, OPEN, SLIDE, WARNING, group_colours
-from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space import forces
-from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.forces import forces_drawing, ramp, resultant_rods
+from mbla.results.pictures.page import FIXED_BLOCK, HINGE, OPEN, SLIDE, WARNING, group_colours
+from mbla.results.pictures.scene import Scene, scene_of, tint_of_part
+from mbla.results.pictures.space import drawings
+from mbla.results.pictures.space.camera import Panel, fitted
+from mbla.results.pictures.space.drawings import (
+    PARTS,
+    forces_drawing,
+    mechanism_drawing,
+    model_drawing,
+    ramp,
+    resultant_rods,
+)
 from mbla.results.pictures.space.joints import joint_marks
-from mbla.results.pictures.space.mechanism import PARTS, mechanism_drawing
-from mbla.results.pictures.space.model import model_drawing
-from mbla.results.pictures.space.panels import Panel
 from mbla.results.pictures.space.picture import draw_in_space, images_of, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Faces, Lines, painted, rgb
 from mbla.results.pictures.space.sheet import round_length
-from mbla.results.pictures.tints import tint_of_part
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.line import BLOCK, case_of, line_of
@@ -163,13 +166,13 @@ def test_only_the_largest_resultants_are_drawn_and_the_rest_is_told(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The tower has two; one is let through."""
-    monkeypatch.setattr(forces, "MOST_RODS", 1)
+    monkeypatch.setattr(drawings, "MOST_RODS", 1)
     at_rest = scene(results, "forces")
     assert at_rest.thrust is not None
     sizes = np.linalg.norm(at_rest.thrust.forces, axis=1)
-    assert forces.drawn_resultants(at_rest.thrust).tolist() == [int(np.argmax(sizes))]
+    assert drawings.drawn_resultants(at_rest.thrust).tolist() == [int(np.argmax(sizes))]
     share = 100 * sizes.min() / sizes.max()
-    assert f"1 force up to {share:.2g} % of it not drawn" in forces.forces_drawing(at_rest).notes[0]
+    assert f"1 force up to {share:.2g} % of it not drawn" in drawings.forces_drawing(at_rest).notes[0]
 
 
 def test_forces_that_are_not_unique_are_said_to_be_one_state(results: Results) -> None:

@@ -1,0 +1,159 @@
+"""How a run and its cases show themselves in a notebook: as a table, a picture, and a view to be turned."""
+
+from __future__ import annotations
+
+import base64
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mbla.errors import MblaError, UsageError
+from mbla.model.model import Model
+from mbla.results.listing.answers import answer_columns, bound_figures, status_words
+from mbla.results.listing.verdict_words import bound_words, reasons
+from mbla.results.results import CaseResult, Results
+from mbla.results.whole_file import write_whole
+from mbla.solution.solution import Status
+
+if TYPE_CHECKING:
+    from mbla.results.notebook.case import Case
+    from mbla.results.notebook.run import Run
+
+
+ALARM = "#B00020"
+SURE = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
+"""statuses that are answers"""
+MOST_ROWS = 30
+"""load cases in a table; the others are counted"""
+
+
+def run_html(run: Run) -> str:
+    """Title, table of all load cases, warnings, and one picture."""
+    title = escape(run.records.model.title or run.records.deck.name)
+    warnings = "".join(f'<p style="color: {ALARM}">{escape(str(each))}</p>' for each in run.warnings)
+    pictured = run.pictured
+    picture = "" if pictured is None else _picture(pictured)
+    return f"<div><strong>{title}</strong>{_table(run.records.model, run.cases)}{warnings}{picture}</div>"
+
+
+def case_html(case: Case) -> str:
+    """The same of one load case."""
+    title = escape(case.results.model.title or case.results.deck.name)
+    return f"<div><strong>{title}</strong>{_table(case.results.model, [case])}{_picture(case)}</div>"
+
+
+def _table(model: Model, cases: Sequence[Case]) -> str:
+    shown = cases[:MOST_ROWS]
+    heads, figures = answer_columns(model, [case.record for case in shown])
+    rows = [_row(["load case", "status", *heads, "static bound", "kinematic bound"], "th")]
+    for case, own in zip(shown, figures, strict=True):
+        cells = [case.name, status_words(case.status), *own, *bound_figures(case.record)]
+        rows.append(_row(cells, "td", alarm=case.status not in SURE))
+    if len(cases) > MOST_ROWS:
+        rows.append(_row([f"and {len(cases) - MOST_ROWS} more"], "td"))
+    return f"<table>{''.join(rows)}</table>"
+
+
+def _row(cells: Sequence[str], tag: str, *, alarm: bool = False) -> str:
+    style = f' style="color: {ALARM}"' if alarm else ""
+    return f"<tr{style}>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"
+
+
+def _picture(case: Case) -> str:
+    """What is said of a case, then its picture; where that cannot be drawn, why."""
+    told = [case.summary, *reasons(case.record), bound_words(case.model, case.record)]
+    words = "".join(f"<p>{escape(text)}</p>" for text in told if text)
+    try:
+        image = f'<img alt="{escape(case.summary)}" style="max-width: 100%" src="{case.picture().data_uri}">'
+    except MblaError as error:
+        image = f"<p><em>no picture: {escape(str(error))}</em></p>"
+    return words + image
+
+
+# --- A picture as bytes that a notebook shows -----------------------------------------------------------------------
+
+
+MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture; ``content`` is what its file would hold."""
+
+    format: str
+    content: bytes = field(repr=False)
+
+    def save(self, path: str | Path) -> Path:
+        """Write it; the suffix must be that of its format. FileError if that fails, UsageError for another suffix."""
+        path = Path(path)
+        if path.suffix.lower() != f".{self.format}":
+            raise UsageError("output-format", f"{path}: the picture is {self.format}; ask picture() for another format")
+        write_whole(path, self.content)
+        return path
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str | bytes]:
+        if self.format == "svg":
+            return {MIME["svg"]: self.content.decode("utf-8")}
+        return {MIME[self.format]: self.content}
+
+    @property
+    def data_uri(self) -> str:
+        """For the source of an image in a page."""
+        return f"data:{MIME[self.format]};base64,{base64.b64encode(self.content).decode('ascii')}"
+
+
+def case_picture(results: Results, case: CaseResult, kind: str, path: Path | None, format: str | None) -> Picture:
+    """Draw a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
+    from mbla.results.pictures.options import format_of
+    from mbla.results.pictures.plot import plot_case
+
+    if path is None:
+        ending = format_of(Path(f"picture.{format or 'png'}"))
+    else:
+        ending = format_of(path)
+        if format not in (None, ending):
+            raise UsageError(
+                "output-format", f"{path}: its suffix says {ending}, the format {format}: give one of them"
+            )
+    with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
+        drawn = Path(folder) / f"picture.{ending}"
+        plot_case(results, case, drawn, kind)
+        picture = Picture(ending, drawn.read_bytes())
+    if path is not None:
+        write_whole(path, picture.content)
+    return picture
+
+
+# --- The view that can be turned, as a page of its own: in a frame in a notebook, or in a file ----------------------
+
+
+HEIGHT = 780
+"""pixels of the frame in a notebook"""
+
+
+@dataclass(frozen=True)
+class View:
+    """A whole page with one view; it asks for nothing from a network."""
+
+    name: str
+    page: str = field(repr=False)
+
+    @classmethod
+    def of_case(cls, results: Results, case: CaseResult) -> View:
+        """Of a load case; UsageError if the extra for reports is not installed."""
+        from mbla.results.view3d.view import page_html
+
+        return cls(case.load_case.name, page_html(results, case))
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page, to be opened in a browser; FileError if that fails."""
+        path = Path(path)
+        write_whole(path, self.page.encode("utf-8"))
+        return path
+
+    def _repr_html_(self) -> str:
+        frame = f'width="100%" height="{HEIGHT}" style="border: 0"'
+        return f'<iframe title="{escape(self.name)}" {frame} srcdoc="{escape(self.page)}"></iframe>'
