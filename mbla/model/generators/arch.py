@@ -12,19 +12,24 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.arch import ArchItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
-from mbla.model.generators.arches.piers import (
+from mbla.model.generators.arch_sections import (
     LEVEL,
+    Section,
     SpringingJoint,
+    Thickness,
+    build_section,
     courses,
     end_springer,
+    springer_polygons,
+    springing_grounds,
     springing_joints,
     unfit_rise,
+    voussoir_polygons,
 )
-from mbla.model.generators.arches.prisms import in_space, prisms
-from mbla.model.generators.arches.section import Section, Thickness, build_section, voussoir_polygons
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.spline import through
-from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.solids.chains import prisms
 from mbla.model.solids.polyhedra import Polyhedra
 
 
@@ -49,10 +54,10 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     shear = float(np.tan(np.radians(item.skew)))
     voussoirs = _voussoirs(item, section, shear)
     if item.springers == "blocks":
-        behind = prisms(_behind(section, springing), _full_width(item, 2), shear)
+        behind = prisms(springer_polygons(section, springing), _full_width(item, 2), shear)
         return Generated((voussoirs, Part(behind, "_springers", fixed=True)))
     if item.springers == "ground":
-        return Generated((voussoirs,), _grounds(item, section, voussoirs, shear))
+        return Generated((voussoirs,), springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear))
     if item.piers is not None:
         return Generated((voussoirs, *_piers(item, section, shear)))
     return Generated((voussoirs,))
@@ -96,34 +101,6 @@ def _full_width(item: ArchItem, count: int) -> FloatArray:
 
 
 # --- springings ---------------------------------------------------------------------------------------------------
-
-
-def _behind(section: Section, length: float) -> list[FloatArray]:
-    """Quadrilaterals straight back from both springing joints, counter-clockwise; length [length]."""
-    quadrilaterals = []
-    for joint, forwards, towards in ((0, section.forwards[0], -1.0), (-1, section.forwards[-1], 1.0)):
-        intrados, extrados = section.joints[joint, 0], section.joints[joint, -1]
-        back = towards * length * forwards
-        corners = np.stack([intrados, extrados, extrados + back, intrados + back])
-        first, second = corners[1] - corners[0], corners[2] - corners[1]
-        quadrilaterals.append(corners if first[0] * second[1] - first[1] * second[0] > 0 else corners[::-1])
-    return quadrilaterals
-
-
-def _grounds(item: ArchItem, section: Section, voussoirs: Part, shear: float) -> tuple[GroundPart, ...]:
-    """One plane under all blocks of a springing, left then right."""
-    number = voussoirs.labels["voussoir"]
-    grounds = []
-    for joint, last, towards in ((0, 0, 1.0), (-1, section.n_voussoirs - 1, -1.0)):
-        point, normal = in_space(section.joints[joint, 0]), _plane(towards * section.forwards[joint], shear)
-        grounds.append(GroundPart(point, normal, np.flatnonzero(number == last), item.joint))
-    return tuple(grounds)
-
-
-def _plane(forwards: FloatArray, shear: float) -> FloatArray:
-    """Unit normal of the plane through a joint: at right angles to it, and to the sheared width (shear, 1, 0)."""
-    normal = np.array([forwards[0], -shear * forwards[0], forwards[1]])
-    return np.asarray(normal / np.linalg.norm(normal) if shear else normal, dtype=np.float64)
 
 
 def _piers(item: ArchItem, section: Section, shear: float) -> list[Part]:

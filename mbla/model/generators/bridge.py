@@ -18,20 +18,30 @@ from mbla.deck.items.bridge import BridgeItem
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
-from mbla.model.generators.arches.piers import (
+from mbla.model.generators.arch_sections import (
     LEVEL,
+    Section,
     SpringingJoint,
+    Thickness,
+    build_section,
     courses,
     end_springer,
     springing_joints,
     unfit_rise,
+    voussoir_polygons,
 )
-from mbla.model.generators.arches.prisms import prisms
-from mbla.model.generators.arches.section import Section, Thickness, build_section, voussoir_polygons
-from mbla.model.generators.bridges.courses import Course, Masonry, bed_levels, bond_of_course, course_pieces
-from mbla.model.generators.bridges.outline import Outline, build_outline
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.generators.spandrels import (
+    Course,
+    Masonry,
+    Outline,
+    bed_levels,
+    bond_of_course,
+    build_outline,
+    course_pieces,
+)
+from mbla.model.solids.chains import prisms
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,11 @@
-"""Generator of columns of drums.
+"""Generator of columns of drums: circles as regular polygons.
+
+A regular polygon of n sides with corners at distance c from its middle has the area n/2 sin(2 pi/n) c^2 and flats at
+distance c cos(pi/n). It stands for a circle of radius r
+
+    inscribed     with its corners on the circle:   c = r
+    circumscribed with its flats on the circle:     c = r/cos(pi/n)
+    equal_area    with the area of the circle:      c = r sqrt(2 pi/(n sin(2 pi/n)))
 
 With s the height over the foot of the shaft relative to its whole height, r0 and r1 the radii at both ends and e the
 entasis, the radius at a joint is r0 + (r1 - r0) s + 4 e s (1 - s). Between its joints a drum is a frustum of a regular
@@ -7,14 +14,36 @@ polygon, of volume A h (1 + q + q^2)/3 with A the area of its lower polygon and 
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.column import ColumnEnd, ColumnItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
-from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.generators.round_sections import corner_radius, regular_polygon
+from mbla.model.solids.chains import chains
+
+PolygonKind = Literal["inscribed", "circumscribed", "equal_area"]
+
+
+def corner_radius(sides: int, kind: PolygonKind) -> float:
+    """Distance of the corners from the middle, relative to the radius of the circle."""
+    if kind == "inscribed":
+        return 1.0
+    if kind == "circumscribed":
+        return float(1.0 / np.cos(np.pi / sides))
+    return float(np.sqrt(2.0 * np.pi / (sides * np.sin(2.0 * np.pi / sides))))
+
+
+def regular_polygon(sides: int) -> FloatArray:
+    """Corners (sides, 2) at distance 1, counter-clockwise, the middle of the first and last on the x axis.
+
+    A flat faces +x, so that a push along x rocks a drum about an edge.
+    """
+    angles = np.pi / sides * (1.0 + 2.0 * np.arange(sides))
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
 
 _SQUARE = regular_polygon(4) * np.sqrt(0.5)
 """of side 1"""

@@ -2,10 +2,20 @@
 
 With R1 and R2 the radii of intrados and extrados, and angles t from the crown, the profile of a ring from t1 up to t2
 is the quadrilateral of the four points R (sin t, cos t); A rho of it is (R2^3 - R1^3) sin(t1 - t2) (sin t1 + sin t2)/6.
-How rings are made with plane faces, and their volume from A rho, is told in ``mbla.model.generators.rings``. With more
-and more segments and rings the volume goes to that of the spherical shell, 2 pi/3 (R2^3 - R1^3) (cos t2 - cos t1).
+With more and more segments and rings the volume goes to that of the spherical shell, 2 pi/3 (R2^3 - R1^3) (cos t2 - cos
+t1).
 
 The keystone is the frustum of a pyramid, between the polygons at the last joint in intrados and extrados.
+
+Rings have planar faces. A circle is a regular polygon of n sides with its corners on the circle, the same for all
+rings, and each block spans a whole number of them, its facets: half a block more or less are still whole facets, so
+that the rings of a running bond meet facet on facet. Between two neighbouring meridians every joint is a plane, a
+trapezoid with two parallel sides; a bed joint that rises towards the outside is a funnel of such trapezoids, into which
+the blocks above fit and round which those below are cut. Blocks of several facets are not convex, but all their faces
+are plane and no gap is left anywhere.
+
+Sections at every height are regular polygons, of area n/2 sin(2 pi/n) rho^2 instead of pi rho^2: with A the area of the
+profile and rho its centroid's distance from the axis, a ring has the volume n sin(2 pi/n) A rho.
 """
 
 from __future__ import annotations
@@ -20,10 +30,9 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
-from mbla.model.generators.chains import chains
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
-from mbla.model.generators.rings import meridians, ring_blocks
+from mbla.model.solids.chains import chains
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 FLUSH = 1e-9
@@ -159,3 +168,26 @@ def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
     """Profile of the fixed blocks: from the springing joint back by the thickness."""
     back = dome.thickness * np.array([np.cos(dome.circle.half_angle), -np.sin(dome.circle.half_angle)])
     return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])
+
+
+def meridians(count: int) -> FloatArray:
+    """Directions (count, 2) of the corners of a regular polygon, the first along x."""
+    angles = 2 * np.pi / count * np.arange(count)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+
+def ring_blocks(profile: FloatArray, segments: int, facets: int, turned: bool) -> Polyhedra:
+    """The blocks of one ring, counter-clockwise as seen from above.
+
+    profile  : (n_corners, 2) distance from the axis and height, clockwise with the axis to the left
+    segments : number of blocks
+    facets   : sides of the polygon that a block spans
+    turned   : the ring begins half a block on; facets is even then
+    """
+    first = facets * np.arange(segments) + (facets // 2 if turned else 0)
+    corner = (first[:, None] + np.arange(facets + 1)) % (segments * facets)
+    around = meridians(segments * facets)[corner]
+    stations = np.empty((*corner.shape, len(profile), 3))
+    stations[..., :2] = around[:, :, None, :] * profile[:, :1]
+    stations[..., 2] = profile[:, 1]
+    return chains(stations)

@@ -18,9 +18,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.vaults import VaultItem
-from mbla.model.generators.chains import chains
+from mbla.model.generators.arch_sections import vault_section
 from mbla.model.generators.generator import Part
-from mbla.model.generators.vault_sections import vault_section
+from mbla.model.solids.chains import chains
 from mbla.model.solids.polyhedra import Polyhedra
 
 CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))

@@ -16,8 +16,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.model.generators.amounts import Amount, refuse_too_many
-from mbla.model.generators.chains import chains
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
+from mbla.model.solids.chains import chains
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 

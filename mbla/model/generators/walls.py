@@ -1,20 +1,67 @@
-"""Generator of walls along the lines of a plan, bonded where they meet."""
+"""Generators of a straight wall (x along it, y through it, z up) and of walls along a plan, bonded where they meet."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from mbla.deck.items.wall import WallItem
 from mbla.deck.items.walls import WallsItem
-from mbla.errors import Finding
+from mbla.deck.tree import KeyPath
+from mbla.errors import Finding, Message
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.masonry.bonds import random_levels
 from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
-from mbla.model.generators.masonry.irregular import random_levels
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage
 from mbla.model.generators.masonry.openings import PlacedOpening, check_opening, check_spans, place_opening
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
 from mbla.model.generators.masonry.walls import Wall, amount_of_units, fixed_levels, parts_of, with_gable
+
+
+def amount_wall(item: WallItem) -> Amount:
+    """About how many units such an item has."""
+    gables = [] if item.gable is None else [item.gable]
+    return amount_of_units(item, item.length, ("length",), gables, item.buttresses)
+
+
+def generate_wall(item: WallItem, site: Site) -> Generated:
+    """Units course by course from the bottom, along +x in each, leaf by leaf; then lintels, arches, buttresses.
+
+    Raises
+    ------
+    ItemRefused
+        for openings off the bed joints, lintels and arches without support, buttresses across openings, too many
+        units, or where nothing is left of the wall
+    """
+    refuse_too_many(amount_wall(item), item)
+    findings: list[tuple[KeyPath, Message]] = []
+    openings = []
+    for number, opening in enumerate(item.openings):
+        found = list(check_opening(item, opening, site.tolerance))
+        findings += [(("openings", number, *path), message) for path, message in found]
+        if not found:
+            openings.append(place_opening(item, number, opening))
+    buttresses = [place_buttress(item, number, buttress) for number, buttress in enumerate(item.buttresses)]
+    findings += check_spans(openings, item.length, item)
+    findings += check_buttresses(buttresses, openings, item)
+    if findings:
+        raise ItemRefused(findings)
+    passages = tuple(placed.passage for placed in buttresses if placed.buttress.bonded)
+    leg = Leg(
+        item=item,
+        origin=np.zeros(2),
+        along=np.array([1.0, 0.0]),
+        length=item.length,
+        levels=random_levels(item, fixed_levels(openings, buttresses)),
+        level_courses=item.courses,
+        voids=tuple(void for opening in openings for void in opening.voids),
+        passages=passages,
+        fitted=bool(passages),
+    )
+    return Generated(tuple(parts_of([Wall(with_gable(leg, item.gable), openings, buttresses)], numbered=False)))
 
 
 @dataclass(frozen=True)

@@ -18,9 +18,8 @@ from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.line_networks import enclosed_fields
-from mbla.model.geometry.outlines import prism
+from mbla.model.solids.chains import prisms
 from mbla.model.solids.defects import LARGEST_COORDINATE
-from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
 
 CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
@@ -76,9 +75,18 @@ def read_dxf(path: Path) -> Geometry:
         remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))
         raise GeometryFileError("geometry-without-blocks", f"has no closed outline{f': {remarks}' if remarks else ''}")
     names = tuple(layer for layer, _ in drawing.outlines)
-    polyhedra = join_polyhedra([prism(outline) for _, outline in drawing.outlines])
+    outlines = [_counter_clockwise(outline) for _, outline in drawing.outlines]
+    polyhedra = prisms(outlines, np.tile([0.0, 1.0], (len(outlines), 1)))
     unit = UNITS.get(document.header.get("$INSUNITS", 0))
     return Geometry(polyhedra, (*_left_out(drawing), *notices), names, unit=unit, planar=True)
+
+
+def _counter_clockwise(outline: FloatArray) -> FloatArray:
+    """The outline, (n, 2), in this sense; a field that no line crosses twice has one."""
+    arms = outline - outline.mean(axis=0)
+    ahead = np.roll(arms, -1, axis=0)
+    area = (arms[:, 0] * ahead[:, 1] - arms[:, 1] * ahead[:, 0]).sum()
+    return outline if area > 0 else outline[::-1]
 
 
 def _collect(document: Any, drawing: _Drawing) -> None:

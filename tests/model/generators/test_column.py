@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.column import ColumnItem
-from mbla.model.generators.column import generate_column
+from mbla.model.generators.column import corner_radius, generate_column, regular_polygon
 from mbla.model.generators.generator import Generated, Site
-from mbla.model.generators.round_sections import corner_radius, regular_polygon
 from tests.model.generators.assembly import assemble
 from tests.model.shapes import build_raw
 

@@ -8,8 +8,8 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.stack import StackItem
+from mbla.model.generators.cuboids import generate_stack
 from mbla.model.generators.generator import Site
-from mbla.model.generators.stack import generate_stack
 from tests.model.generators.assembly import assemble
 
 SITE = Site(1e-3, lambda path, name: Path(name))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.trilithon import TrilithonItem
+from mbla.model.generators.cuboids import generate_trilithon
 from mbla.model.generators.generator import Site
-from mbla.model.generators.trilithon import generate_trilithon
 from tests.model.generators.assembly import assemble
 
 ITEM = "trilithon: {material: stone, upright: [0.6, 0.5, 3], opening: 1.2, lintel: [2.6, 0.7, 0.4]}"

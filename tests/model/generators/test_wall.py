@@ -8,7 +8,7 @@ import pytest
 
 from mbla.deck.items.wall import WallItem
 from mbla.model.generators.generator import ItemRefused, Site
-from mbla.model.generators.wall import generate_wall
+from mbla.model.generators.walls import generate_wall
 from mbla.model.solids.polyhedra import Polyhedra
 
 SITE = Site(1e-3, lambda path, name: Path(name))

@@ -1,14 +1,42 @@
-"""Plane curves of arches and vaults. A new one is a file, a line here and a line in ``named.py``."""
+"""Plane curves of arches and vaults. A new one is a file and a line here."""
 
 from __future__ import annotations
 
-from mbla.model.generators.curves.basket import Basket as Basket
-from mbla.model.generators.curves.catenary import Catenary as Catenary
-from mbla.model.generators.curves.circle import Circle as Circle
-from mbla.model.generators.curves.circle import segmental as segmental
+from collections.abc import Callable
+
+import numpy as np
+
+from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
+from mbla.model.generators.curves.arcs import Basket as Basket
+from mbla.model.generators.curves.arcs import Circle as Circle
+from mbla.model.generators.curves.arcs import Pointed as Pointed
+from mbla.model.generators.curves.arcs import segmental as segmental
 from mbla.model.generators.curves.curve import Curve as Curve
+from mbla.model.generators.curves.ellipse import Catenary as Catenary
 from mbla.model.generators.curves.ellipse import Ellipse as Ellipse
-from mbla.model.generators.curves.named import SIDE_ANGLE as SIDE_ANGLE
-from mbla.model.generators.curves.named import named_curve as named_curve
-from mbla.model.generators.curves.pointed import Pointed as Pointed
 from mbla.model.generators.curves.spline import Spline as Spline
+
+WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
+    "segmental": segmental,
+    "pointed": Pointed,
+    "elliptic": Ellipse,
+    "catenary": Catenary,
+}
+"""curves that span and rise determine"""
+
+
+def named_curve(
+    shape: str, span: float, rise: float | None = None, embrace: float | None = None, side_angle: float | None = None
+) -> Curve:
+    """Curve by its shape; span and rise [length], embrace and side_angle [degrees].
+
+    The deck's rules see to it that what a shape needs is given, and that the rise is one it can have.
+    """
+    if shape == "semicircular":
+        return Circle(span, np.pi / 2)
+    if embrace is not None:
+        return Circle(span, float(np.radians(embrace) / 2))
+    assert rise is not None  # a rule of the deck
+    if shape == "basket":
+        return Basket(span, rise, float(np.radians(SIDE_ANGLE if side_angle is None else side_angle)))
+    return WITH_RISE[shape](span, rise)

@@ -1,18 +1,66 @@
-"""The units of the courses of one wall."""
+"""The units of the courses of one wall, and blocks made of them: cuboids, and prisms where a slope cuts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
-from mbla.model.generators.masonry.irregular import random_joints, stream
-from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage
-from mbla.model.generators.masonry.outline import outline_between
-from mbla.model.generators.masonry.pattern import ROUNDING, Pattern, bonded, headers_by_number, least_overlap, pattern
-from mbla.model.generators.masonry.stretches import Stretch, solid_stretches
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.model.generators.generator import Part
+from mbla.model.generators.masonry.bonds import (
+    ROUNDING,
+    Pattern,
+    bonded,
+    headers_by_number,
+    least_overlap,
+    pattern,
+    random_joints,
+    stream,
+)
+from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Stretch, solid_stretches
+from mbla.model.solids.blocks import NONE
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+
+SAME_PLACE = 1e-9
+"""corners of an outline this close, relative to its extent, are one corner"""
+
+
+def outline_between(stretch: Stretch, left: float, right: float, low: float, high: float) -> FloatArray:
+    """Corners (n, 2) of a unit along the wall and up, counter-clockwise with the wall to the right.
+
+    left, right : joints of the unit; low, high: bed and top of its course
+    """
+    corners = np.array([[left, low], [right, low], [right, high], [left, high]])
+    corners = _left_of(corners, np.array([stretch.left_top, high]), np.array([stretch.left, low]))
+    corners = _left_of(corners, np.array([stretch.right, low]), np.array([stretch.right_top, high]))
+    apart = np.abs(corners - np.roll(corners, 1, axis=0)).max(axis=1) > SAME_PLACE * np.ptp(corners, axis=0).max()
+    found: FloatArray = corners[apart]
+    return found
+
+
+def _left_of(corners: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """The part of a convex outline to the left of the line from start to end."""
+    direction = end - start
+    side = direction[0] * (corners[:, 1] - start[1]) - direction[1] * (corners[:, 0] - start[0])
+    side[np.abs(side) <= SAME_PLACE * np.ptp(corners, axis=0).max() * np.abs(direction).max()] = 0.0
+    if (side >= 0).all() or not np.isfinite(side).all():  # blocks as large as that are refused by their coordinates
+        return corners
+    kept: list[FloatArray] = []
+    for a, b, at_a, at_b in zip(corners, np.roll(corners, -1, axis=0), side, np.roll(side, -1), strict=True):
+        if at_a >= 0:
+            kept.append(a)
+        if at_a * at_b < 0:
+            kept.append(a + at_a / (at_a - at_b) * (b - a))
+    return np.array(kept)
+
+
+def area(corners: FloatArray) -> float:
+    """Area inside an outline."""
+    about = corners - corners[0]
+    after = np.roll(about, -1, axis=0)
+    return float((about[:, 0] * after[:, 1] - about[:, 1] * after[:, 0]).sum() / 2)
 
 
 @dataclass(frozen=True)
@@ -138,3 +186,69 @@ def _clear_of(distance: FloatArray, slope: float, least: float, unit: float) -> 
     steep = distance > slope + 0.25 * unit
     under: BoolArray = (distance >= 0.5 * unit) & (distance < slope - 0.125 * unit)
     return steep | under
+
+
+def units_of(leg: Leg) -> Part:
+    """All units of a wall: course by course from the bottom, along it, leaf by leaf."""
+    boxes, rows, through, outlines, start = [], [], [], {}, 0
+    for course, units in enumerate(lay_courses(leg)):
+        count = len(units.ends)
+        heights = np.tile(leg.levels[course : course + 2], (count, 1))
+        boxes.append(np.hstack([units.ends, heights]))
+        rows.append(np.stack([np.full(count, course), np.arange(count)], axis=1))
+        through.append(units.through)
+        outlines.update({start + number: outline for number, outline in units.outlines.items()})
+        start += count
+    return _in_leaves(leg, np.concatenate(boxes), np.concatenate(rows), np.concatenate(through), outlines)
+
+
+def _in_leaves(
+    leg: Leg, boxes: FloatArray, rows: IntArray, through: BoolArray, outlines: dict[int, FloatArray]
+) -> Part:
+    """Units split into leaves where they do not go through; boxes (n, 4) are ends along the wall and heights."""
+    leaves, thickness = leg.item.leaves, leg.item.unit[1]
+    counts = np.where(through, 1, leaves)
+    unit = np.repeat(np.arange(len(boxes)), counts)
+    leaf = np.arange(len(unit)) - np.repeat(np.cumsum(counts) - counts, counts)
+    header = through[unit] & (leaves > 1)
+    across = np.stack([leaf, np.where(header, leaves, leaf + 1)], axis=1) * thickness
+    cut = [(int(block), outlines[int(unit[block])]) for block in np.flatnonzero(np.isin(unit, list(outlines)))]
+    labels = {"course": rows[unit, 0], "unit": rows[unit, 1], "leaf": np.where(header, NONE, leaf)}
+    member = np.where(header & (not leg.member), "header", leg.member)
+    member = np.where(rows[unit, 0] >= leg.level_courses, leg.top_member, member)
+    return Part(blocks_in(leg, boxes[unit], across, cut), member=member.tolist(), labels=labels)
+
+
+def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tuple[int, FloatArray]] = ()) -> Polyhedra:
+    """Blocks at places of a wall, in the plan's coordinates.
+
+    boxes  : (n, 4) start and end along the wall, bottom and top
+    across : (n, 2) from the right face
+    cut    : numbers of blocks with the outline, (k, 2) along the wall and up, that they have instead of a rectangle
+    """
+    corners = np.stack([leg.in_plan(boxes[:, end], across[:, end]) for end in (0, 1)])
+    least = np.column_stack([corners.min(axis=0), boxes[:, 2]])
+    greatest = np.column_stack([corners.max(axis=0), boxes[:, 3]])
+    if not cut:
+        return cuboids(least, greatest)
+    numbers = np.array([number for number, _ in cut])
+    whole = np.setdiff1d(np.arange(len(boxes)), numbers)
+    made = join_polyhedra(
+        [cuboids(least[whole], greatest[whole]), prisms(leg, [outline for _, outline in cut], across[numbers])]
+    )
+    return take_polyhedra(made, np.argsort(np.concatenate([whole, numbers]), kind="stable"))
+
+
+def prisms(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:
+    """Prisms through a wall, faces outwards; outlines counter-clockwise along the wall and up."""
+    vertices, faces = [], []
+    for outline, (near, far) in zip(outlines, across, strict=True):
+        n = len(outline)
+        sides = [leg.in_plan(outline[:, 0], np.full(n, place)) for place in (near, far)]
+        vertices.append(np.column_stack([np.concatenate(sides), np.tile(outline[:, 1], 2)]))
+        ring = list(range(n))
+        after = [*ring[1:], 0]
+        # from the right face an outline is counter-clockwise
+        around = [[j, i, i + n, j + n] for i, j in zip(ring, after, strict=True)]
+        faces.append([ring, [i + n for i in reversed(ring)], *around])
+    return polyhedra_from_lists(vertices, faces)

@@ -12,9 +12,8 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Masonry, Opening, OpeningArch
 from mbla.errors import Finding
 from mbla.model.generators.generator import Part
-from mbla.model.generators.masonry.leg import NO_UNIT, Leg
-from mbla.model.generators.masonry.solids import blocks_in
-from mbla.model.generators.masonry.stretches import Void
+from mbla.model.generators.masonry.courses import blocks_in
+from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Void
 
 USUAL_EMBRACE = 60.0
 """degrees between the end joints of a flat arch unless given"""

@@ -13,11 +13,10 @@ from mbla.deck.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import ItemRefused, Part
-from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg
+from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg, levels_with_top
+from mbla.model.generators.masonry.courses import units_of
 from mbla.model.generators.masonry.leg import Leg, Slopes
 from mbla.model.generators.masonry.openings import PlacedOpening, spans_of
-from mbla.model.generators.masonry.solids import units_of
-from mbla.model.generators.masonry.tops import levels_with_top
 
 
 @dataclass(frozen=True)

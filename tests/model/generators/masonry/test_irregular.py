@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.wall import WallItem
-from mbla.model.generators.masonry.irregular import random_joints, random_levels, stream
+from mbla.model.generators.masonry.bonds import random_joints, random_levels, stream
 from tests.model.generators.masonry.built import build, is_sound, least_distance, perpends
 
 IRREGULAR = {"seed": 7, "variation": 0.3, "heights": 0.2}

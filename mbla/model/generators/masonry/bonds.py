@@ -1,19 +1,24 @@
-"""Bond patterns: where the joints of an endless course lie, and which of its units go through the wall.
+"""Bonds, regular and random: where the joints of an endless course lie, and which of its units go through the wall.
 
 With w the thickness of a unit and n leaves, units of english, flemish and header bond are l = n w long: a header, laid
 across, is w wide and goes through the wall. Joints of successive courses keep w/2 apart in these bonds, l/2 in
 running bond. A wall that ends square begins its header courses with a header and a closer of w/2 (l/2 - w/2 in
 flemish bond); at a corner, where the other wall passes, the stretchers begin with a three-quarter unit instead.
+
+Random lengths of units and heights of courses are the same on every machine: the numbers are those of numpy's PCG64
+generator, whose stream numpy keeps fixed: uniform doubles made of integers, no transcendental function.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.deck.items.masonry import Masonry
+from mbla.deck.items.masonry import Irregular, Masonry
 
 ROUNDING = 1e-6
 """relative: places along a wall that differ by no more are one place"""
@@ -137,3 +142,63 @@ def _closed(found: Pattern, item: Masonry, length: float, others: FloatArray) ->
     joints, through = found.joints.copy(), found.through.copy()
     joints[last], through[last + 1] = moved, True
     return Pattern(joints, through)
+
+
+HEIGHTS = 0
+"""stream of the heights of courses; the walls of an item have streams 1, 2, ..."""
+
+
+def stream(irregular: Irregular, number: int) -> np.random.Generator:
+    """Random numbers of one wall of an item."""
+    return np.random.Generator(np.random.PCG64([irregular.seed, number]))
+
+
+def random_levels(item: Masonry, fixed: Sequence[int]) -> FloatArray:
+    """Heights of bed joints, (courses + 1,) [length]; those numbered ``fixed`` stay where equal courses have them."""
+    levels = item.unit[2] * np.arange(item.courses + 1, dtype=np.float64)
+    if item.irregular is None or item.irregular.heights == 0:
+        return levels
+    uniform = stream(item.irregular, HEIGHTS).random(item.courses)
+    heights = 1 + item.irregular.heights * (2 * uniform - 1)
+    kept = sorted({0, item.courses, *fixed})
+    for low, high in pairwise(kept):
+        share = np.cumsum(heights[low : high - 1]) / heights[low:high].sum()
+        levels[low + 1 : high] = levels[low] + share * (levels[high] - levels[low])
+    return levels
+
+
+def random_joints(
+    item: Masonry, left: float, right: float, avoid: FloatArray, numbers: np.random.Generator
+) -> FloatArray:
+    """Joints between two ends, each a random length after the one before, and off the joints of other courses.
+
+    avoid : places that joints keep the overlap from, ascending
+
+    A joint too close to one of them goes to the nearest place where it is not. None is nearer than the overlap to the
+    ends; where no place is left the last unit is longer.
+    """
+    assert item.irregular is not None
+    unit, variation = item.unit[0], item.irregular.variation
+    overlap = item.irregular.overlap * unit
+    least = max(0.5 * (1 - variation) * unit, overlap)
+    joints: list[float] = []
+    at = left
+    while True:
+        wanted = at + unit * (1 + variation * (2 * float(numbers.random()) - 1))
+        found = _nearest_free(wanted, at + least, right - overlap, avoid, overlap)
+        if found is None or wanted > right - overlap:
+            return np.array(joints)
+        joints.append(found)
+        at = found
+
+
+def _nearest_free(wanted: float, low: float, high: float, avoid: FloatArray, overlap: float) -> float | None:
+    """The place between low and high nearest to one that is wanted and at least the overlap from those to avoid."""
+    candidates = np.concatenate([[wanted, low], avoid - overlap, avoid + overlap])
+    candidates = candidates[(candidates >= low) & (candidates <= high)]
+    if len(avoid):
+        off = np.abs(candidates[:, None] - avoid).min(axis=1, initial=np.inf)
+        candidates = candidates[off >= overlap * (1 - 1e-9)]
+    if not len(candidates):
+        return None
+    return float(candidates[np.argmin(np.abs(candidates - wanted))])

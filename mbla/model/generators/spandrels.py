@@ -1,9 +1,10 @@
-"""Coursed masonry over an outline: level courses, cut by the outline from below and by upright joints.
+"""Spandrels: coursed masonry over the upper outline of arches and springers, a chain of chords from left to right.
 
-A course between two beds exists where the outline lies below its upper bed. Joints follow a running bond about the
-middle of the bridge. Three rules keep slivers away, in units of the masonry's own size: beds keep clear of crowns; a
-joint that would leave a short piece at the tip of a course is left out, the piece then being part of its neighbour; and
-where a whole stretch of a course would be a sliver, above a narrow pier for example, the course on top reaches down.
+Level courses are cut by the outline from below and by upright joints. A course between two beds exists where the
+outline lies below its upper bed. Joints follow a running bond about the middle of the bridge. Three rules keep slivers
+away, in units of the masonry's own size: beds keep clear of crowns; a joint that would leave a short piece at the tip
+of a course is left out, the piece then being part of its neighbour; and where a whole stretch of a course would be a
+sliver, above a narrow pier for example, the course on top reaches down.
 """
 
 from __future__ import annotations
@@ -14,7 +15,41 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.model.generators.bridges.outline import Outline
+
+SAME_POINT = 1e-12
+"""distance of two points, relative to the length of the bridge, that is rounding"""
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Heights over x: a chain of points (n, 2) with x that grows from point to point."""
+
+    points: FloatArray
+
+    def heights(self, x: FloatArray) -> FloatArray:
+        """At places (n,)."""
+        return np.asarray(np.interp(x, self.points[:, 0], self.points[:, 1]), dtype=np.float64)
+
+    def crossings(self, level: float, same: float) -> FloatArray:
+        """Where the chain passes a level, ascending; corners within ``same`` [length] of it count as on it."""
+        x, above = self.points[:, 0], self.points[:, 1] - level
+        above = np.where(np.abs(above) <= same, 0.0, above)
+        one, other = above[:-1], above[1:]
+        through = np.flatnonzero(one * other < 0)
+        share = one[through] / (one[through] - other[through])
+        between = x[through] + share * (x[through + 1] - x[through])
+        # a corner on the level counts where the chain leaves it upwards or downwards there
+        touching = np.flatnonzero((above == 0) & ((np.append(other, 0.0) != 0) | (np.append(0.0, one) != 0)))
+        return np.sort(np.concatenate([between, x[touching]]))
+
+
+def build_outline(chains: list[FloatArray]) -> Outline:
+    """From the extrados of each arch and the ends of the bridge, in order; points listed twice count once."""
+    points = np.concatenate(chains)
+    extent = float(np.ptp(points[:, 0]))
+    distinct = np.append(True, np.diff(points[:, 0]) > SAME_POINT * extent)
+    return Outline(points[distinct])
+
 
 CLEAR = 0.25
 """least distance of a bed from a crown, in heights of a unit"""
