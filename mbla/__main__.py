@@ -11,9 +11,8 @@ def command() -> int:
         hear_termination()
         with held_signals():  # it gives them back when all is loaded
             from mbla import cli
-            from mbla.cli.arguments import wants_json
     except (KeyboardInterrupt, Terminated) as error:
-        return cli.failed(error, {}, as_json=wants_json(sys.argv[1:]))
+        return cli.failed(error, {}, as_json=cli.wants_json(sys.argv[1:]))
     return cli.main()
 
 

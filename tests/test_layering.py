@@ -106,7 +106,7 @@ def test_help_imports_nothing_heavy() -> None:
     code = (
         "import sys\n"
         "import mbla.cli\n"
-        "from mbla.cli.arguments import build_parser\n"
+        "from mbla.cli import build_parser\n"
         "build_parser().format_help()\n"
         "print(*sorted({name.split('.')[0] for name in sys.modules}))"
     )

@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.cli import main
-from mbla.cli.arguments import build_parser
+from mbla.cli import build_parser, main
 from tests.line import BLOCK
 
 ROOT = Path(__file__).parents[1]

@@ -9,9 +9,11 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from mbla.cli.given_deck import refuse_unfit_name
+from mbla.cli.decks import refuse_unfit_name
+from mbla.cli.options import add_deck_options, shard, workers
 from mbla.cli.terminal import clear_line, rewrite_line, say
 from mbla.process.collector import loading
 
@@ -24,6 +26,57 @@ NAMED_FAILURES = 20
 """failed points that have a line of their own while the sweep goes on"""
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
+
+
+def add_sweep(commands: Any) -> None:
+    """``mbla sweep``."""
+    command = commands.add_parser(
+        "sweep",
+        help="run a deck over a design of experiments: a table of all points",
+        description="Solve a base deck at every point of a design of experiments. Each finished point is a row of "
+        "journal.csv at once; --resume goes on after an interruption. When none is missing, sweep.csv and sweep.json "
+        "hold all points in the order of the design, and mbla sweep-plot draws them. mbla schema sweep says what a "
+        "sweep file may have.",
+        epilog="Exit status 0 where every point has a verified answer, also that there is no load factor; 8 with "
+        "failed points, whose rows say why.",
+    )
+    command.set_defaults(action=sweep, about={"sweep": "sweep"})
+    command.add_argument("sweep", type=Path, metavar="SWEEP", help="sweep file (YAML)")
+    command.add_argument(
+        "-j",
+        "--jobs",
+        type=workers,
+        default=1,
+        metavar="N",
+        help="processes of this machine (default 1; more: extra mbla[dask])",
+    )
+    command.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="a Dask scheduler, whose workers solve the points: tcp://HOST:PORT or tls://HOST:PORT (extra mbla[dask])",
+    )
+    command.add_argument(
+        "--scheduler-file",
+        type=Path,
+        metavar="F",
+        help="the same, by the file in which the scheduler wrote its address",
+    )
+    command.add_argument("--tls-ca-file", type=Path, metavar="F", help="for tls://: certificate of the authority")
+    command.add_argument("--tls-cert", type=Path, metavar="F", help="for tls://: certificate of this program")
+    command.add_argument("--tls-key", type=Path, metavar="F", help="for tls://: its private key")
+    command.add_argument(
+        "--shard",
+        type=shard,
+        metavar="I/N",
+        help="only the I-th of N parts, for job arrays; the last to end writes the table",
+    )
+    command.add_argument("--resume", action="store_true", help="go on with the journal: solve what is missing")
+    command.add_argument("--retry-failed", action="store_true", help="as --resume, and solve failed points again")
+    command.add_argument("--dry-run", action="store_true", help="list the points and solve nothing")
+    command.add_argument("--parquet", action="store_true", help="the table as Parquet too (extra mbla[tables])")
+    command.add_argument("--hdf5", action="store_true", help="the table as HDF5 too, along the axes of the design")
+    add_deck_options(command, "for every point", what="sweep", default="SWEEP.out")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 
 
 def sweep(options: argparse.Namespace) -> int:

@@ -1,12 +1,21 @@
-"""What commands say on standard error beside errors of their own: a line, or one that rewrites itself on a terminal."""
+"""What commands say on standard error: what went wrong, a line, or one that rewrites itself on a terminal.
+
+What is printed always arrives, or fails quietly.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import io
+import json
 import os
 import sys
+import traceback
+from collections.abc import Mapping
+from pathlib import Path
 
-from mbla.errors import printable
+from mbla.errors import DeckError, MblaError, printable
+from mbla.results.failures import failure_record, lines_of, words_of
 
 WIDTH = 80
 """characters of a line of a terminal that does not say how wide it is"""
@@ -41,3 +50,31 @@ def _write(text: str) -> None:
     """Nobody may listen any more: what the program does goes on, and its exit status still tells."""
     with contextlib.suppress(OSError, ValueError):
         print(text, end="", file=sys.stderr, flush=True)
+
+
+def failed(error: BaseException, about: Mapping[str, Path], as_json: bool) -> int:
+    """Say what went wrong in one line per fault, and as a JSON object where that is wanted; the exit status."""
+    status, _ = words_of(error)
+    text = "\n".join(lines_of(error))
+    if status == MblaError.exit_status and os.environ.get("MBLA_TRACEBACK"):
+        traceback.print_exception(error)
+    if as_json:
+        print(json.dumps(failure_record(error, about)), flush=True)
+    return say(text if isinstance(error, DeckError) else f"mbla: {text}", status)
+
+
+def prepare_streams(*, json_lines: bool) -> None:
+    """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
+    if sys.stdout is None:  # closed by who started us, as services do: nobody wants to read
+        drop_output()
+    if sys.stderr is None:
+        sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115 - as standard output
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            utf8 = json_lines and stream is sys.stdout
+            stream.reconfigure(encoding="utf-8" if utf8 else None, errors="backslashreplace")
+
+
+def drop_output() -> None:
+    """Standard output cannot be written: keep the interpreter from trying again at its end."""
+    sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115 - for the interpreter's own flush at exit

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from mbla.cli import argument_values as values
+from mbla.cli import options as values
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mbla import cli
-from mbla.cli.arguments import build_parser, wants_json
+from mbla.cli import build_parser, wants_json
 from mbla.errors import LimitError
 from mbla.process.signals import Terminated
 from mbla.results.explanations import explanations
@@ -165,30 +165,29 @@ def test_every_option_with_a_wrong_value(arguments: tuple[str, ...], capsys: pyt
     assert (record["exit_code"], record["identifiers"]) == (2, ["command-line"])
 
 
-@pytest.mark.parametrize("name", commands())
 @pytest.mark.parametrize(
-    ("error", "status"),
+    ("error", "status", "name"),
     [
-        (KeyboardInterrupt(), 130),
-        (Terminated(), 143),
-        (MemoryError(), 7),
-        (LimitError("out-of-memory", "out of memory"), 7),
-        (OSError(errno.EACCES, "Permission denied", "place"), 6),
-        (ZeroDivisionError("float division by zero"), 1),
+        *((KeyboardInterrupt(), 130, name) for name in commands()),
+        (Terminated(), 143, "show"),
+        (MemoryError(), 7, "show"),
+        (LimitError("out-of-memory", "out of memory"), 7, "show"),
+        (OSError(errno.EACCES, "Permission denied", "place"), 6, "show"),
+        (ZeroDivisionError("float division by zero"), 1, "show"),
     ],
 )
 def test_whatever_ends_a_command(
     folder: Path,
-    name: str,
     error: BaseException,
     status: int,
+    name: str,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    def broken(options: argparse.Namespace) -> int:
+    def broken() -> None:
         raise error
 
-    monkeypatch.setitem(cli.COMMANDS, name, broken)
+    monkeypatch.setattr(cli, "refuse_too_low_limits", broken)
     files = {"diff": ["a", "b"], "explain": []}.get(name, ["a"])
     assert failure(capsys, name, *files)["exit_code"] == status
 

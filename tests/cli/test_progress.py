@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from mbla import cli
-from mbla.cli import study_commands
+from mbla.cli import decks, study_commands
 
 
 def shown(monkeypatch: pytest.MonkeyPatch, module: Any, *, terminal: bool = True) -> list[str]:
@@ -21,8 +20,8 @@ def shown(monkeypatch: pytest.MonkeyPatch, module: Any, *, terminal: bool = True
 
 
 def test_iterations_of_a_load_case(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts = shown(monkeypatch, cli)
-    show = cli._progress()
+    texts = shown(monkeypatch, decks)
+    show = decks._progress()
     assert show is not None
     show("push", SimpleNamespace(program=2, iteration=7, load_factor=0.123456789))  # type: ignore[arg-type]
     assert texts == ["push: program 2, iteration 7, load factor 0.123457"]
@@ -47,7 +46,7 @@ def test_settings_of_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     ("module", "progress"),
-    [(cli, "_progress"), (study_commands, "_point_progress"), (study_commands, "_rung_progress")],
+    [(decks, "_progress"), (study_commands, "_point_progress"), (study_commands, "_rung_progress")],
 )
 def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch, module: Any, progress: str) -> None:
     shown(monkeypatch, module, terminal=False)

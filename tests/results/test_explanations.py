@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import mbla
-from mbla.cli import arguments, main
+from mbla.cli import EXIT_STATUS, main
 from mbla.deck.unused_keys import APPLIES
 from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
 from mbla.results.collapse.interface_modes import InterfaceMode
@@ -116,7 +116,7 @@ def test_exit_statuses() -> None:
     errors = (MblaError, UsageError, DeckError, SolverError, FileError, LimitError)
     known = {0, FAILED_POINTS, 130, 143, *EXIT_CODES.values(), *(error.exit_status for error in errors)}
     assert {entry.identifier for entry in sections()["Exit statuses"]} == {f"exit-{number}" for number in known}
-    in_help = {int(number) for number in re.findall(r"\b(\d{1,3})(?=  |, )", arguments.EXIT_STATUS)} | {143}
+    in_help = {int(number) for number in re.findall(r"\b(\d{1,3})(?=  |, )", EXIT_STATUS)} | {143}
     assert known == in_help
 
 

@@ -6,7 +6,7 @@ import argparse
 
 import pytest
 
-from mbla.cli.argument_values import shard
+from mbla.cli.options import shard
 
 
 def test_part_and_parts() -> None:

@@ -20,7 +20,7 @@ import pytest
 
 from mbla import api
 from mbla.cli import main
-from mbla.cli.given_deck import refuse_unfit_name
+from mbla.cli.decks import refuse_unfit_name
 from mbla.deck import read_deck, reader, sources, validation
 from mbla.deck.content import DeckContent
 from mbla.deck.include import confined
@@ -170,7 +170,7 @@ def defect_of_the_program(folder: Path, patch: Patch) -> object:
     def fails(*arguments: object) -> None:
         raise ZeroDivisionError("first second")
 
-    patch.setattr("mbla.cli.refuse_unfit_name", fails)
+    patch.setattr("mbla.cli.decks.refuse_unfit_name", fails)
     return command("run", "deck.yaml")
 
 

@@ -1,4 +1,8 @@
-"""Values of options on the command line: names, numbers and what they may be, with one line of what was wanted."""
+"""Options that several commands share, and the values that options take, with one line of what was wanted.
+
+A command is a parser with an ``action``, which gets the options and returns the exit status, and ``about``: by the keys
+of a JSON object of failure, the options with the files that a command with one object for the whole is about.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,7 @@ import argparse
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 Amount = TypeVar("Amount", int, float)
 
@@ -89,3 +93,49 @@ def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount]
     if not allowed(value):
         raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
     return value
+
+
+# --- options that commands share ------------------------------------------------------------------------------------
+
+
+def add_deck_options(
+    command: argparse.ArgumentParser, extent: str = "", what: str = "deck", default: str = "DECK.out"
+) -> None:
+    """Where files go, values of the deck, ``--force`` and ``--json``."""
+    command.add_argument("-o", "--output", type=place, metavar="DIR", help=f"folder of the results (default {default})")
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY.PATH=VALUE",
+        help=f"change a value of the deck{extent and ' '}{extent} (repeatable); items of lists by number, from 0",
+    )
+    command.add_argument("--force", action="store_true", help="replace an earlier result")
+    command.add_argument(
+        "--json", action="store_true", help=f"one JSON object per {what} on standard output, nothing else"
+    )
+
+
+def add_analysis_options(command: argparse.ArgumentParser) -> None:
+    """Options in the place of values of ``analysis``."""
+    command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
+    command.add_argument(
+        "--flow-rule",
+        choices=["associative", "non_associative", "dilatancy", "livesley"],
+        help="instead of analysis.flow_rule",
+    )
+
+
+def add_result_and_output(command: Any, what: str) -> None:
+    """A result file, and where what is made of it goes."""
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("-o", "--output", type=place, metavar="FILE|DIR", help=f"{what} (default: that of the result)")
+
+
+def add_page_options(command: Any) -> None:
+    """Size and format of pictures."""
+    command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
+    command.add_argument("--dpi", type=dots, default=100, help="dots per inch of a PNG (default 100)")
+    command.add_argument(
+        "--format", choices=["png", "svg", "pdf"], default="png", help="of pictures in a folder (default png)"
+    )

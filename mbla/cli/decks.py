@@ -1,0 +1,209 @@
+"""The commands on decks, ``mbla run`` and ``mbla check``, and what all commands that take a deck share."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mbla.cli.options import add_analysis_options, add_deck_options, seconds, threads
+from mbla.cli.terminal import clear_line, failed, rewrite_line, say
+from mbla.errors import FileError, UsageError
+from mbla.process.collector import loading
+from mbla.results.failures import ENDINGS, StoppedRun, failure_record
+from mbla.run_options import RunOptions
+
+if TYPE_CHECKING:
+    from mbla.deck import Deck
+    from mbla.results.results import Results
+    from mbla.run import Progress
+
+WORST_FIRST = (1, 6, 7, 3, 4, 5)
+FIRST_OF_SIGNALS = 128
+
+
+def add_run(commands: Any) -> None:
+    """``mbla run``."""
+    command = commands.add_parser("run", help="solve every load case of decks and write the results")
+    command.set_defaults(action=run)
+    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
+    add_deck_options(command)
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    add_analysis_options(command)
+    command.add_argument(
+        "--time-limit", type=seconds, metavar="S", help="seconds for all load cases, instead of analysis.time_limit"
+    )
+    command.add_argument(
+        "--threads",
+        type=threads,
+        default=1,
+        metavar="N",
+        help="threads of the libraries that can use several, at most (default 1): MKL Pardiso, the others are serial",
+    )
+    command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
+    volume = command.add_mutually_exclusive_group()
+    volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    volume.add_argument("-v", "--verbose", action="store_true", help="print the listing instead of the summary")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Solve decks one after the other; what is found goes to standard output, with ``--json`` an object per deck."""
+    chosen = run_options(options)
+    progress = None if options.quiet else _progress()
+
+    def one(deck: Path) -> int:
+        content, took = read_given_deck(deck, chosen)
+        with loading():
+            from mbla.run import run_and_write
+
+        try:
+            results = run_and_write(content, chosen, progress, time.perf_counter() - took)
+        except StoppedRun as run_stopped:
+            clear_line(progress)
+            failed(run_stopped.cause, {}, as_json=False)
+            _tell(options, content, run_stopped.results, failure_record(run_stopped.cause, {"deck": deck}))
+            return run_stopped.results.exit_code
+        clear_line(progress)
+        _tell(options, content, results, {}, f"  files: {chosen.folder_for(deck)}/")
+        return results.exit_code
+
+    _refuse_shared_folder(options.decks, chosen)
+    return _each_deck(options, one, progress)
+
+
+def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: dict[str, Any], *files: str) -> None:
+    """The results of a deck as they are wanted; of a stopped run with what stopped it."""
+    with loading():
+        from mbla.results.listing.listing import listing
+        from mbla.results.listing.summary import summary_lines
+        from mbla.results.records.json_record import json_line, results_json
+
+    record = json_line(results_json(results) | failure) if options.json else ""
+    words = ""
+    if options.verbose:
+        words = listing(results, every_position=deck.content.output.positions == "all")
+    elif not options.quiet:
+        words = "\n".join([*summary_lines(results), *files, ""])
+    if options.json:
+        print(record, flush=True)
+    print(words, end="", file=sys.stderr if options.json else sys.stdout, flush=True)
+    if options.threads > 1 and not options.quiet:
+        say(f"mbla: threads: {results.settings['threads']}", 0)
+
+
+def add_check(commands: Any) -> None:
+    """``mbla check``."""
+    command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
+    command.set_defaults(action=check)
+    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
+    add_deck_options(command)
+    command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
+
+
+def check(options: argparse.Namespace) -> int:
+    """Say what decks are and what solving them needs."""
+    chosen = run_options(options)
+
+    def one(deck: Path) -> int:
+        content, took = read_given_deck(deck, chosen)
+        with loading():
+            from mbla.cli.check import check as check_deck
+            from mbla.results.listing.listing import check_listing
+            from mbla.results.records.json_record import check_json, json_line
+
+        results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
+        text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
+        print(text, end="", flush=True)
+        if options.vtu:
+            files = chosen.folder_for(deck) / f"{deck.stem}_check_*.vtu"
+            print(f"  files: {files}", file=sys.stderr if options.json else sys.stdout, flush=True)
+        return 0
+
+    return _each_deck(options, one, None)
+
+
+# --- what commands on a deck share ----------------------------------------------------------------------------------
+
+
+def read_given_deck(path: Path, options: RunOptions) -> tuple[Deck, float]:
+    """The deck, and the seconds it took; a faulty one is told before anything heavy is imported."""
+    with loading():
+        from mbla.deck import read_deck
+
+    started = time.perf_counter()
+    return read_deck(path, options.overrides), time.perf_counter() - started
+
+
+def run_options(options: argparse.Namespace, *, override: bool = True) -> RunOptions:
+    """Options of a run; those that stand for values of the deck become overrides unless the command means others."""
+    overrides = list(options.set)
+    for name in ("accuracy", "flow_rule", "time_limit") if override else ():
+        value = getattr(options, name, None)
+        if value is not None:
+            overrides.append(f"analysis.{name}={value}")
+    return RunOptions(
+        folder=options.output,
+        overrides=tuple(overrides),
+        cases=_cases(options),
+        force=options.force,
+        threads=getattr(options, "threads", 1),
+        expected=getattr(options, "expected", False),
+    )
+
+
+def _cases(options: argparse.Namespace) -> tuple[str, ...]:
+    """Names of ``--case``, which some commands take once."""
+    given = getattr(options, "case", None) or ()
+    return (given,) if isinstance(given, str) else tuple(given)
+
+
+def refuse_unfit_name(deck: Path, what: str = "deck") -> None:
+    """A name that no result file can have, or that no text can hold."""
+    if not deck.name or deck.is_dir():
+        raise FileError("folder-given", f"{deck}: is a folder, not a {what}")
+    try:
+        str(deck.absolute()).encode("utf-8")
+    except UnicodeEncodeError:
+        raise FileError("path-not-utf-8", f"{deck}: the path is not UTF-8, results cannot name it; rename it") from None
+
+
+def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
+    """Two decks of one name would write the same files."""
+    targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks if deck.name]
+    if len(set(targets)) < len(targets):
+        raise UsageError(
+            "same-result-files",
+            "two of the decks would write the same result files: give them different names or folders",
+        )
+
+
+def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress: Progress | None) -> int:
+    """Run one deck after the other; a deck that fails does not stop the next, a signal does."""
+    codes = []
+    for deck in options.decks:
+        try:
+            refuse_unfit_name(deck)
+            codes.append(one(deck))
+        except BrokenPipeError:
+            raise
+        except ENDINGS as error:
+            clear_line(progress)
+            codes.append(failed(error, {"deck": deck}, options.json))
+        if codes[-1] >= FIRST_OF_SIGNALS:
+            return codes[-1]
+    return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
+
+
+def _progress() -> Progress | None:
+    """A line that rewrites itself on a terminal; nothing elsewhere."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(case: str, record: Any) -> None:
+        text = f"{case}: program {record.program}, iteration {record.iteration}, load factor {record.load_factor:.6g}"
+        rewrite_line(text)
+
+    return show

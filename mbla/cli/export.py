@@ -1,0 +1,181 @@
+"""The commands that make something of results: plot, sweep-plot, report, export.
+
+Everything of a command is imported when it is called, so that the program starts at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from mbla.cli.options import add_page_options, add_result_and_output, names, place
+from mbla.errors import UsageError
+from mbla.process.collector import loading
+
+
+def add_plot(commands: Any) -> None:
+    """``mbla plot``."""
+    command = commands.add_parser(
+        "plot",
+        help="pictures of model, mechanism and forces (extra mbla[pictures])",
+        description="Pictures of model, mechanism and forces. Earlier pictures of the same names are replaced.",
+    )
+    command.set_defaults(action=plot)
+    add_result_and_output(command, "PNG, SVG or PDF file, by its name, of one picture; or a folder")
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="model, mechanism, forces, history, several with commas, or all "
+        "(default: the first three; the mechanism where -o names a file)",
+    )
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument(
+        "--animate", choices=["gif", "mp4"], help="moving pictures of the mechanisms in the place of pictures"
+    )
+    command.add_argument(
+        "--view",
+        default="auto",
+        metavar="VIEW",
+        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
+    )
+    command.add_argument(
+        "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
+    )
+    command.add_argument(
+        "--zoom",
+        choices=("auto", "off"),
+        default="auto",
+        help="enlarge what moves beside the whole, where that is a small part of it (default auto)",
+    )
+    add_page_options(command)
+
+
+def plot(options: argparse.Namespace) -> int:
+    """Draw pictures or films; their paths are printed."""
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.pictures.options import picture_options
+        from mbla.results.pictures.plot import plot_results
+
+    chosen = picture_options(options)
+    results = read_results_hdf5(options.result)
+    target = options.output or options.result.parent
+    for path in plot_results(results, target, options.result.stem, chosen):
+        print(path)
+    return 0
+
+
+def add_sweep_plot(commands: Any) -> None:
+    """``mbla sweep-plot``."""
+    command = commands.add_parser(
+        "sweep-plot",
+        help="pictures of a sweep: curves, maps, scatter, distribution, tornado, polar (extra mbla[pictures])",
+        description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
+        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
+        "names are replaced.",
+    )
+    command.set_defaults(action=sweep_plot)
+    command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=place,
+        metavar="FILE|DIR",
+        help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
+        "says which; or a folder (default: that of the sweep)",
+    )
+    command.add_argument(
+        "--kind",
+        metavar="KIND",
+        help="curve, map, polar, scatter, distribution, tornado, several with commas, or all that fit the table",
+    )
+    command.add_argument(
+        "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
+    )
+    command.add_argument(
+        "--by",
+        metavar="PARAMETER",
+        help="parameter along the axis of curves and maps, of the curves of a distribution, or the only one of scatter",
+    )
+    add_page_options(command)
+
+
+def sweep_plot(options: argparse.Namespace) -> int:
+    """Draw pictures of a sweep; their paths are printed."""
+    with loading():
+        from mbla.sweeps.pictures.plot import plot_sweep_files
+
+    for path in plot_sweep_files(options.sweep, options):
+        print(path)
+    return 0
+
+
+def add_report(commands: Any) -> None:
+    """``mbla report``."""
+    command = commands.add_parser(
+        "report",
+        help="one self-contained HTML file of a result (extra mbla[report])",
+        description="One self-contained HTML file of a result. An earlier report of that name is replaced.",
+    )
+    command.set_defaults(action=report)
+    add_result_and_output(command, "HTML file, or a folder for STEM.html")
+    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the HTML file; its path is printed, remarks on what it lacks go to standard error."""
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.report.report import report_path, write_report
+
+    results = read_results_hdf5(options.result)
+    target = report_path(options.output, options.result)
+    for remark in write_report(results, target, options.case, view=not options.no_3d):
+        print(f"mbla: {remark}", file=sys.stderr)
+    print(target)
+    return 0
+
+
+def add_export(commands: Any) -> None:
+    """``mbla export``."""
+    command = commands.add_parser("export", help="tables of blocks, interfaces, points and load cases")
+    command.set_defaults(action=export)
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
+    command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
+    command.add_argument("--vtkhdf", action="store_true", help=argparse.SUPPRESS)
+    command.add_argument(
+        "-o", "--output", type=place, metavar="DIR", help="folder of the files (default: that of the result)"
+    )
+    command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
+    command.add_argument(
+        "--table",
+        type=names,
+        default=[],
+        metavar="NAME,...",
+        help="only these tables, such as blocks,interfaces,points",
+    )
+    command.add_argument("--force", action="store_true", help="replace earlier files")
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write tables and meshes; their paths are printed."""
+    with loading():
+        from mbla.results.hdf5.result_file import read_results_hdf5
+        from mbla.results.tables.export import Formats, export_results
+
+    results = read_results_hdf5(options.result)
+    folder = options.output or options.result.parent
+    if options.vtkhdf:
+        raise UsageError(
+            "command-line", "export: --vtkhdf is no more: ParaView reads the VTU files that every run writes"
+        )
+    formats = Formats(options.csv, options.parquet)
+    for path in export_results(
+        results, folder, options.result.stem, formats, options.case, options.table, options.force
+    ):
+        print(path)
+    return 0
