@@ -28,7 +28,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import listed
 from mbla.errors import UsageError
 from mbla.results.listing.text import sentence, table
-from mbla.results.records.key import Key
+from mbla.results.records.description import Key
 from mbla.results.records.numbers import number, numbers
 from mbla.results.tables.csv_file import csv_text
 from mbla.sweeps.answers import Answers, answers_of

@@ -14,8 +14,7 @@ from typing import Any
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.units import Units
 from mbla.results.record.quantity import unit_text
-from mbla.results.records.description import RUN_RECORD
-from mbla.results.records.key import Key
+from mbla.results.records.description import RUN_RECORD, Key
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.tables.sweep_table import SweepColumn
 

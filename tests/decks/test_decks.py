@@ -187,9 +187,9 @@ def test_a_wrong_expectation_is_found() -> None:
 def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
     """Verified by statics of its own; within a thousandth, which is how closely the path is followed."""
     (case, expectation), *_ = cases_of(path_of("benchmarks/plank_in_clamp"))
-    assert case["peak"] == pytest.approx(2.1725, rel=1e-3)
+    assert case["peak_load_factor"] == pytest.approx(2.1725, rel=1e-3)
     assert expectation.load_factor is not None
-    assert expectation.load_factor < case["peak"] < case["kinematic_bound"]
+    assert expectation.load_factor < case["peak_load_factor"] < case["kinematic_bound"]
 
 
 def test_friction_polyhedra_enclose_the_cone() -> None:

@@ -2,105 +2,75 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from mbla.contacts.contacts import Contacts
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.model.model import Model
+from mbla.program.reductions.steps import ReductionStep
+from mbla.results.collapse.mechanics import guide_reactions, support_reactions
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.solving import solver_json
-from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
+from mbla.results.outcome import associative_of, best_iterate, result_of
+from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.column import Column
+from mbla.results.record.scene import Scene
 from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
-from mbla.results.records.numbers import number
-from mbla.results.records.power_json import powers_json
-from mbla.results.records.reactions_json import reactions_json
-from mbla.results.records.reduction_json import reductions_json
+from mbla.results.records.numbers import number, numbers
 from mbla.results.results import CaseResult
-from mbla.results.tilt_angle import angle_bounds, angle_of
+from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Checks, Mechanics, Solution
+from mbla.solution.verification.statics import power
 
 
-def case_json(model: Model, contacts: Contacts, case: CaseResult, *, on_demand: bool = False) -> dict[str, Any]:
+def case_json(scene: Scene, *, on_demand: bool = False) -> dict[str, Any]:
     """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results.
 
     on_demand : values of the mechanism, which take longer than all others, are found when they are asked for
     """
+    case = scene.case
+    assert case is not None  # the record of a model alone has no cases
     mechanism = mechanism_on_demand if on_demand else mechanism_json
-    solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
-    mechanics = result_of(case)
+    solution, mechanics, model = case.solution, result_of(case), scene.model
+    dimension = 3 if solution.size is None else solution.size.dimension
     solver = float(sum(program.seconds for program in solution.programs))
     return {
         "name": case.load_case.name,
-        "status": case.status.value,
-        "reason": solution.reason or None,
-        "remarks": list(solution.remarks),
-        "flow_rule": solution.flow_rule,
-        "scheme": solution.scheme or None,
-        **_load_factors(model, case),
-        **_single_checks(checks),
-        "residuals": residuals_json(checks),
-        "verified": checks.verified,
-        "failures": list(checks.failures),
+        **{each.quantity.name: _value(each, scene) for each in CASE_COLUMNS if "json" in each.files},
+        "reaction": reaction_json(case),
+        "best_iterate": _best_iterate(case),
+        "bracket": _bracket(solution, associative_of(case)),
+        "powers": powers_json(model, case),
+        "residuals": residuals_json(case.checks),
         "standing": _standing(model, solution),
         "certificate": _certificate(solution),
-        "programs": len(solution.programs),
-        "iterations": sum(program.iterations for program in solution.programs),
         "solver": solver_json(solution),
         "size": None if solution.size is None else asdict(solution.size),
         "reductions": reductions_json(solution.reductions),
         "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
         "mechanism": None
         if mechanics is None
-        else mechanism(model, contacts, case.load_case, mechanics, _dimension(case)),
-        "reactions": None if mechanics is None else reactions_json(model, contacts, case.load_case, mechanics),
+        else mechanism(model, scene.contacts, case.load_case, mechanics, dimension),
+        "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 
 
-def _dimension(case: CaseResult) -> int:
-    """In which it was solved."""
-    return 3 if case.solution.size is None else case.solution.size.dimension
-
-
-def _load_factors(model: Model, case: CaseResult) -> dict[str, Any]:
-    """The load factor, what it means, and everything that stands beside it."""
-    solution, checks = case.solution, case.checks
-    mechanics, associative, ends = result_of(case), associative_of(case), range_of(case)
-    least, greatest = least_and_greatest(model, case)
-    return {
-        "load_factor": None if mechanics is None else number(mechanics.load_factor),
-        "least_load_factor": number(least),
-        "greatest_load_factor": number(greatest),
-        "angle": number(angle_of(case)),
-        "angle_bounds": _angle_bounds(case),
-        "reaction": reaction_json(case),
-        "factor_unique": factor_unique(model, case),
-        "range": None if ends is None else [number(end) for end in ends],
-        "peak": number(checks.peak_load_factor),
-        "spread": None if solution.spread is None else [number(end) for end in solution.spread],
-        "best_iterate": _best_iterate(case),
-        "static_bound": number(checks.static_bound),
-        "kinematic_bound": number(checks.kinematic_bound),
-        "gap": number(checks.gap),
-        "asked": None if solution.asked is None else number(solution.asked),
-        "associative_load_factor": None if associative is None else number(associative.load_factor),
-        "bracket": _bracket(solution, associative),
-        "powers": powers_json(model, case),
-    }
-
-
-def _single_checks(checks: Checks) -> dict[str, float | None]:
-    """What was measured of forces and mechanism, a key each."""
-    return {
-        "equilibrium_residual": number(checks.equilibrium_residual),
-        "yield_violation": number(checks.yield_violation),
-        "tension_violation": number(checks.tension_violation),
-        "penetration": number(checks.penetration),
-        "complementarity_residual": number(checks.complementarity_residual),
-        "slip_residual": number(checks.slip_residual),
-        "live_power": number(checks.live_power),
-        "power_balance": number(checks.power_balance),
-    }
+def _value(column: Column, scene: Scene) -> Any:
+    """What a column says of the case, as JSON has it."""
+    values, quantity = column.of(scene), column.quantity
+    if quantity.dims == ("sentence",):
+        return [] if values is None else [str(sentence) for sentence in values]
+    if values is None:
+        return None
+    if quantity.dims:
+        return numbers(values[0])
+    if quantity.kind == "text":
+        return str(values[0]) or None
+    return number(values[0]) if quantity.kind == "float" else values[0].item()
 
 
 def finite(value: float | int) -> float | int | None:
@@ -118,10 +88,6 @@ def residuals_json(checks: Checks) -> dict[str, float | None]:
         "complementarity": number(checks.complementarity_residual),
         "slip": number(checks.slip_residual),
     }
-
-
-def _angle_bounds(case: CaseResult) -> list[float | None] | None:
-    return None if case.load_case.tilt is None else [number(angle) for angle in angle_bounds(case)]
 
 
 def _best_iterate(case: CaseResult) -> dict[str, Any] | None:
@@ -152,3 +118,87 @@ def _certificate(solution: Solution) -> str | None:
     if solution.certificate is not None:
         return "motion"
     return "forces" if solution.lock is not None else None
+
+
+def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | None:
+    """Power of the live load of every load case in the mechanism behind a kinematic bound, by name.
+
+    A mechanism u that the joints allow with associative flow bounds every live load at once. With the dead load G, the
+    dissipation D and live loads L_c of the same structure, no factors x_c acting together are carried unless
+
+        Σ x_c L_c·u ≤ D(u) − G·u.
+
+    u is scaled so that the live load of its own case has unit power; the right side then is its kinematic bound k, and
+    Σ x_c p_c ≤ k a half-space that contains the safe domain. Positions of travelling loads and settlements have none;
+    None where there is no such mechanism, and for polyhedral friction, whose bounds belong to two of them.
+    """
+    associative = associative_of(case)
+    if associative is None or case.solution.outer is not None or case.load_case.settlement is not None:
+        return None
+    own = power(case.load_case.live_load, associative.mechanism)
+    if not own > 0.0:
+        return None
+    others = [one for one in model.load_cases if one.travel is None and one.settlement is None and one.tilt is None]
+    return {one.name: number(power(one.live_load, associative.mechanism) / own) for one in others}
+
+
+def _reactions(scene: Scene, case: CaseResult, mechanics: Mechanics) -> dict[str, Any]:
+    """Resultants on the structure, moments about the origin: of all supports, and by ground plane and group.
+
+    Guides are among them: what they take is a support too.
+    """
+    found = [
+        *support_reactions(scene.model, scene.contacts, mechanics.contact_forces, by_group=True),
+        *guide_reactions(scene.model, scene.contacts, case.load_case, mechanics, by_group=True),
+    ]
+    total = np.sum([reaction.wrench for reaction in found], axis=0) if found else np.zeros(6)
+    return {
+        "total": _wrench_json(total),
+        "supports": {reaction.support: _wrench_json(reaction.wrench) for reaction in found},
+    }
+
+
+def _wrench_json(wrench: FloatArray) -> dict[str, Any]:
+    wrench = wrench + 0.0  # no -0.0
+    return {"force": numbers(wrench[:3]), "moment": numbers(wrench[3:])}
+
+
+def reductions_json(steps: Sequence[ReductionStep]) -> list[dict[str, Any]]:
+    """An object for each reduction, in the order in which they are applied."""
+    return [_step(step) for step in steps]
+
+
+def _step(step: ReductionStep) -> dict[str, Any]:
+    sizes = {"before": dict(vars(step.before)), "after": dict(vars(step.after))}
+    return {"name": step.name, "state": step.state.value, "found": step.found, **sizes}
+
+
+def series_json(model: Model, series: Series) -> dict[str, Any]:
+    """Load factor and status at every position, null where there is none; the worst, null where it is not known."""
+    return {
+        "name": series.name,
+        "complete": series.complete,
+        "positions": [_position(model, case) for case in series.cases],
+        "worst": None if series.worst is None else _position(model, series.worst),
+    }
+
+
+def _block(model: Model, block: int) -> str | None:
+    return model.blocks.name(int(block)) if block >= 0 else None
+
+
+def _position(model: Model, case: CaseResult) -> dict[str, Any]:
+    position = position_of(case)
+    return {
+        "case": case.load_case.name,
+        "position": position.number,
+        "point": numbers(position.point),
+        "distance": number(position.distance),
+        "block": _block(model, position.blocks[0]),
+        "axles": [
+            {"point": numbers(point), "distance": number(distance), "block": _block(model, block)}
+            for point, distance, block in zip(position.points, position.distances, position.blocks, strict=True)
+        ],
+        "status": case.status.value,
+        "load_factor": number(factor_of(case)),
+    }

@@ -1,16 +1,228 @@
 """What the keys of the JSON records mean, as one table; it makes a section of schemas/results.md and a test holds it.
 
 A path names keys with full stops between them; ``[]`` is each item of a list, ``*`` each key that the deck names. Types
-are those of JSON; a question mark: or null, where there is no such value.
+are those of JSON; a question mark: or null, where there is no such value. What the record describes is told by it.
 """
 
 from __future__ import annotations
 
-from mbla.results.records.failure_description import FAILURE, part_keys
-from mbla.results.records.failure_description import MECHANISM as _MECHANISM
-from mbla.results.records.key import Key
-from mbla.results.records.reactions_json import reaction_keys
-from mbla.results.records.reduction_json import reduction_keys
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from mbla.deck.units import Units
+from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.quantity import Quantity, UnitKind, unit_text
+from mbla.results.record.stored import STORED_BY_PATH
+
+KINDS = {"float": "number?", "int": "integer", "bool": "boolean", "text": "string?"}
+"""types in JSON: numbers must be finite there, and texts not empty"""
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key.
+
+    kind : integer, number, string, boolean, object or list, with ``?`` where it may be null
+    unit : of its number or numbers
+    """
+
+    path: str
+    kind: str
+    words: str
+    unit: UnitKind = "1"
+
+    @property
+    def item(self) -> tuple[str, str, str]:
+        """Path, type with its unit as in a deck in m, N, kg, and meaning."""
+        kind = self.kind if self.unit == "1" else f"{self.kind} [{unit_text(self.unit, Units())}]"
+        return self.path, kind, self.words
+
+
+def _key(path: str, quantity: Quantity, kind: str = "") -> Key:
+    return Key(path, kind or KINDS[quantity.kind], quantity.words, quantity.unit)
+
+
+def _stored(owner: str, place: str, names: str) -> tuple[Key, ...]:
+    """Keys that are quantities of the result file, a question mark behind those that may be null."""
+    keys = []
+    for name in names.split():
+        quantity = STORED_BY_PATH[f"{place}/{name.rstrip('?')}"]
+        kind = KINDS[quantity.kind].rstrip("?") + "?" * name.endswith("?")
+        keys.append(_key(f"{owner}.{quantity.name}", quantity, kind))
+    return tuple(keys)
+
+
+def _of_columns() -> Iterable[Key]:
+    """Single values of a load case."""
+    for column in CASE_COLUMNS:
+        quantity, path = column.quantity, f"cases[].{column.quantity.name}"
+        if "json" not in column.files:
+            continue
+        if quantity.dims == ("sentence",):
+            yield from (Key(path, "list", quantity.words), Key(f"{path}[]", "string", "a sentence"))
+        elif quantity.dims:
+            yield from (_key(path, quantity, "list?"), _key(f"{path}[]", quantity, "number?"))
+        else:
+            yield _key(path, quantity, "boolean?" if column.names else "")
+
+
+def reduction_keys(place: str) -> tuple[Key, ...]:
+    """What each reduction left out, in the list at ``place``."""
+    held = "cases/*/reductions"
+    sizes = (
+        Key(f"{place}[].{when}.{name}", "integer", STORED_BY_PATH[f"{held}/{name}_{when}"].words)
+        for when in ("before", "after")
+        for name in ("unknowns", "cones", "entries", "largest")
+    )
+    return (
+        Key(place, "list", "what each reduction left out, in the order in which they are applied"),
+        Key(f"{place}[]", "object", "a reduction"),
+        *_stored(f"{place}[]", held, "name state found"),
+        *(Key(f"{place}[].{when}", "object", f"programs with live load {when} it") for when in ("before", "after")),
+        *sizes,
+    )
+
+
+def reaction_keys(place: str) -> tuple[Key, ...]:
+    """What supports carry, in the object at ``place``."""
+    return (
+        Key(place, "object?", "what the supports exert on the structure at collapse; null without a result"),
+        Key(f"{place}.total", "object", "all of them together: unique, as it balances the loads"),
+        *_wrench_keys(f"{place}.total"),
+        Key(f"{place}.supports", "object", "one by one, which need not be unique"),
+        Key(f"{place}.supports.*", "object", "of a ground plane, `GROUP (fixed blocks)` or `guides of GROUP`"),
+        *_wrench_keys(f"{place}.supports.*"),
+    )
+
+
+def _wrench_keys(owner: str) -> tuple[Key, ...]:
+    return (
+        Key(f"{owner}.force", "list", "resultant force"),
+        Key(f"{owner}.force[]", "number", "a component", "force"),
+        Key(f"{owner}.moment", "list", "its moment about the origin"),
+        Key(f"{owner}.moment[]", "number", "a component", "moment"),
+    )
+
+
+MECHANISM = "cases[].mechanism"
+_YIELD = f"{MECHANISM}.yield_lines"
+_LINES, _PLANES, _CRACKS = (f"{MECHANISM}.{name}" for name in ("hinge_lines", "sliding_planes", "cracks"))
+
+
+def part_keys(owner: str) -> tuple[Key, ...]:
+    """The keys of a rigid part, or a cluster of parts taken for one."""
+    return (
+        Key(f"{owner}[]", "object", "one of them"),
+        Key(f"{owner}[].part", "integer", "number, from 1, the heaviest first"),
+        Key(f"{owner}[].blocks", "integer", "its blocks"),
+        Key(f"{owner}[].groups", "object", "its blocks by group"),
+        Key(f"{owner}[].groups.*", "integer", "blocks of a group"),
+        Key(f"{owner}[].weight", "number", "weight under standard gravity", "force"),
+        Key(f"{owner}[].motion", "string", "turns or moves"),
+        Key(f"{owner}[].axis_point", "list?", "where it turns: the point of its axis nearest to its centroid"),
+        Key(f"{owner}[].axis_point[]", "number?", "a coordinate", "length"),
+        Key(f"{owner}[].direction", "list", "unit vector of the axis by the right hand, or of the travel"),
+        Key(f"{owner}[].direction[]", "number", "a component"),
+    )
+
+
+def _pair_keys(owner: str, act: str) -> tuple[Key, ...]:
+    """What hinge lines, sliding planes and cracks have in common."""
+    return (
+        Key(f"{owner}[]", "object", "one of them"),
+        Key(f"{owner}[].clusters", "list", f"the cluster that {act}, and the other; 0 is at rest"),
+        Key(f"{owner}[].clusters[]", "integer", "a cluster"),
+        Key(f"{owner}[].interfaces", "list", "its interfaces"),
+        Key(f"{owner}[].interfaces[]", "integer", "number of an interface, from 0"),
+    )
+
+
+def _vector_keys(owner: str, item: str, unit: UnitKind, *names: tuple[str, str]) -> tuple[Key, ...]:
+    """Keys of vectors by name, and of what they hold."""
+    return tuple(
+        key
+        for name, words in names
+        for key in (
+            Key(f"{owner}[].{name}", "list", words),
+            Key(f"{owner}[].{name}[]", "number", item, unit),
+        )
+    )
+
+
+def _point_keys(owner: str, *names: tuple[str, str]) -> tuple[Key, ...]:
+    return _vector_keys(owner, "a coordinate", "length", *names)
+
+
+def _direction_keys(owner: str, *names: tuple[str, str]) -> tuple[Key, ...]:
+    return _vector_keys(owner, "a component", "1", *names)
+
+
+FAILURE: tuple[Key, ...] = (
+    Key(
+        f"{MECHANISM}.clusters_merged",
+        "number",
+        "share of the largest contact speed up to which rigid parts were taken for one; 0: none were",
+    ),
+    Key(f"{MECHANISM}.clusters", "list", "rigid parts as they are told, those that move, at most 100"),
+    *part_keys(f"{MECHANISM}.clusters"),
+    Key(_LINES, "list", "axes about which one cluster turns relative to another, that which moves most first"),
+    *_pair_keys(_LINES, "turns"),
+    *_point_keys(_LINES, ("start", "start of the line"), ("end", "its end")),
+    Key(f"{_LINES}[].length", "number", "its length", "length"),
+    *_direction_keys(_LINES, ("direction", "unit vector from start to end, for the first by the right hand")),
+    Key(f"{_LINES}[].rotation", "number", "the largest relative angular velocity of its interfaces", "rotation"),
+    Key(f"{_LINES}[].share", "number", "its largest contact speed over the largest of all"),
+    Key(f"{_LINES}[].slides", "boolean", "whether closed points of it slide too"),
+    Key(f"{_LINES}[].crushes", "boolean", "whether closed points of it crush too"),
+    Key(f"{_LINES}[].shear_power_share", "number?", "share of the power put in that its shear forces dissipate"),
+    Key(_PLANES, "list", "planes on which one cluster slides over another, that which dissipates most first"),
+    *_pair_keys(_PLANES, "slides"),
+    Key(f"{_PLANES}[].area", "number", "area of its interfaces", "area"),
+    *_point_keys(_PLANES, ("centroid", "their centroid")),
+    *_direction_keys(
+        _PLANES,
+        ("normal", "unit vector towards the cluster that slides"),
+        ("direction", "unit vector in which it slides over the other"),
+    ),
+    Key(f"{_PLANES}[].twists", "boolean", "whether it slides by turning about the normal"),
+    Key(f"{_PLANES}[].power_share", "number?", "share of the power put in that is dissipated there"),
+    Key(f"{_PLANES}[].shear_power_share", "number?", "the same of the shear forces alone"),
+    Key(f"{_PLANES}[].share", "number", "its largest contact speed over the largest of all"),
+    Key(_CRACKS, "list", "open joints between two clusters, those that open most first"),
+    *_pair_keys(_CRACKS, "moves away"),
+    *_point_keys(_CRACKS, ("start", "centroid of its first interface"), ("end", "of its last")),
+    Key(f"{_CRACKS}[].length", "number", "its length", "length"),
+    Key(f"{_CRACKS}[].area", "number", "area of its interfaces", "area"),
+    *_point_keys(_CRACKS, ("widest", "the contact point at which it opens most")),
+    Key(f"{_CRACKS}[].share", "number", "opening speed there over the largest contact speed of all"),
+    Key(
+        f"{MECHANISM}.main_parts",
+        "list",
+        "the few parts as which it moves; the clusters where these are few",
+    ),
+    *part_keys(f"{MECHANISM}.main_parts"),
+    Key(f"{MECHANISM}.main_parts_explain", "number", "share of the motion, of its square, that they explain"),
+    Key(_YIELD, "list", "lines along which main parts break off, the longest first"),
+    Key(f"{_YIELD}[]", "object", "one of them"),
+    Key(f"{_YIELD}[].parts", "list", "the main parts on both sides; 0 is at rest and comes second"),
+    Key(f"{_YIELD}[].parts[]", "integer", "a main part"),
+    Key(f"{_YIELD}[].interfaces", "list", "its interfaces"),
+    Key(f"{_YIELD}[].interfaces[]", "integer", "number of an interface, from 0"),
+    Key(f"{_YIELD}[].points", "list", "its ends and corners, the lowest end first"),
+    Key(f"{_YIELD}[].points[]", "list", "a point"),
+    Key(f"{_YIELD}[].points[][]", "number", "a coordinate", "length"),
+    Key(f"{_YIELD}[].length", "number", "its length", "length"),
+    Key(f"{_YIELD}[].inclination", "number", "to the horizontal, from end to end", "degree"),
+    Key(f"{_YIELD}[].off", "number", "distance of the interfaces from it over its length, root of the mean square"),
+    Key(f"{MECHANISM}.force_freedom", "object?", "how unique the forces are; null where that was not determined"),
+    Key(f"{MECHANISM}.force_freedom.ways", "integer", "ways in which equilibrium lets the forces vary; 0: unique"),
+    Key(f"{MECHANISM}.force_freedom.determined", "integer", "interfaces whose resultant is the same in all of them"),
+    Key(f"{MECHANISM}.enough", "object", "the part of the structure that is enough for this load factor"),
+    Key(f"{MECHANISM}.enough.moving_blocks", "integer", "blocks that move"),
+    Key(f"{MECHANISM}.enough.interfaces", "integer", "interfaces on them"),
+    Key(f"{MECHANISM}.enough.bearing_blocks", "integer", "free blocks at rest that these touch"),
+    Key(f"{MECHANISM}.enough.left_out_blocks", "integer", "free blocks at rest that touch nothing that moves"),
+)
 
 RUN = (
     Key("mbla", "string", "version of the program"),
@@ -26,9 +238,7 @@ RUN = (
     Key("settings.*", "string", "value of a setting"),
     Key("notices", "list", "remarks and warnings"),
     Key("notices[]", "object", "a remark"),
-    Key("notices[].severity", "string", "notice or warning"),
-    Key("notices[].identifier", "string", "stable identifier, as `mbla explain` takes it"),
-    Key("notices[].message", "string", "in words"),
+    *_stored("notices[]", "notices", "severity identifier message"),
     Key("notices[].case", "string", "load case that it is about; missing where it is about the whole run"),
     Key("time", "object", "by stage"),
     Key("time.*", "number", "time of a stage: read, contacts, solve, write; a part of one after a slash", "time"),
@@ -40,7 +250,7 @@ RUN = (
 )
 
 MODEL = (
-    Key("model.title", "string", "title of the deck"),
+    *_stored("model", "model", "title"),
     Key("model.units", "object", "units of the deck; all numbers are in them"),
     Key("model.units.length", "string", "unit of length"),
     Key("model.units.force", "string", "unit of force"),
@@ -67,22 +277,7 @@ MODEL = (
 
 CASE = (
     Key("cases[].name", "string", "load case"),
-    Key("cases[].status", "string", "status after verification"),
-    Key("cases[].reason", "string?", "why it is not plainly solved"),
-    Key("cases[].remarks", "list", "what a reader of the figure must know"),
-    Key("cases[].remarks[]", "string", "a sentence"),
-    Key("cases[].flow_rule", "string", "flow rule of the load factor"),
-    Key("cases[].scheme", "string?", "how a flow without normality was solved"),
-    Key("cases[].load_factor", "number?", "load factor; null where the case has no result"),
-    Key(
-        "cases[].least_load_factor",
-        "number?",
-        "least load factor that was found; the load factor where that is the only one",
-    ),
-    Key("cases[].greatest_load_factor", "number?", "the greatest of them; null besides: there is no limit"),
-    Key("cases[].angle", "number?", "tilting table: angle of collapse", "degree"),
-    Key("cases[].angle_bounds", "list?", "tilting table: angle certainly borne, angle certainly not"),
-    Key("cases[].angle_bounds[]", "number?", "an angle", "degree"),
+    *_of_columns(),
     Key("cases[].reaction", "object?", "settlement: reaction of the support; forces, or moments where it turns"),
     Key("cases[].reaction.value", "number?", "as the structure follows it, positive against the motion", "load"),
     Key("cases[].reaction.lower_bound", "number?", "verified lower bound by associative flow", "load"),
@@ -90,27 +285,10 @@ CASE = (
     Key("cases[].reaction.at_rest", "number?", "of the support that has not moved yet", "load"),
     Key("cases[].reaction.unit", "number?", "what load factor 1 takes from it", "load"),
     Key("cases[].reaction.kind", "string", "force or moment"),
-    Key("cases[].factor_unique", "boolean?", "whether the load factor is the only one; null: not known"),
-    Key("cases[].range", "list?", "verified least and greatest load factor for the mechanism found"),
-    Key("cases[].range[]", "number?", "an end; null: not verified"),
-    Key(
-        "cases[].peak", "number?", "verified greatest load factor of the load path, where it lies above the load factor"
-    ),
-    Key("cases[].spread", "list?", "least and greatest load factor of several tries that did not agree"),
-    Key("cases[].spread[]", "number", "an end"),
     Key("cases[].best_iterate", "object?", "the best that was reached where the case has no result"),
     Key("cases[].best_iterate.load_factor", "number?", "its load factor, which is none"),
     Key("cases[].best_iterate.residuals", "object", "as `residuals`"),
     Key("cases[].best_iterate.residuals.*", "number?", "as in `residuals`"),
-    Key("cases[].static_bound", "number?", "verified lower bound of the associative load factor"),
-    Key("cases[].kinematic_bound", "number?", "verified upper bound of it"),
-    Key("cases[].gap", "number?", "relative distance of the two"),
-    Key(
-        "cases[].asked",
-        "number?",
-        "gap or residual that the deck asks for, of a case that is approximate for no other reason",
-    ),
-    Key("cases[].associative_load_factor", "number?", "by associative flow"),
     Key("cases[].bracket", "object?", "polyhedral friction: associative load factors with two polyhedra"),
     Key("cases[].bracket.inner", "number?", "with the inscribed one"),
     Key("cases[].bracket.outer", "number?", "with the circumscribed one"),
@@ -127,30 +305,13 @@ CASE = (
     ),
     Key("cases[].certificate", "string?", "what proves that there is no load factor: motion or forces"),
     Key("cases[].standing", "object?", "assessment of the dead load alone"),
-    Key("cases[].standing.verdict", "string", "yes, only by self-stress, no, doubtful"),
-    Key("cases[].standing.block", "string?", "the block that falls or would fall first"),
-    Key("cases[].standing.reason", "string?", "why"),
-)
-
-VERIFICATION = (
-    Key("cases[].verified", "boolean", "whether everything is within tolerance"),
-    Key("cases[].failures", "list", "what is not"),
-    Key("cases[].failures[]", "string", "a sentence"),
-    Key("cases[].equilibrium_residual", "number?", "largest unbalanced force over mean block weight"),
-    Key("cases[].yield_violation", "number?", "largest excess over the joint's strength over mean block weight"),
-    Key("cases[].tension_violation", "number?", "largest tension beyond the tensile strength over mean block weight"),
-    Key("cases[].penetration", "number?", "largest closing velocity over largest contact speed"),
-    Key("cases[].complementarity_residual", "number?", "share of the power balance left unexplained by the flow rule"),
-    Key("cases[].slip_residual", "number?", "the part of it that sliding against friction leaves unexplained"),
-    Key("cases[].live_power", "number?", "live load times mechanism, should be 1"),
-    Key("cases[].power_balance", "number?", "dissipation minus external power over the larger of the two"),
     Key("cases[].residuals", "object", "the first six of these once more"),
     Key("cases[].residuals.*", "number?", "equilibrium, yield, tension, penetration, complementarity, slip"),
+    *_stored("cases[].standing", "cases/*/standing", "verdict reason?"),
+    Key("cases[].standing.block", "string?", "the block that falls or would fall first"),
 )
 
 EFFORT = (
-    Key("cases[].programs", "integer", "programs solved"),
-    Key("cases[].iterations", "integer", "their iterations"),
     Key("cases[].solver", "object", "who solved them"),
     Key("cases[].solver.asked", "string?", "as in analysis.solver"),
     Key("cases[].solver.used", "list", "solvers that took programs"),
@@ -158,59 +319,54 @@ EFFORT = (
     Key("cases[].solver.factorization", "list", "libraries that factorised their linear systems"),
     Key("cases[].solver.factorization[]", "string", "a library"),
     Key("cases[].size", "object?", "what reached the solver"),
-    Key("cases[].size.dimension", "integer", "2 where it was solved as planar, else 3"),
-    Key("cases[].size.mirror_planes", "integer", "planes of symmetry that were used"),
-    Key("cases[].size.parts", "integer", "parts that cannot interact, solved apart"),
-    Key("cases[].size.free_blocks", "integer", "blocks with unknowns"),
-    Key("cases[].size.contact_points", "integer", "contact points with unknowns"),
-    Key("cases[].size.dropped_points", "integer", "contact points that cannot matter, or follow by symmetry"),
+    *_stored(
+        "cases[].size",
+        "cases/*/size",
+        "dimension mirror_planes parts free_blocks contact_points dropped_points",
+    ),
     *reduction_keys("cases[].reductions"),
     Key("cases[].path", "list", "steps of the load path that was followed"),
     Key("cases[].path[]", "object", "a step"),
-    Key("cases[].path[].step", "integer", "number of the step"),
-    Key("cases[].path[].load_factor", "number?", "load factor there"),
-    Key("cases[].path[].open", "integer", "contact points open"),
-    Key("cases[].path[].slide", "integer", "contact points sliding"),
-    Key("cases[].path[].residual", "number?", "how badly the state fits the law"),
+    *_stored("cases[].path[]", "cases/*/path", "step load_factor? open slide residual?"),
     Key("cases[].time", "object", "what it took"),
     Key("cases[].time.total", "number?", "time of the solver stage", "time"),
     Key("cases[].time.solver", "number?", "time of the programs in it", "time"),
 )
 
-MECHANISM = (
-    Key(_MECHANISM, "object?", "how it fails; null where the case has no result"),
+MECHANISM_KEYS = (
+    Key(MECHANISM, "object?", "how it fails; null where the case has no result"),
     Key(
-        f"{_MECHANISM}.class",
+        f"{MECHANISM}.class",
         "string",
         "in a word: sliding, twisting, overturning (parts turn on what rests), hinging (they hinge on each other), "
         "sliding and hinging, opening",
     ),
-    Key(f"{_MECHANISM}.open", "integer", "contact points that open"),
-    Key(f"{_MECHANISM}.slide", "integer", "contact points that slide"),
-    Key(f"{_MECHANISM}.crush", "integer", "contact points that crush"),
-    Key(f"{_MECHANISM}.stick", "integer", "contact points that do none of these"),
-    Key(f"{_MECHANISM}.interfaces", "object", "interfaces by mode"),
-    Key(f"{_MECHANISM}.interfaces.*", "integer", "interfaces that stick, slide, open, hinge, twist, crush"),
-    Key(f"{_MECHANISM}.hinges", "integer", "interfaces that hinge"),
-    Key(f"{_MECHANISM}.reach", "string", "local, partial or global"),
-    Key(f"{_MECHANISM}.moving_blocks", "integer", "free blocks that move"),
-    Key(f"{_MECHANISM}.moving_weight_share", "number", "their share of the weight of the free blocks"),
-    Key(f"{_MECHANISM}.moving_parts", "integer", "rigid parts that move"),
-    Key(f"{_MECHANISM}.parts", "list", "the heaviest of them, at most 100"),
-    *part_keys(f"{_MECHANISM}.parts"),
+    Key(f"{MECHANISM}.open", "integer", "contact points that open"),
+    Key(f"{MECHANISM}.slide", "integer", "contact points that slide"),
+    Key(f"{MECHANISM}.crush", "integer", "contact points that crush"),
+    Key(f"{MECHANISM}.stick", "integer", "contact points that do none of these"),
+    Key(f"{MECHANISM}.interfaces", "object", "interfaces by mode"),
+    Key(f"{MECHANISM}.interfaces.*", "integer", "interfaces that stick, slide, open, hinge, twist, crush"),
+    Key(f"{MECHANISM}.hinges", "integer", "interfaces that hinge"),
+    Key(f"{MECHANISM}.reach", "string", "local, partial or global"),
+    Key(f"{MECHANISM}.moving_blocks", "integer", "free blocks that move"),
+    Key(f"{MECHANISM}.moving_weight_share", "number", "their share of the weight of the free blocks"),
+    Key(f"{MECHANISM}.moving_parts", "integer", "rigid parts that move"),
+    Key(f"{MECHANISM}.parts", "list", "the heaviest of them, at most 100"),
+    *part_keys(f"{MECHANISM}.parts"),
     *FAILURE,
-    Key(f"{_MECHANISM}.work", "object", "powers, with unit power of the live load"),
-    Key(f"{_MECHANISM}.work.live", "number", "load factor times the power of the live load"),
-    Key(f"{_MECHANISM}.work.dead", "number", "of the dead load, negative where weights are lifted"),
-    Key(f"{_MECHANISM}.work.friction", "number", "dissipated by sliding under friction"),
-    Key(f"{_MECHANISM}.work.cohesion", "number", "dissipated by sliding against cohesion"),
-    Key(f"{_MECHANISM}.work.normal", "number", "dissipated by normal forces"),
-    Key(f"{_MECHANISM}.work.joints", "object", "dissipated by joint law"),
-    Key(f"{_MECHANISM}.work.joints.*", "number", "in the interfaces of a joint law"),
-    Key(f"{_MECHANISM}.work.groups", "object", "of the loads by group"),
-    Key(f"{_MECHANISM}.work.groups.*", "object", "of a group"),
-    Key(f"{_MECHANISM}.work.groups.*.live", "number", "of the live load on it"),
-    Key(f"{_MECHANISM}.work.groups.*.dead", "number", "of the dead load on it"),
+    Key(f"{MECHANISM}.work", "object", "powers, with unit power of the live load"),
+    Key(f"{MECHANISM}.work.live", "number", "load factor times the power of the live load"),
+    Key(f"{MECHANISM}.work.dead", "number", "of the dead load, negative where weights are lifted"),
+    Key(f"{MECHANISM}.work.friction", "number", "dissipated by sliding under friction"),
+    Key(f"{MECHANISM}.work.cohesion", "number", "dissipated by sliding against cohesion"),
+    Key(f"{MECHANISM}.work.normal", "number", "dissipated by normal forces"),
+    Key(f"{MECHANISM}.work.joints", "object", "dissipated by joint law"),
+    Key(f"{MECHANISM}.work.joints.*", "number", "in the interfaces of a joint law"),
+    Key(f"{MECHANISM}.work.groups", "object", "of the loads by group"),
+    Key(f"{MECHANISM}.work.groups.*", "object", "of a group"),
+    Key(f"{MECHANISM}.work.groups.*.live", "number", "of the live load on it"),
+    Key(f"{MECHANISM}.work.groups.*.dead", "number", "of the dead load on it"),
     *reaction_keys("cases[].reactions"),
 )
 
@@ -265,7 +421,7 @@ def _position(owner: str) -> tuple[Key, ...]:
 
 
 POSITIONS = (*_position("series[].positions[]"), *_position("series[].worst"))
-RUN_RECORD: tuple[Key, ...] = (*RUN, *MODEL, *CASE, *VERIFICATION, *EFFORT, *MECHANISM, *SERIES, *POSITIONS)
+RUN_RECORD: tuple[Key, ...] = (*RUN, *MODEL, *CASE, *EFFORT, *MECHANISM_KEYS, *SERIES, *POSITIONS)
 """keys of the record of a run"""
 RECORD: tuple[Key, ...] = (*RUN_RECORD, *CHECK)
 

@@ -13,10 +13,9 @@ from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
 from mbla.results.needs import CaseNeeds
 from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
-from mbla.results.records.case_json import case_json
+from mbla.results.record.scene import scene_of
+from mbla.results.records.case_json import case_json, reductions_json, series_json
 from mbla.results.records.numbers import number, numbers
-from mbla.results.records.reduction_json import reductions_json
-from mbla.results.records.series_json import series_json
 from mbla.results.results import Results
 from mbla.results.series import series_of
 
@@ -35,7 +34,7 @@ def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]
         "model": {"standing": standing_of(results.cases), "dimension": dimension_of(results.cases)}
         | model_json(results.model)
         | contacts_json(results),
-        "cases": [case_json(results.model, results.contacts, case, on_demand=on_demand) for case in results.cases],
+        "cases": [case_json(scene_of(results, case), on_demand=on_demand) for case in results.cases],
         "series": [series_json(results.model, series) for series in series_of(results.cases)],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in notices_of(results)],

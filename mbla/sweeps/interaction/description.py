@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.results.records.key import Key
+from mbla.results.records.description import Key
 
 _ANGLE = "degrees; azimuth from +x towards +y, or angle of two loads: A times cosine, B times sine"
 

@@ -11,8 +11,8 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
+from mbla.results.records.description import Key
 from mbla.results.records.json_record import notice_json
-from mbla.results.records.key import Key
 from mbla.results.records.numbers import number
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.fragility import fragility_keys

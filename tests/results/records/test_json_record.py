@@ -6,8 +6,8 @@ import pytest
 
 from mbla.results.needs import CaseNeeds
 from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
+from mbla.results.records.case_json import powers_json
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
-from mbla.results.records.power_json import powers_json
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
 from tests.results.synthetic import STEP, full_results, tower_results

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mbla.results.records.json_record import results_json
-from mbla.results.records.on_demand import OnDemand
+from mbla.results.records.mechanism_json import OnDemand
 from tests.results.synthetic import tower_results
 
 
