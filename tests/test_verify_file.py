@@ -15,13 +15,13 @@ from mbla.results.record.quantity import WORDS
 from mbla.run import run
 from mbla.run_options import RunOptions
 from mbla.verify_file import verify_file
+from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing, with_case, written
 from tests.solution.convex_structures import TWIST
 
 NON_ASSOCIATIVE = BLOCK.replace("flow_rule: associative", "flow_rule: non_associative")
 LARGE = MOST / 2
-DECKS = Path(__file__).parents[1] / "decks" / "benchmarks"
 CUBE = """\
 v 0 0 0
 v 1 0 0
@@ -197,7 +197,7 @@ def test_what_the_deck_asks_for_is_there(what: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("upright", [1e9, np.inf])
 def test_the_load_across_that_a_level_table_bears_is_proved(upright: float, tmp_path: Path) -> None:
-    run(DECKS / "tilting_block_cohesion.yaml", RunOptions(folder=tmp_path / "out"))
+    run(BENCHMARKS["tilting_block_cohesion"], RunOptions(folder=tmp_path / "out"))
     path = tmp_path / "out" / "tilting_block_cohesion.h5"
     assert differences(path) == ""
     change(path, "cases/tips/tilt/upright", upright)

@@ -22,10 +22,10 @@ from mbla.run_options import RunOptions
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.verification.verify import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN
 from mbla.verify_file import verify_file
+from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import with_case, written
 
-DECKS = Path(__file__).parents[1] / "decks" / "benchmarks"
 YES, SELF_STRESS, NO, DOUBTFUL = Standing.YES, Standing.SELF_STRESS, Standing.NO, Standing.DOUBTFUL
 LOCKED = "it cannot be solved and stand only by self-stress, or not at all"
 NOT_BROUGHT_ABOUT = "forces under the dead load alone do not come from the displacements of the blocks"
@@ -35,7 +35,7 @@ NOT_BROUGHT_ABOUT = "forces under the dead load alone do not come from the displ
 def originals(tmp_path_factory: pytest.TempPathFactory) -> dict[Standing, Results]:
     """Runs without dilatancy that stand, stand only by self-stress and do not stand, as they were written."""
     folder = tmp_path_factory.mktemp("standing")
-    decks = {SELF_STRESS: DECKS / "bar_between_walls.yaml", NO: DECKS / "incline_too_steep.yaml"}
+    decks = {SELF_STRESS: BENCHMARKS["bar_between_walls"], NO: BENCHMARKS["incline_too_steep"]}
     decks[YES] = folder / "block.yaml"
     decks[YES].write_text(BLOCK.replace("associative}", "non_associative}"), encoding="utf-8")
     found = {}

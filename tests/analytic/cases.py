@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
@@ -14,8 +13,8 @@ from mbla.program import assemble
 from mbla.program.reductions import unreduced
 from mbla.solution import Checks, Solution, Status, solve, verified_status, verify
 from mbla.solution.settings import solver_settings
+from tests.decks.folder import BENCHMARKS
 
-BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 ASSOCIATIVE = "analysis.flow_rule=associative"
 
 
@@ -45,7 +44,7 @@ class Answer:
 
 def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     """Answers of all load cases of a benchmark deck."""
-    read = read_deck(BENCHMARKS / f"{deck}.yaml", overrides)
+    read = read_deck(BENCHMARKS[deck], overrides)
     model = build_model(read)
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:

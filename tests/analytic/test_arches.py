@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from mbla.deck import read_deck
 from mbla.model import build_model
 from tests.analytic.arches import basket, catenary, elliptic, joints, pointed_joints, push_factor
 from tests.analytic.planar import Array
+from tests.decks.folder import BENCHMARKS
 
-DECKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 MU = 0.7
 
 
@@ -32,7 +30,7 @@ NAMES = ("arch_pointed", "arch_elliptic", "arch_basket", "arch_catenary", "arch_
 
 @pytest.mark.parametrize("name", NAMES)
 def test_figures_of_the_decks(name: str) -> None:
-    deck = read_deck(DECKS / f"{name}.yaml")
+    deck = read_deck(BENCHMARKS[name])
     assert push_factor(*of_deck(name), MU) == pytest.approx(deck.content.expected["push_x"].load_factor, rel=1e-6)
 
 
@@ -40,7 +38,7 @@ def test_figures_of_the_decks(name: str) -> None:
 def test_voussoirs_of_the_decks(name: str) -> None:
     """Every corner of the generated arch lies where the arch drawn a second time has one."""
     inner, outer = of_deck(name)
-    vertices = build_model(read_deck(DECKS / f"{name}.yaml")).blocks.vertices.reshape(-1, 8, 3)[:, 4:][..., [0, 2]]
+    vertices = build_model(read_deck(BENCHMARKS[name])).blocks.vertices.reshape(-1, 8, 3)[:, 4:][..., [0, 2]]
     if name.startswith("arch_catenary"):  # springings of the centre line at the origin, in both
         assert abs(inner[0, 1] + outer[0, 1]) < 1e-9
     for corner, drawn in enumerate((inner[:-1], inner[1:], outer[1:], outer[:-1])):

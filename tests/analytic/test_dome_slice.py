@@ -3,9 +3,9 @@ from __future__ import annotations
 import pytest
 
 from tests.analytic.dome_slice import least_thickness
-from tests.decks.folder import DECKS, run_deck
+from tests.decks.folder import BENCHMARKS, run_deck
 
-DECK = DECKS / "benchmarks" / "dome_of_slices.yaml"
+DECK = BENCHMARKS["dome_of_slices"]
 
 
 def test_thin_slices_are_heymans() -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.decks.folder import DECKS
+from tests.decks.folder import BENCHMARKS
 from tests.line import HEAD, factor_of
 
 SLABS = (
@@ -59,7 +59,7 @@ def test_dilatancy_of_bed_and_head_joints(at_bed: float, at_head: float) -> None
     Friction opposes the slip on each face, so that N_b = W + T_h v_z/s_z, N_h = P + T_b v_x/s_x and the pull is
     T_b/s_x + T_h/s_z, with the slips s_x = |(v_x, 1)| on the bed and s_z = |(1, v_z)| on the head.
     """
-    text = (DECKS / "benchmarks" / "bed_and_head_joints.yaml").read_text(encoding="utf-8")
+    text = BENCHMARKS["bed_and_head_joints"].read_text(encoding="utf-8")
     mu_b, mu_h, press = 0.6, 0.3, 0.8
     tan_b, tan_h = math.tan(math.radians(at_bed)), math.tan(math.radians(at_head))
     rise = tan_b * math.sqrt((1 + tan_h**2) / (1 - (tan_b * tan_h) ** 2))

@@ -14,12 +14,14 @@ from tests.analytic.planar import (
     PlanarJoint,
     Rectangle,
     arch_load_factor,
+    centre_line_arch,
     load_factor,
     polygon_arch,
     rectangles_in_contact,
     sector_arch,
     wall_load_factor,
 )
+from tests.decks.folder import BENCHMARKS
 from tests.line import HEAD
 from tests.line import load_factor as mbla_load_factor
 
@@ -64,26 +66,39 @@ def expected(deck: str, case: str) -> float:
     return figure
 
 
+ARCHES = [name for name in BENCHMARKS if name.startswith("cocchetti_rizzi_mu_")]
+
+
+@pytest.mark.parametrize("name", ARCHES)
+def test_arches_of_cocchetti_and_rizzi(name: str) -> None:
+    """The thickness of a deck is just above or below the published least; so is what the linear program says of it."""
+    content = read_deck(BENCHMARKS[name]).content
+    mu, thickness = (float(content.parameters[key]) for key in ("mu", "t"))
+    planar = arch_load_factor(centre_line_arch(thickness, 86), mu)
+    assert (planar is not None) == name.endswith("stands")
+    assert content.expected["push_x"].load_factor == (planar and pytest.approx(planar, rel=DIGITS))
+
+
 @pytest.mark.parametrize("number", [1, 3, 5])
 def test_walls_of_ferris_and_tin_loi(number: int) -> None:
     rows = FERRIS_TIN_LOI[number]
     courses = [rows[name] for name in str(rows["courses"]).split()]
     planar = wall_load_factor(courses, 0.65)  # type: ignore[arg-type]  # the courses are lists, the order is a text
     for deck in (f"ferris_wall_{number}", f"ferris_wall_{number}_associative", f"ferris_wall_{number}_slope"):
-        assert expected(f"benchmarks/{deck}", "push_x") == pytest.approx(planar, rel=DIGITS)
+        assert expected(f"benchmarks/published/{deck}", "push_x") == pytest.approx(planar, rel=DIGITS)
 
 
 @pytest.mark.parametrize("n", [5, 10, 20])
 def test_running_bond_walls(n: int) -> None:
     full, half = [1.0] * n, [0.5] + [1.0] * (n - 1) + [0.5]
     planar = wall_load_factor([half if course % 2 else full for course in range(n)], 0.65)
-    assert expected(f"benchmarks/wall_{n}x{n}", "in_plane") == pytest.approx(planar, rel=DIGITS)
+    assert expected(f"benchmarks/closed_forms/wall_{n}x{n}", "in_plane") == pytest.approx(planar, rel=DIGITS)
 
 
 @pytest.mark.parametrize("voussoirs", [20, 50])
 def test_semicircular_arches(voussoirs: int) -> None:
     planar = arch_load_factor(polygon_arch(0.925, 1.075, np.pi, voussoirs), 0.65)
-    assert expected(f"benchmarks/arch_{voussoirs}_voussoirs", "push_x") == pytest.approx(planar, rel=5e-8)
+    assert expected(f"benchmarks/closed_forms/arch_{voussoirs}_voussoirs", "push_x") == pytest.approx(planar, rel=5e-8)
 
 
 def test_oppenheim_refers_to_the_mean_radius() -> None:
@@ -94,7 +109,7 @@ def test_oppenheim_refers_to_the_mean_radius() -> None:
     assert mean == pytest.approx(0.370010, abs=5e-7)
     assert inner == pytest.approx(0.33258, abs=1e-5)
     assert outer == pytest.approx(0.41483, abs=1e-5)
-    assert expected("benchmarks/oppenheim_arch", "push_x") == pytest.approx(mean, rel=5e-8)
+    assert expected("benchmarks/published/oppenheim_arch", "push_x") == pytest.approx(mean, rel=5e-8)
 
 
 def test_the_arch_of_the_tutorial() -> None:
@@ -117,7 +132,9 @@ def test_the_wall_of_the_tutorial() -> None:
 @pytest.mark.parametrize(("case", "towards"), [("to_thick", 1.0), ("to_thin", -1.0)])
 def test_rough_leaves(case: str, towards: float) -> None:
     leaves = [Rectangle(-0.15, 0.0, 0.0, 2.0), Rectangle(0.0, 0.3, 0.0, 2.0)]
-    assert expected("benchmarks/leaves_rough", case) == pytest.approx(_push(leaves, 0.6, towards), rel=5e-8)
+    assert expected("benchmarks/closed_forms/leaves_rough", case) == pytest.approx(
+        _push(leaves, 0.6, towards), rel=5e-8
+    )
 
 
 @pytest.mark.parametrize("seed", range(6))

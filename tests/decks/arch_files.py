@@ -1,7 +1,7 @@
 """One arch as files of every kind that is read; ``python -m tests.decks.arch_files`` writes them again.
 
-Nine voussoirs, those of the item ``arch`` of ``decks/benchmarks/arch_from_generator.yaml``. Each file has what is usual
-in files of its kind: other units and axes, triangles, transforms, vertices that faces do not share.
+Nine voussoirs, those of the item ``arch`` of ``decks/benchmarks/formats/arch_from_generator.yaml``. Each file has
+what is usual in files of its kind: other units and axes, triangles, transforms, vertices that faces do not share.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from mbla.arrays import FloatArray
 from mbla.model.solids.polyhedra import HEXAHEDRON
 from tests.decks.folder import DECKS
 
-FOLDER = DECKS / "benchmarks" / "data"
+FOLDER = DECKS / "benchmarks" / "formats" / "data"
 SPAN, THICKNESS, WIDTH, VOUSSOIRS = 4.0, 0.6, 1.0, 9
 REMARK = "Arch of nine voussoirs. Generated: tests/decks/arch_files.py"
 TRIANGLES = [triangle for a, b, c, d in HEXAHEDRON for triangle in ((a, b, c), (a, c, d))]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from tests.decks.folder import DECKS
 
-FILE = DECKS / "benchmarks" / "data" / "dome_24_voussoirs.obj"
+FILE = DECKS / "benchmarks" / "closed_forms" / "data" / "dome_24_voussoirs.obj"
 RINGS, SEGMENTS, TOP, RADIUS, THICKNESS = 3, 8, 60.0, 2.0, 0.3
 """voussoirs up and around; latitude of the oculus [degrees]; mean radius and thickness [m]"""
 

@@ -19,8 +19,19 @@ from mbla.deck import Deck, read_deck
 
 ROOT = Path(__file__).parents[2]
 DECKS = ROOT / "decks"
-FOLDERS = ("tutorials", "benchmarks", "structures", "regressions", "tradeoff", "sweeps/base")
+FOLDERS = (
+    "tutorials",
+    "benchmarks/closed_forms",
+    "benchmarks/published",
+    "benchmarks/formats",
+    "structures",
+    "regressions",
+    "tradeoff",
+    "sweeps/base",
+)
 PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder}/*.yaml")))
+BENCHMARKS = {path.stem: path for path in PATHS if path.parts[-3] == "benchmarks"}
+"""decks of closed forms and published cases by their names"""
 LONG = (
     "regressions/shelf_across",
     "structures/arch_bridge",

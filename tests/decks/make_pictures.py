@@ -45,8 +45,10 @@ TABLE = (
     DeckPicture("wall_push_x", README, "push_x"),
     DeckPicture("wall_push_x_forces", README, "push_x", ("--kind", "forces")),
     DeckPicture("wall_model", README, "push_x", ("--kind", "model")),
-    DeckPicture("oppenheim_arch_push_x", "benchmarks/oppenheim_arch.yaml", "push_x"),
-    DeckPicture("oppenheim_arch_push_x_forces", "benchmarks/oppenheim_arch.yaml", "push_x", ("--kind", "forces")),
+    DeckPicture("oppenheim_arch_push_x", "benchmarks/published/oppenheim_arch.yaml", "push_x"),
+    DeckPicture(
+        "oppenheim_arch_push_x_forces", "benchmarks/published/oppenheim_arch.yaml", "push_x", ("--kind", "forces")
+    ),
     DeckPicture("settling_wall_sinks", "tutorials/settling_wall.yaml", "sinks"),
     DeckPicture("obj_wall_out_of_plane", "tutorials/obj_wall.yaml", "out_of_plane", SMALLER),
     DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x", SMALLER),

@@ -16,7 +16,7 @@ CLOSED_FORMS: tuple[tuple[str, int, tuple[str, ...]], ...] = (
     ("regressions/trapezium_crushing", 1, ("t=1.5",)),
     ("regressions/ground_given_twice_crushing", 0, ()),
     *(
-        ("benchmarks/eccentric_compression", 1, (f"ecc={ecc}", f"fc={fc}"))
+        ("benchmarks/closed_forms/eccentric_compression", 1, (f"ecc={ecc}", f"fc={fc}"))
         for ecc, fc in ((0.1, 1e6), (0.4, 3e5), (0.0, 1e7))
     ),
 )

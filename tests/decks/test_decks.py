@@ -24,7 +24,7 @@ ROUNDED = 2e-8
 """Figures of closed forms and linear programs are written with eight digits."""
 
 
-LOCKED = ("benchmarks/groove_steep_friction", "regressions/block_under_a_ceiling")
+LOCKED = ("benchmarks/closed_forms/groove_steep_friction", "regressions/block_under_a_ceiling")
 """No associative load factor, and one without dilatancy all the same."""
 
 
@@ -155,7 +155,9 @@ def test_the_first_line_leads_an_editor_to_the_schema(path: Path) -> None:
     assert (path.parent / first.removeprefix(prefix)).resolve() == ROOT / "schemas" / "deck.schema.json"
 
 
-@pytest.mark.parametrize("name", ["tutorials/arch", "benchmarks/ferris_wall_3", "benchmarks/overhang_too_far"])
+@pytest.mark.parametrize(
+    "name", ["tutorials/arch", "benchmarks/published/ferris_wall_3", "benchmarks/closed_forms/overhang_too_far"]
+)
 def test_a_second_run_gives_the_same_digits(name: str) -> None:
     path = path_of(name)
     first, second = outcome_of(path).record, run_deck(path).record
@@ -167,7 +169,8 @@ def test_a_second_run_gives_the_same_digits(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "status"), [("tutorials/block", 0), ("tutorials/dolmen", 0), ("benchmarks/incline_too_steep", 5)]
+    ("name", "status"),
+    [("tutorials/block", 0), ("tutorials/dolmen", 0), ("benchmarks/closed_forms/incline_too_steep", 5)],
 )
 def test_in_a_process_of_its_own(name: str, status: int, tmp_path: Path) -> None:
     path = path_of(name)
@@ -186,14 +189,14 @@ def test_a_wrong_expectation_is_found() -> None:
 
 def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
     """Verified by statics of its own; within a thousandth, which is how closely the path is followed."""
-    (case, expectation), *_ = cases_of(path_of("benchmarks/plank_in_clamp"))
+    (case, expectation), *_ = cases_of(path_of("benchmarks/closed_forms/plank_in_clamp"))
     assert case["peak_load_factor"] == pytest.approx(2.1725, rel=1e-3)
     assert expectation.load_factor is not None
     assert expectation.load_factor < case["peak_load_factor"] < case["kinematic_bound"]
 
 
 def test_friction_polyhedra_enclose_the_cone() -> None:
-    (case, _), *_ = cases_of(path_of("benchmarks/block_sliding_polyhedral"))
+    (case, _), *_ = cases_of(path_of("benchmarks/closed_forms/block_sliding_polyhedral"))
     inside, outside = case["bracket"]["inner"], case["bracket"]["outer"]
     assert inside == pytest.approx(0.4 * math.cos(math.pi / 8) / math.cos(math.pi / 24), rel=1e-6)
     assert outside == pytest.approx(0.4 / math.cos(math.pi / 12), rel=1e-6)
@@ -201,11 +204,11 @@ def test_friction_polyhedra_enclose_the_cone() -> None:
 
 
 def test_a_locked_wedge_is_shown_to_be_locked() -> None:
-    outcome = outcome_of(path_of("benchmarks/groove_locked"))
+    outcome = outcome_of(path_of("benchmarks/closed_forms/groove_locked"))
     assert outcome.record["cases"][0]["load_factor"] is None
     assert outcome.record["cases"][0]["verified"]
 
 
 def test_parts_that_stand_apart_are_solved_apart() -> None:
-    for case, _ in cases_of(path_of("benchmarks/two_piers")):
+    for case, _ in cases_of(path_of("benchmarks/closed_forms/two_piers")):
         assert case["size"]["parts"] == 2

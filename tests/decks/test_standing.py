@@ -15,7 +15,7 @@ from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load, worst_standing
 from tests.decks.folder import deck_of, every_deck, name_of
 
-LOCKED_IN = ("benchmarks/bar_between_walls",)
+LOCKED_IN = ("benchmarks/closed_forms/bar_between_walls",)
 
 
 @every_deck

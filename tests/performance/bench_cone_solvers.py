@@ -41,6 +41,7 @@ from mbla.solution.linear_algebra.mkl import mkl_works
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
+from tests.decks.folder import BENCHMARKS
 from tests.line import HEAD, line_of, line_of_file
 from tests.performance.bench_solver import SLAB, wall
 from tests.performance.recording import record
@@ -93,7 +94,7 @@ MODELS = {
     **{f"arch of {n} voussoirs": Model(ARCH, (f"parameters.n={n}",), False) for n in (20, 100, 500)},
     **{f"arch of {n} voussoirs, spatial": Model(ARCH, (f"parameters.n={n}",)) for n in (20, 100, 500)},
     "cross vault": Model(DECKS / "tutorials" / "crossvault.yaml"),
-    "dome": Model(DECKS / "benchmarks" / "dome_24_voussoirs.yaml"),
+    "dome": Model(BENCHMARKS["dome_24_voussoirs"]),
 }
 LARGE = {"wall 100 x 100, spatial": _wall(100, 100, True)}
 """only when named, and by the condensed method with the factorisation that it chooses"""

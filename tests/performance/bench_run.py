@@ -13,6 +13,7 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
+from tests.decks.folder import BENCHMARKS
 from tests.performance.recording import best_time, record
 
 DECKS = Path(__file__).parents[2] / "decks"
@@ -29,10 +30,10 @@ def cases(folder: str) -> dict[str, tuple[str, ...]]:
     return {
         "help": ("--help",),
         "arch tutorial": ("run", str(DECKS / "tutorials" / "arch.yaml"), *output),
-        "wall 20x20": ("run", str(DECKS / "benchmarks" / "wall_20x20.yaml"), "--case", "in_plane", *output),
+        "wall 20x20": ("run", str(BENCHMARKS["wall_20x20"]), "--case", "in_plane", *output),
         "wall 3 of Ferris and Tin-Loi, non-associative": (
             "run",
-            str(DECKS / "benchmarks" / "ferris_wall_3.yaml"),
+            str(BENCHMARKS["ferris_wall_3"]),
             *output,
         ),
         "cross vault, two directions": ("run", str(DECKS / "tutorials" / "crossvault.yaml"), *output),

@@ -23,10 +23,9 @@ from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.part import solve_part
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import IterationRecord
-from tests.line import HEAD, WALL, Line, line_of
+from tests.decks.folder import BENCHMARKS
+from tests.line import HEAD, WALL, Line, line_of, line_of_file
 from tests.performance.recording import record
-
-BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 
 SLAB = (
     HEAD
@@ -60,18 +59,14 @@ load_cases:
 class Case:
     """A deck text with overrides; spatial: without reductions."""
 
-    text: str
+    deck: str | Path
     overrides: tuple[str, ...] = ()
     spatial: bool = False
 
     def line(self) -> Line:
         """Everything up to the program."""
-        return line_of(self.text, "analysis.flow_rule=non_associative", *self.overrides)
-
-
-def benchmark(name: str) -> str:
-    """Text of a benchmark deck that includes no other file."""
-    return (BENCHMARKS / f"{name}.yaml").read_text(encoding="utf-8")
+        read = line_of_file if isinstance(self.deck, Path) else line_of
+        return read(self.deck, "analysis.flow_rule=non_associative", *self.overrides)  # type: ignore[arg-type]
 
 
 def wall(m: int, n: int) -> tuple[str, str]:
@@ -80,9 +75,10 @@ def wall(m: int, n: int) -> tuple[str, str]:
 
 
 CASES = {
-    **{f"Ferris wall {number}": Case(benchmark(f"ferris_wall_{number}")) for number in (1, 3, 5)},
+    **{f"Ferris wall {number}": Case(BENCHMARKS[f"ferris_wall_{number}"]) for number in (1, 3, 5)},
     **{
-        f"Ferris wall {number}, spatial": Case(benchmark(f"ferris_wall_{number}"), spatial=True) for number in (1, 3, 5)
+        f"Ferris wall {number}, spatial": Case(BENCHMARKS[f"ferris_wall_{number}"], spatial=True)
+        for number in (1, 3, 5)
     },
     "wall 5 x 5 on the ground": Case(WALL),
     "wall 10 x 10": Case(SLAB, wall(10, 10)),
@@ -91,10 +87,10 @@ CASES = {
     "wall 20 x 20, spatial": Case(SLAB, wall(20, 20), spatial=True),
     "wall 40 x 25": Case(SLAB, wall(40, 25)),
     "arch of 27 voussoirs": Case(ARCH),
-    "arch of 20 voussoirs": Case(benchmark("arch_20_voussoirs")),
-    "arch of 50 voussoirs": Case(benchmark("arch_50_voussoirs")),
-    "Oppenheim's arch": Case(benchmark("oppenheim_arch")),
-    "block in a groove": Case(benchmark("groove")),
+    "arch of 20 voussoirs": Case(BENCHMARKS["arch_20_voussoirs"]),
+    "arch of 50 voussoirs": Case(BENCHMARKS["arch_50_voussoirs"]),
+    "Oppenheim's arch": Case(BENCHMARKS["oppenheim_arch"]),
+    "block in a groove": Case(BENCHMARKS["groove"]),
 }
 LARGE = {"wall 40 x 25, spatial": Case(SLAB, wall(40, 25), spatial=True)}
 """only when named"""

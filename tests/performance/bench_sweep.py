@@ -42,9 +42,10 @@ from mbla.sweeps.command import FAILED_POINTS
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plain, Plan, Task
 from mbla.sweeps.worker.runner import PointRunner
+from tests.decks.folder import BENCHMARKS
 from tests.performance.recording import record
 
-DECK = Path(__file__).parents[2] / "decks" / "benchmarks" / "arch_20_voussoirs.yaml"
+DECK = BENCHMARKS["arch_20_voussoirs"]
 CASE = "push_x"
 COLUMNS: tuple[str, ...] = SweepContent.model_fields["results"].get_default(call_default_factory=True)
 """those of a sweep file that names none"""

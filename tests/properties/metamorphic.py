@@ -31,7 +31,7 @@ SEEDS = range(300, 320)
 ODD = (Verdict.EXCEPTION, Verdict.OTHER, Verdict.NOTHING)
 FLOWS = ("associative", "non_associative")
 
-ALIKE = ("benchmarks/arch_from_", "benchmarks/cocchetti_rizzi_mu_3")
+ALIKE = ("benchmarks/formats/arch_from_", "benchmarks/published/cocchetti_rizzi_mu_3")
 """beginnings of names of decks that are one structure many times: the last of each stands for all"""
 
 EXPLAINED: dict[tuple[str, str], str] = {

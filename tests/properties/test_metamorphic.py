@@ -17,7 +17,7 @@ from tests.properties.rigid_motions import moved_scene
 from tests.properties.scenes import Solved, solve_scene, value_of
 from tests.properties.transformations import TABLE
 
-FEW = ("benchmarks/groove", "benchmarks/eccentric_compression", "random/302")
+FEW = ("benchmarks/closed_forms/groove", "benchmarks/closed_forms/eccentric_compression", "random/302")
 """a wedge between two planes, a joint that crushes, and friction that locks resultants of interfaces"""
 
 
@@ -37,11 +37,11 @@ def test_every_scene(name: str) -> None:
 
 def groove() -> Solved:
     """Solved once for each test that asks."""
-    return solve_scene(scene_named("benchmarks/groove"))
+    return solve_scene(scene_named("benchmarks/closed_forms/groove"))
 
 
 def test_what_moves_against_its_relation_is_an_exception() -> None:
-    scene, solved = scene_named("benchmarks/groove"), groove()
+    scene, solved = scene_named("benchmarks/closed_forms/groove"), groove()
     stronger = live_load_times(8.0)  # lowers the factor
     verdicts = {
         relation: compare(scene, solved, Transformation("stronger live load", relation, "", stronger))[0].verdict
@@ -55,7 +55,7 @@ def test_what_moves_against_its_relation_is_an_exception() -> None:
 
 
 def test_reactions_that_do_not_turn_are_seen() -> None:
-    scene, solved = scene_named("benchmarks/groove"), groove()
+    scene, solved = scene_named("benchmarks/closed_forms/groove"), groove()
     rotate = next(row for row in TABLE if row.name == "rotate with gravity")
     wrong = replace(rotate, turn=lambda _: np.eye(3))
     assert compare(scene, solved, rotate)[0].verdict is Verdict.EQUAL
@@ -63,7 +63,7 @@ def test_reactions_that_do_not_turn_are_seen() -> None:
 
 
 def test_halves_make_the_whole_and_lean_on_glue() -> None:
-    scene, solved = scene_named("benchmarks/groove"), groove()
+    scene, solved = scene_named("benchmarks/closed_forms/groove"), groove()
     halved = split_in_two(scene, 0.35)
     assert halved is not None
     other = solve_scene(halved)
@@ -77,7 +77,7 @@ def test_halves_make_the_whole_and_lean_on_glue() -> None:
 
 
 def test_a_structure_turned_without_its_loads_has_another_factor() -> None:
-    scene, solved = scene_named("benchmarks/groove"), groove()
+    scene, solved = scene_named("benchmarks/closed_forms/groove"), groove()
     turned = moved_scene(scene, rotation((0, 0, 1), 30.0), np.zeros(3))
     left = replace(turned, model=replace(turned.model, load_cases=scene.model.load_cases))
     assert value_of(solve_scene(left).cases[0]) != pytest.approx(value_of(solved.cases[0]), rel=1e-3)

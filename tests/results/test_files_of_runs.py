@@ -25,6 +25,7 @@ from mbla.results.records.json_record import check_json, results_json
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
+from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import full_results
 
 ROOT = Path(__file__).parents[2]
@@ -53,14 +54,14 @@ TYPES: dict[str, tuple[type, ...]] = {
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs")
     for name in DECKS:
-        deck = ROOT / "decks" / "benchmarks" / f"{name}.yaml"
+        deck = BENCHMARKS[name]
         run(deck, RunOptions(folder=folder, overrides=("output.vtu=false",)))
     return folder
 
 
 def records(folder: Path) -> list[dict[str, Any]]:
     """Of the runs, of a check and of results with every field filled."""
-    beam = ROOT / "decks" / "benchmarks" / "beam_under_travelling_load.yaml"
+    beam = BENCHMARKS["beam_under_travelling_load"]
     own = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in DECKS]
     full = full_results()
     lonely = replace(full.contacts, report=replace(full.contacts.report, isolated=np.array([2])))

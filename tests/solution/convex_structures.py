@@ -13,7 +13,7 @@ from mbla.solution.solution import Status
 from mbla.solution.verification.verify import verify
 from tests.line import HEAD, Line, line_of, solution_of
 
-DECKS = Path(__file__).parents[2] / "decks" / "benchmarks"
+DECKS = Path(__file__).parents[2] / "decks" / "benchmarks" / "closed_forms"
 
 TWIST = (
     HEAD

@@ -13,9 +13,9 @@ from mbla.results.listing.verdict_words import load_factor_words, uniqueness_wor
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
+from tests.decks.folder import BENCHMARKS
 from tests.line import WALL, case_of
 
-BENCHMARKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 ARCH = (Path(__file__).parents[2] / "decks" / "tradeoff" / "arch.yaml").read_text(encoding="utf-8")
 DOME = (Path(__file__).parents[2] / "decks" / "tutorials" / "dome.yaml").read_text(encoding="utf-8")
 WALL_10 = 0.592864
@@ -107,7 +107,7 @@ def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative
     The load factor without normality lies between them, above what the static bound proves; the upper limit that is
     named beside it is the kinematic bound, which it does not exceed.
     """
-    deck = BENCHMARKS / "cocchetti_rizzi_mu_310_stands.yaml"
+    deck = BENCHMARKS["cocchetti_rizzi_mu_310_stands"]
     model, result = case_of(deck.read_text(encoding="utf-8"), "analysis.accuracy=draft", WITHOUT)
     checks = result.checks
     assert checks.static_bound < factor(result) < checks.kinematic_bound

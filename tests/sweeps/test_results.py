@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,9 +12,8 @@ from mbla.deck.units import Units
 from mbla.results.records.json_record import results_json
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.results import reason_of, result_columns, result_faults, result_places, values_of
+from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_results
-
-DECKS = Path(__file__).parents[2] / "decks" / "benchmarks"
 
 
 @pytest.fixture(scope="module")
@@ -147,7 +145,7 @@ def test_a_travelling_load_whose_worst_is_not_known_has_no_load_factor(
 
 
 def test_a_travelling_load_as_it_is_run() -> None:
-    deck = (DECKS / "beam_under_travelling_load.yaml").read_text(encoding="utf-8")
+    deck = BENCHMARKS["beam_under_travelling_load"].read_text(encoding="utf-8")
     record = results_json(mbla.run(deck).records)
     assert record["series"]
     for travel in record["series"]:

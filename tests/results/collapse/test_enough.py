@@ -52,10 +52,10 @@ def with_rest_fixed(line: Line, mechanics: Mechanics) -> tuple[Line, int]:
         ("tutorials/wall.yaml", ()),
         ("tutorials/arch.yaml", ()),
         ("tutorials/buttressed_wall.yaml", ()),
-        ("benchmarks/ferris_wall_1.yaml", ()),
-        ("benchmarks/ferris_wall_3.yaml", ()),
-        ("benchmarks/wall_5x5.yaml", ()),
-        ("benchmarks/block_sliding.yaml", ()),
+        ("benchmarks/published/ferris_wall_1.yaml", ()),
+        ("benchmarks/published/ferris_wall_3.yaml", ()),
+        ("benchmarks/closed_forms/wall_5x5.yaml", ()),
+        ("benchmarks/closed_forms/block_sliding.yaml", ()),
     ],
 )
 def test_associative_flow_has_the_same_load_factor_with_the_rest_fixed(deck: str, overrides: tuple[str, ...]) -> None:
@@ -74,7 +74,7 @@ def test_some_of_these_have_something_to_leave_out() -> None:
 
 def test_fixing_what_moves_does_change_it() -> None:
     """Without the heaviest part to move nothing can: the blocks left are locked between fixed ones."""
-    line = line_of_file(DECKS / "benchmarks/ferris_wall_1.yaml", ASSOCIATIVE)
+    line = line_of_file(DECKS / "benchmarks/published/ferris_wall_1.yaml", ASSOCIATIVE)
     mechanics = solved(line)
     parts = rigid_parts(line.model, line.contacts, mechanics.mechanism)
     heaviest = np.flatnonzero(parts == 1)

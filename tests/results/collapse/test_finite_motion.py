@@ -20,7 +20,9 @@ from tests.results.synthetic import tower_results
 DECKS = Path("decks")
 
 
-@pytest.fixture(scope="module", params=["benchmarks/arch_20_voussoirs", "benchmarks/spreading_arch"])
+@pytest.fixture(
+    scope="module", params=["benchmarks/closed_forms/arch_20_voussoirs", "benchmarks/closed_forms/spreading_arch"]
+)
 def results(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Results:
     """Four hinges under an acceleration; three under a support that gives way sideways."""
     options = RunOptions(folder=tmp_path_factory.mktemp("arch"), overrides=("output.vtu=false",))
@@ -57,7 +59,7 @@ def test_parts_do_not_come_apart_at_their_hinges(results: Results, share: float)
     assert 0.5 * far[0] < far[1] < 1.5 * far[0]
 
 
-@pytest.mark.parametrize("results", ["benchmarks/spreading_arch"], indirect=True)
+@pytest.mark.parametrize("results", ["benchmarks/closed_forms/spreading_arch"], indirect=True)
 def test_a_support_that_gives_way_keeps_its_direction(results: Results) -> None:
     model, contacts, case = parts_of(results)
     settlement = case.load_case.settlement

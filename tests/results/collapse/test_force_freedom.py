@@ -97,7 +97,7 @@ def test_interfaces_called_determined_have_no_range() -> None:
 
 
 def test_what_is_guided_or_without_contact_is_not_judged() -> None:
-    line = line_of_file(Path("decks/benchmarks/guided_blocks.yaml"))
+    line = line_of_file(Path("decks/benchmarks/closed_forms/guided_blocks.yaml"))
     solution, _, _ = verified(line)
     assert solution.mechanics is not None
     assert len(line.model.guides.blocks)

@@ -128,8 +128,8 @@ def test_outside_of_a_curved_chain() -> None:
 
 def test_outside_of_an_arch_of_thick_voussoirs() -> None:
     """Voussoirs are wedges: their centroids may lie farther out than the joints between them."""
-    arch = build_model(read_deck(Path("decks/benchmarks/spreading_arch.yaml")))
-    contacts = find_contacts(arch, read_deck(Path("decks/benchmarks/spreading_arch.yaml")).contacts)
+    arch = build_model(read_deck(Path("decks/benchmarks/closed_forms/spreading_arch.yaml")))
+    contacts = find_contacts(arch, read_deck(Path("decks/benchmarks/closed_forms/spreading_arch.yaml")).contacts)
     sides = curvature_sides(arch, contacts)
     from_centre = contacts.centroids - [2, 0.5, 0]
     chain = np.flatnonzero(np.linalg.norm(sides, axis=1) > 0)

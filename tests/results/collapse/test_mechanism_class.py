@@ -13,8 +13,7 @@ import mbla
 from mbla.results.collapse.failure import NOTABLE, MovingJoints, mechanism_class
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.records.json_record import results_json
-
-DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"
+from tests.decks.folder import BENCHMARKS
 
 BLOCK = """
 mbla: 1
@@ -29,7 +28,7 @@ analysis: {{flow_rule: associative}}
 """
 
 
-def classes_of(deck: str) -> list[str]:
+def classes_of(deck: str | Path) -> list[str]:
     return [case["mechanism"]["class"] for case in results_json(mbla.run(deck).records)["cases"]]
 
 
@@ -48,19 +47,18 @@ def test_a_block(height: float, live: str, expected: str) -> None:
 
 def test_an_arch_of_four_hinges() -> None:
     """Three parts hinge on each other and on the springers."""
-    deck = (DECKS / "arch_20_voussoirs.yaml").read_text(encoding="utf-8")
+    deck = BENCHMARKS["arch_20_voussoirs"].read_text(encoding="utf-8")
     assert classes_of(deck) == ["hinging"]
 
 
 def test_a_wall_in_bond_pushed_in_its_plane() -> None:
     """Blocks slide on bed joints and rock at the same time (Ferris and Tin-Loi 2001, wall 1)."""
-    deck = (DECKS / "ferris_wall_1.yaml").read_text(encoding="utf-8")
-    assert classes_of(deck) == ["sliding and hinging"]
+    assert classes_of(BENCHMARKS["ferris_wall_1"]) == ["sliding and hinging"]
 
 
 def test_supports_that_give_way() -> None:
     """The beam turns on the middle pad and follows the right one; the left one sinks and leaves the beam at rest."""
-    deck = (DECKS / "beam_on_three_supports.yaml").read_text(encoding="utf-8")
+    deck = BENCHMARKS["beam_on_three_supports"].read_text(encoding="utf-8")
     assert classes_of(deck) == ["hinging", "opening"]
 
 

@@ -1,7 +1,6 @@
 """Shear and torsion of an interface over what it carries of both, against closed forms and another minimisation."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,10 +9,10 @@ from scipy.optimize import minimize
 
 from mbla.results.collapse.thrust import thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
+from tests.decks.folder import BENCHMARKS
 from tests.line import case_of, line_of
 from tests.results.synthetic import horizontal_contacts, tower_model
 
-BENCHMARKS = Path(__file__).parents[3] / "decks" / "benchmarks"
 MU = 0.65
 """of the tower's joints"""
 
@@ -100,7 +99,7 @@ def test_the_use_is_the_maximum_over_motions(seed: int) -> None:
     ("deck", "case"), [("torque", 0), ("torque_inset", 0), ("torque_convex", 0), ("torque_convex", 1)]
 )
 def test_blocks_that_fail_by_torsion_use_all_while_their_shear_is_none(deck: str, case: int) -> None:
-    text = (BENCHMARKS / f"{deck}.yaml").read_text(encoding="utf-8")
+    text = BENCHMARKS[deck].read_text(encoding="utf-8")
     model, result = case_of(text, case=case)
     mechanics = result.solution.mechanics
     assert mechanics is not None

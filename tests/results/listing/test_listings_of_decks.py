@@ -13,28 +13,32 @@ from mbla.results.listing.text import WIDTH
 DECKS = Path("decks")
 KINDS = {
     "tutorials/wall": ("Part 1, the upper right corner", "The whole structure (52 blocks) turns about -x"),
-    "benchmarks/spreading_arch": (
+    "benchmarks/closed_forms/spreading_arch": (
         "on the extrados between parts 1 and 2",
         "that of associative flow, is a lower limit",
     ),
-    "benchmarks/tilting_block": ("It slides over ground z = 0 along +x", "degrees of tilt"),
-    "benchmarks/overhang_too_far": ("No equilibrium", "over base[0], on a hinge from (0, 0, 0.2)", "Nothing slides."),
-    "benchmarks/incline_too_steep": (
+    "benchmarks/closed_forms/tilting_block": ("It slides over ground z = 0 along +x", "degrees of tilt"),
+    "benchmarks/closed_forms/overhang_too_far": (
+        "No equilibrium",
+        "over base[0], on a hinge from (0, 0, 0.2)",
+        "Nothing slides.",
+    ),
+    "benchmarks/closed_forms/incline_too_steep": (
         "moves along (-0.894, 0, 0.447), without turning.",
         "It slides over",
         "need not be the way in which it falls",
     ),
-    "benchmarks/groove_locked": ("No collapse", "Locked: these forces"),
+    "benchmarks/closed_forms/groove_locked": ("No collapse", "Locked: these forces"),
     "tutorials/travelling_load": ("any multiple", "on the extrados"),
-    "benchmarks/leaves": ("Part 1, thin[0]",),
-    "benchmarks/guided_blocks": ("was not determined, as blocks are guided",),
-    "benchmarks/glued_lintel": ("turns about",),
-    "benchmarks/torque_convex": ("twists",),
-    "benchmarks/ferris_wall_1": (
+    "benchmarks/closed_forms/leaves": ("Part 1, thin[0]",),
+    "benchmarks/closed_forms/guided_blocks": ("was not determined, as blocks are guided",),
+    "benchmarks/closed_forms/glued_lintel": ("turns about",),
+    "benchmarks/closed_forms/torque_convex": ("twists",),
+    "benchmarks/published/ferris_wall_1": (
         "Collapses between 0.638982 g (least found) and ",
         "told here at 0.641541 g, verified",
     ),
-    "benchmarks/plank_in_clamp": ("the peak of its load path",),
+    "benchmarks/closed_forms/plank_in_clamp": ("the peak of its load path",),
 }
 """quick decks, one of each kind, and what must be read in their listings"""
 

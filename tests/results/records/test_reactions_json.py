@@ -1,7 +1,6 @@
 """Reactions in the JSON record: named by ground plane and group, their sum in balance with the loads."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +9,8 @@ import mbla
 from mbla.results.collapse.mechanics import load_on_structure
 from mbla.results.records.json_record import results_json
 from mbla.solution.solution import Status
+from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_results
-
-DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"
 
 
 def test_supports_and_their_sum() -> None:
@@ -36,7 +34,7 @@ def test_a_case_without_a_result_has_none() -> None:
 
 @pytest.mark.parametrize("deck", ["guided_blocks", "beam_on_three_supports"])
 def test_the_sum_balances_the_loads_with_guides_and_supports_that_settle(deck: str) -> None:
-    results = mbla.run((DECKS / f"{deck}.yaml").read_text(encoding="utf-8")).records
+    results = mbla.run(BENCHMARKS[deck].read_text(encoding="utf-8")).records
     for case, record in zip(results.cases, results_json(results)["cases"], strict=True):
         load = load_on_structure(results.model.of_case(case.load_case), case.load_case, record["load_factor"])
         total = [*record["reactions"]["total"]["force"], *record["reactions"]["total"]["moment"]]

@@ -53,7 +53,7 @@ def test_without_weight_there_is_no_step() -> None:
     assert augmented_step(equilibrium, CONES, z) is None
 
 
-@pytest.mark.parametrize("deck", ["benchmarks/dome_of_slices", "tutorials/spiral_stair_round"])
+@pytest.mark.parametrize("deck", ["benchmarks/closed_forms/dome_of_slices", "tutorials/spiral_stair_round"])
 def test_structures_whose_forces_lie_on_their_cones_are_proved(deck: str) -> None:
     """The normal equations have no digits left for their static bound: it was not a number.
 

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -14,9 +13,10 @@ from mbla.solution.associative.polyhedral import PolyhedralResult, solve_polyhed
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
+from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK, WALL, line_of
 
-GROOVE = Path(__file__).parents[3] / "decks" / "benchmarks" / "groove.yaml"
+GROOVE = BENCHMARKS["groove"]
 SETTINGS = SolverSettings(1e-8)
 
 

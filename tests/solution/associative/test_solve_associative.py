@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +13,8 @@ from hypothesis import strategies as st
 from mbla.solution.solution import Standing, Status
 from mbla.solution.standing import standing
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
-from tests.line import BLOCK, WALL, line_of, load_factor, solution_of, verified
+from tests.decks.folder import BENCHMARKS
+from tests.line import BLOCK, WALL, line_of, line_of_file, load_factor, solution_of, verified
 
 NO_STANDING = "analysis.standing=false"
 
@@ -95,9 +95,6 @@ def test_more_friction_never_lowers_the_factor(mu: float) -> None:
     assert load_factor(WALL, f"parameters.mu={mu}") <= load_factor(WALL, f"parameters.mu={mu + 0.1}") * (1 + 1e-7)
 
 
-ARCHES = Path(__file__).parents[3] / "decks" / "benchmarks"
-
-
 @pytest.mark.parametrize(
     ("mu", "limit"), [(310, 0.199653 - 6.2013e-6), (350, 0.152920 - 4.07515e-5), (380, 0.122192 - 5.32489e-5)]
 )
@@ -107,8 +104,8 @@ def test_arches_close_to_their_least_thickness(mu: int, limit: float, above: flo
 
     The limits are those of arches of 86 voussoirs, up to 6e-5 below those published for joints everywhere.
     """
-    text = (ARCHES / f"cocchetti_rizzi_mu_{mu}_stands.yaml").read_text(encoding="utf-8")
-    line = line_of(text, f"parameters.t={limit + above!r}", "analysis.flow_rule=associative", NO_STANDING)
+    deck = BENCHMARKS[f"cocchetti_rizzi_mu_{mu}_stands"]
+    line = line_of_file(deck, f"parameters.t={limit + above!r}", "analysis.flow_rule=associative", NO_STANDING)
     solution, checks, status = verified(line)
     if above < 1e-8:  # the limit is known to 1e-10: either side of it may come out, no breakdown
         assert status in (Status.SOLVED, Status.NO_EQUILIBRIUM), (status, solution.reason, checks.failures)
@@ -122,7 +119,7 @@ def test_arches_close_to_their_least_thickness(mu: int, limit: float, above: flo
 @pytest.mark.parametrize("reach", [1 - 1e-3, 1 - 1e-7])
 def test_a_stack_close_to_its_greatest_overhang(reach: float) -> None:
     """The load at the tip that a harmonic stack bears is its weight times (1 − s)/s, however small."""
-    text = (ARCHES / "overhang.yaml").read_text(encoding="utf-8")
+    text = BENCHMARKS["overhang"].read_text(encoding="utf-8")
     override = (f"parameters.s={reach!r}", "analysis.flow_rule=associative", NO_STANDING)
     assert load_factor(text, *override) == pytest.approx((1 - reach) / reach, rel=1e-4)
 

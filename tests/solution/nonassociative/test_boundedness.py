@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import pytest
 
@@ -21,11 +20,12 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing.standing_path import PathState, StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
+from tests.decks.folder import BENCHMARKS
 from tests.line import line_of
 from tests.solution.standing_structures import bar, box, deck, groove, plane, plug
 
 SETTINGS = SolverSettings(tolerance=1e-8)
-GROOVE = Path(__file__).parents[3] / "decks" / "benchmarks" / "groove.yaml"
+GROOVE = BENCHMARKS["groove"]
 
 
 def pushed(text: str, direction: str) -> Program:

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -18,9 +17,9 @@ from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
+from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK, line_of
 
-BENCHMARKS = Path(__file__).parents[3] / "decks" / "benchmarks"
 SETTINGS = SolverSettings(1e-8)
 
 
@@ -29,7 +28,7 @@ def ignored(record: IterationRecord) -> None:
 
 
 def benchmark(name: str, *overrides: str) -> Program:
-    deck = read_deck(BENCHMARKS / f"{name}.yaml", overrides)
+    deck = read_deck(BENCHMARKS[name], overrides)
     model = build_model(deck)
     contacts = find_contacts(model, deck.contacts)
     program = assemble(model, contacts, model.load_cases[0])

@@ -22,7 +22,7 @@ from mbla.sweeps.plan import Plain, override_texts
 DECKS = Path(__file__).parents[3] / "decks"
 Settings = Mapping[str, Plain]
 
-ARCH = "benchmarks/arch_20_voussoirs.yaml"
+ARCH = "benchmarks/closed_forms/arch_20_voussoirs.yaml"
 SMALL_ARCH: dict[str, Plain] = {"blocks.0.arch.voussoirs": 7}
 VARIED: dict[str, tuple[Settings, ...]] = {
     ARCH: (
@@ -44,21 +44,25 @@ VARIED: dict[str, tuple[Settings, ...]] = {
         {**SMALL_ARCH, "analysis.reductions": False},
         {**SMALL_ARCH, "analysis.accuracy": "draft"},
     ),
-    "benchmarks/beam_under_travelling_load.yaml": ({}, {"parameters.F": 20000}, {"joints.dry.friction": 0.5}),
-    "benchmarks/glued_lintel.yaml": (
+    "benchmarks/closed_forms/beam_under_travelling_load.yaml": (
+        {},
+        {"parameters.F": 20000},
+        {"joints.dry.friction": 0.5},
+    ),
+    "benchmarks/closed_forms/glued_lintel.yaml": (
         {},
         {"parameters.t": 0.5},
         {"contacts.overrides.0.joint": "open"},
         {"contacts.overrides.0.joint": "dry"},
         {"contacts.overrides.0.joint": "frictionless"},
     ),
-    "benchmarks/torque_convex.yaml": ({}, {"parameters.mu": 0.5}, {"parameters.ecc": 0.2}),
-    "benchmarks/open_and_frictionless_joints.yaml": ({}, {"parameters.mu": 0.5}, {"parameters.h": 0.4}),
-    "benchmarks/tilting_block.yaml": ({}, {"parameters.mu": 0.7}, {"parameters.h": 1.0}),
-    "benchmarks/guided_blocks.yaml": ({}, {"supports.1.fixed": ["rx", "ry"]}, {"parameters.mu": 0.4}),
-    "benchmarks/moment_and_pressure.yaml": ({}, {"parameters.h": 1.0}),
-    "benchmarks/arch_from_obj.yaml": ({}, {"parameters.mu": 0.6}, {"blocks.0.mesh.units": "mm"}),
-    "benchmarks/bar_between_walls.yaml": ({}, {"parameters.mu": 0.3}),
+    "benchmarks/closed_forms/torque_convex.yaml": ({}, {"parameters.mu": 0.5}, {"parameters.ecc": 0.2}),
+    "benchmarks/closed_forms/open_and_frictionless_joints.yaml": ({}, {"parameters.mu": 0.5}, {"parameters.h": 0.4}),
+    "benchmarks/closed_forms/tilting_block.yaml": ({}, {"parameters.mu": 0.7}, {"parameters.h": 1.0}),
+    "benchmarks/closed_forms/guided_blocks.yaml": ({}, {"supports.1.fixed": ["rx", "ry"]}, {"parameters.mu": 0.4}),
+    "benchmarks/closed_forms/moment_and_pressure.yaml": ({}, {"parameters.h": 1.0}),
+    "benchmarks/formats/arch_from_obj.yaml": ({}, {"parameters.mu": 0.6}, {"blocks.0.mesh.units": "mm"}),
+    "benchmarks/closed_forms/bar_between_walls.yaml": ({}, {"parameters.mu": 0.3}),
     "tutorials/settling_wall.yaml": (
         {"parameters.n": 4, "blocks.0.wall.courses": 3},
         {"parameters.n": 4, "blocks.0.wall.courses": 3, "parameters.mu": 0.5},

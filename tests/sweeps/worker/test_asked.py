@@ -22,7 +22,7 @@ from mbla.sweeps.worker.asked import WITHOUT_THEM, with_what_is_asked
 from mbla.sweeps.worker.runner import PointRunner
 from tests.sweeps.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
 
-PLANK = "benchmarks/plank_in_clamp.yaml"
+PLANK = "benchmarks/closed_forms/plank_in_clamp.yaml"
 """carries more on the way than at rest"""
 
 

@@ -16,9 +16,9 @@ from mbla.results.hdf5.comparing import AGREEMENT, LINKS
 from mbla.results.record.stored import STORED
 from mbla.run import run
 from mbla.run_options import RunOptions
+from tests.decks.folder import BENCHMARKS
 from tests.results.changed_files import changing
 
-DECKS = Path(__file__).parents[3] / "decks" / "benchmarks"
 SEVERAL = {
     "several.yaml": """\
 mbla: 1
@@ -93,7 +93,7 @@ def write_decks(folder: Path, names: tuple[str, ...] = tuple(FORGED)) -> dict[st
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")
     for name in names:
-        deck = folder / "several.yaml" if name == "several" else DECKS / f"{name}.yaml"
+        deck = folder / "several.yaml" if name == "several" else BENCHMARKS[name]
         run(deck, RunOptions(folder=folder / name, overrides=FORGED[name], force=True))
     return {name: folder / name / f"{name}.h5" for name in names}
 

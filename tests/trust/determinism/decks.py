@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tests.decks import folder
+
 DECKS = (
     "arch_20_voussoirs",
     "arch_50_voussoirs",
@@ -64,7 +66,10 @@ TABLES = ("arch_from_dxf", "beam_on_three_supports")
 
 def commands(decks: Sequence[str], *, beside: bool) -> list[list[str]]:
     """Arguments that run the decks; ``beside`` also asks for pictures, tables and a report of some of them."""
-    asked = [["run", f"benchmarks/{deck}.yaml", "-o", f"out/{deck}", "-q"] for deck in decks]
+    asked = [
+        ["run", folder.BENCHMARKS[deck].relative_to(folder.DECKS).as_posix(), "-o", f"out/{deck}", "-q"]
+        for deck in decks
+    ]
     if not beside:
         return asked
     for deck in PICTURES:

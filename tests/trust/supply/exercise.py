@@ -16,12 +16,12 @@ parameters: {mu: {key: joints.dry.friction, values: [0.3, 0.5]}}
 """
 EXPECTED = (
     "tutorials/block",
-    "benchmarks/arch_from_dxf",
-    "benchmarks/arch_from_gltf",
-    "benchmarks/arch_from_vtu",
-    "benchmarks/dome_of_slices_falls",
-    "benchmarks/ferris_wall_3",
-    "benchmarks/wall_10x10_highs",
+    "benchmarks/formats/arch_from_dxf",
+    "benchmarks/formats/arch_from_gltf",
+    "benchmarks/formats/arch_from_vtu",
+    "benchmarks/closed_forms/dome_of_slices_falls",
+    "benchmarks/published/ferris_wall_3",
+    "benchmarks/closed_forms/wall_10x10_highs",
 )
 """decks whose load factors must be those that they expect"""
 WALL, DOME = "out/ferris_wall_3.h5", "out/dome_of_slices_falls.h5"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from _pytest.mark import ParameterSet
 
 from mbla.solution.solution import Status
-from tests.line import BLOCK, WALL, line_of, load_factor, solution_of, verified
+from tests.decks.folder import BENCHMARKS
+from tests.line import BLOCK, WALL, line_of, line_of_file, load_factor, solution_of, verified
 from tests.solution.associative.test_solve_associative import TWO
 
 OWN = ("analysis.solver=mbla", "analysis.standing=false")
@@ -38,8 +37,6 @@ def test_neighbours_a_hundred_million_times_as_heavy(share: float, reductions: s
     assert factor == pytest.approx(min(1 / 3, together), rel=1e-6)
 
 
-ARCHES = Path(__file__).parents[4] / "decks" / "benchmarks"
-
 LIMITS = {310: 0.199653 - 6.2013e-6, 350: 0.152920 - 4.07515e-5, 380: 0.122192 - 5.32489e-5}
 """Least thickness of arches of 86 voussoirs over their mean radius, by friction in thousandths; known to 1e-10."""
 
@@ -52,8 +49,8 @@ def some_long(shown: int) -> list[ParameterSet]:
 @pytest.mark.parametrize("mu", some_long(350))
 @pytest.mark.parametrize("above", [1e-4, 1e-6, 1e-8])
 def test_arches_just_above_their_least_thickness(mu: int, above: float) -> None:
-    text = (ARCHES / f"cocchetti_rizzi_mu_{mu}_stands.yaml").read_text(encoding="utf-8")
-    line = line_of(text, f"parameters.t={LIMITS[mu] + above!r}", "analysis.flow_rule=associative", *OWN)
+    deck = BENCHMARKS[f"cocchetti_rizzi_mu_{mu}_stands"]
+    line = line_of_file(deck, f"parameters.t={LIMITS[mu] + above!r}", "analysis.flow_rule=associative", *OWN)
     solution, checks, status = verified(line)
     assert status is Status.SOLVED, (solution.reason, checks.failures)
     share = 0.5 if above > 1e-7 else 0.4  # the limit's own last digit
@@ -65,8 +62,8 @@ def test_arches_just_above_their_least_thickness(mu: int, above: float) -> None:
 @pytest.mark.parametrize("mu", some_long(310))
 @pytest.mark.parametrize("below", [1e-4, 1e-6, 1e-8])
 def test_arches_just_below_their_least_thickness(mu: int, below: float) -> None:
-    text = (ARCHES / f"cocchetti_rizzi_mu_{mu}_stands.yaml").read_text(encoding="utf-8")
-    line = line_of(text, f"parameters.t={LIMITS[mu] - below!r}", "analysis.flow_rule=associative", *OWN)
+    deck = BENCHMARKS[f"cocchetti_rizzi_mu_{mu}_stands"]
+    line = line_of_file(deck, f"parameters.t={LIMITS[mu] - below!r}", "analysis.flow_rule=associative", *OWN)
     solution, checks, status = verified(line)
     assert status is Status.NO_EQUILIBRIUM, (status, solution.reason)
     assert checks.verified, checks.failures
@@ -74,7 +71,7 @@ def test_arches_just_below_their_least_thickness(mu: int, below: float) -> None:
 
 @pytest.mark.parametrize("reach", [1 - 1e-3, 1 - 1e-5])
 def test_a_stack_close_to_its_greatest_overhang(reach: float) -> None:
-    text = (ARCHES / "overhang.yaml").read_text(encoding="utf-8")
+    text = BENCHMARKS["overhang"].read_text(encoding="utf-8")
     override = (f"parameters.s={reach!r}", "analysis.flow_rule=associative", *OWN)
     assert load_factor(text, *override) == pytest.approx((1 - reach) / reach, rel=1e-4)
 
@@ -85,7 +82,7 @@ def test_a_stack_that_is_too_close_for_a_proof_has_no_false_one() -> None:
     With ``solver: auto`` the load factor is found and proved (``test_solve_associative.py``).
     """
     reach = 1 - 1e-7
-    text = (ARCHES / "overhang.yaml").read_text(encoding="utf-8")
+    text = BENCHMARKS["overhang"].read_text(encoding="utf-8")
     solution, checks, status = verified(
         line_of(text, f"parameters.s={reach!r}", "analysis.flow_rule=associative", *OWN)
     )
