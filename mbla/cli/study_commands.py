@@ -73,10 +73,10 @@ def interact(options: argparse.Namespace) -> int:
     run = run_options(options)
     content, _ = read_given_deck(options.deck, run)
     with loading():
-        from mbla.sweeps.interaction.command import interact
+        from mbla.sweeps.interaction.study import interact
         from mbla.sweeps.interaction.words import study_lines
 
-    report = None if options.quiet else _point_progress()
+    report = None if options.quiet else _progress("points")
     try:
         study, record, remarks = interact(content, run, options, report)
     finally:
@@ -133,10 +133,10 @@ def tradeoff(options: argparse.Namespace) -> int:
     run = run_options(options, override=False)
     content, _ = read_given_deck(options.deck, run)
     with loading():
-        from mbla.sweeps.tradeoff.command import tradeoff
+        from mbla.sweeps.tradeoff.study import tradeoff
         from mbla.sweeps.tradeoff.words import study_lines
 
-    report = None if options.quiet else _rung_progress()
+    report = None if options.quiet else _progress("settings")
     try:
         study, record, remarks = tradeoff(content, run, options, report)
     finally:
@@ -167,24 +167,12 @@ def _tell(
         print("\n".join(text), file=sys.stderr if options.json else sys.stdout, flush=True)
 
 
-def _point_progress() -> Callable[[int, int], None] | None:
-    """A line that rewrites itself on a terminal, for the points of a diagram; nothing elsewhere."""
+def _progress(what: str) -> Callable[[int, int], None] | None:
+    """A line that rewrites itself on a terminal, ``12 of 72 points``; nothing elsewhere."""
     if not sys.stderr.isatty():
         return None
 
     def show(done: int, count: int) -> None:
-        rewrite_line(f"{done} of {count} points")
-
-    return show
-
-
-def _rung_progress() -> Callable[[int, int, str, str], None] | None:
-    """A line that rewrites itself on a terminal, for the settings of a study."""
-    if not sys.stderr.isatty():
-        return None
-
-    def show(number: int, count: int, name: str, case: str) -> None:
-        text = f"setting {number} of {count}: {name}" + (f", {case} done" if case else "")
-        rewrite_line(text)
+        rewrite_line(f"{done} of {count} {what}")
 
     return show

@@ -121,7 +121,7 @@ def sweep(options: argparse.Namespace) -> int:
 def _sweep_options(options: argparse.Namespace) -> SweepOptions:
     with loading():
         from mbla.sweeps.command import SweepOptions
-        from mbla.sweeps.engine.options import EngineOptions
+        from mbla.sweeps.engine.engine import EngineOptions
 
     return SweepOptions(
         folder=options.output,

@@ -14,7 +14,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.record.column import Values
 from mbla.solution.solution import Status
 from mbla.sweeps.plan import DONE
-from mbla.sweeps.results import FACTORS, OF_RUN, STATUS
+from mbla.sweeps.results import FACTORS, STATUS, is_of_run
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 ALIKE = 1e-6
@@ -146,7 +146,7 @@ def _done(table: SweepTable) -> tuple[BoolArray, BoolArray]:
 
 def _status(table: SweepTable, column: SweepColumn) -> Values | None:
     """Status of the load case of a column as texts, None where the table has no such column."""
-    if not column.path or (column.path.partition(".")[0] in OF_RUN and not column.case):
+    if not column.path or (is_of_run(column.path) and not column.case):
         return None
     own = [each for each in table.of_role("result") if each.path == STATUS and each.case == column.case]
     return table[own[0].name] if own else None

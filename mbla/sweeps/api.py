@@ -9,7 +9,7 @@ from pathlib import Path
 from mbla.api import overrides_of
 from mbla.errors import LimitError
 from mbla.sweeps.command import SweepOptions, prepare, run_sweep
-from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.file.read import read_sweep as read_file
 from mbla.sweeps.plan import Outcome, Task
 from mbla.sweeps.tables.read_table import read_sweep_table

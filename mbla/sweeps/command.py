@@ -16,8 +16,7 @@ from mbla.results.listing.text import counted
 from mbla.sweeps.base import Base, check_points, read_base
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Design, design_json
-from mbla.sweeps.engine.choice import engine_for
-from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.engine import EngineOptions, engine_for
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import Fragility, fragility_json, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
@@ -161,7 +160,6 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         if report is not None:
             report(progress, None, None)
         if tasks:
-            engine.expect(prepared.plan, len(tasks))
             with _noted(journal), engine:
                 _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))

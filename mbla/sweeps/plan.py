@@ -26,6 +26,7 @@ class Plan:
     time_limit   : seconds for each point, None for none; the process is stopped then
     memory_limit : bytes that a point may take above what its process holds with the base deck, None for none
     program      : version and hash of the mbla that planned it; a worker with another one refuses
+    shared       : what points have in common is worked out once; not where their times are compared
     """
 
     deck: str
@@ -38,6 +39,7 @@ class Plan:
     time_limit: float | None
     memory_limit: float | None
     program: str
+    shared: bool = True
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from mbla.sweeps.tables.sweep_table import SweepColumn
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
+TIME_OF_CASE = ("time.total", "time.solver")
 OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
 """columns that every table of a sweep has beside those of parameters and results"""
 STATUS = "status"
@@ -35,6 +36,11 @@ FACTORS = (
 no load brings down, which their status tells"""
 UNBOUNDED = "unbounded"
 """status of a position that nothing brings down: others may still be the worst"""
+
+
+def is_of_run(path: str) -> bool:
+    """Whether a path leads into the record of the run; what a load case took by itself is in its own."""
+    return path.partition(".")[0] in OF_RUN and path not in TIME_OF_CASE
 
 
 @dataclass(frozen=True)
@@ -53,8 +59,8 @@ class ResultPlace:
 
 def result_places(results: Sequence[str], cases: Sequence[str]) -> tuple[ResultPlace, ...]:
     """The columns of a sweep: case by case, then those of the whole run."""
-    of_cases = [path for path in results if path.partition(".")[0] not in OF_RUN]
-    of_run = [path for path in results if path.partition(".")[0] in OF_RUN]
+    of_cases = [path for path in results if not is_of_run(path)]
+    of_run = [path for path in results if is_of_run(path)]
     prefixes = {case: f"{case}." if len(cases) > 1 else "" for case in cases}
     places = [ResultPlace(prefixes[case] + path, case, tuple(path.split("."))) for case in cases for path in of_cases]
     return (*places, *(ResultPlace(path, "", tuple(path.split("."))) for path in of_run))
@@ -89,7 +95,9 @@ def _is_fault(notice: Mapping[str, Any]) -> bool:
 def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """The keys of a travelling load, and those of the case that is its worst position."""
     if series["worst"] is not None:
-        return {**cases[series["worst"]["case"]], **series}
+        own = [cases[position["case"]]["time"] for position in series["positions"]]
+        time = {key: sum(each[key] or 0.0 for each in own) for key in ("total", "solver")}
+        return {**cases[series["worst"]["case"]], **series, "time": time}
     statuses = [position["status"] for position in series["positions"]]
     unknown = [
         position["status"]

@@ -39,9 +39,9 @@ import yaml
 import mbla
 from mbla.results.records.json_record import results_json
 from mbla.sweeps.command import FAILED_POINTS
+from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plain, Plan, Task
-from mbla.sweeps.worker.runner import PointRunner
 from tests.decks.folder import BENCHMARKS
 from tests.performance.recording import record
 

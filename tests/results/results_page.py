@@ -12,8 +12,8 @@ from mbla.results.hdf5.layout import layout_table
 from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
-from mbla.sweeps.interaction.description import interact_record_page
-from mbla.sweeps.tables.sweep_json import sweep_columns_page, sweep_record_page
+from mbla.sweeps.interaction.description import INTERACT_RECORD
+from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, keys_page, sweep_columns_page
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 
@@ -26,8 +26,8 @@ def generated() -> dict[str, str]:
         "Exported tables": tables_page(),
         "JSON record": record_page(),
         "Table of a sweep": sweep_columns_page(),
-        "JSON record of a sweep": sweep_record_page(),
-        "JSON record of a diagram": interact_record_page(),
+        "JSON record of a sweep": keys_page(SWEEP_RECORD),
+        "JSON record of a diagram": keys_page(INTERACT_RECORD),
     }
 
 

@@ -17,8 +17,8 @@ import pytest
 
 from mbla.sweeps.engine.line_process import PACKAGES
 from mbla.sweeps.journal.shards import journals_in
+from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.killed_sweeps import keys_in_journals, table_of
-from tests.sweeps.worker.test_supervised import wait_for
 
 MARK = "MBLA_TEST_MARK"
 """variable of the environment by which the processes of a test are known, whoever began them"""

@@ -18,9 +18,9 @@ LOG = "MBLA_TEST_LOG"
 
 def main() -> None:
     """As the real process."""
+    from mbla.sweeps.engine import child
+    from mbla.sweeps.engine.runner import PointRunner
     from mbla.sweeps.plan import Outcome, Plain, Task
-    from mbla.sweeps.worker import child
-    from mbla.sweeps.worker.runner import PointRunner
 
     class Faulty(PointRunner):
         def run(self, task: Task) -> Outcome:

@@ -16,8 +16,8 @@ from random import Random
 
 from mbla.cli import main
 from mbla.sweeps.command import Prepared, SweepOptions, prepare, run_sweep
+from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.engine.line_process import PACKAGES
-from mbla.sweeps.engine.options import EngineOptions
 from mbla.sweeps.file.read import read_sweep
 from mbla.sweeps.journal.shards import journals_in
 from tests.line import BLOCK
@@ -35,7 +35,7 @@ KINDS = {
     SCHEDULER: "distributed.cli.dask_scheduler",
     "nanny": "distributed.cli.dask_worker",
     "worker": "multiprocessing.spawn",
-    "points": "mbla.sweeps.worker.child",
+    "points": "mbla.sweeps.engine.child",
 }
 """kinds of processes of a cluster, and by what their command lines are known"""
 
@@ -120,12 +120,13 @@ def all_ending(pid: int) -> Iterator[None]:
     begun = descendants(pid)
     yield
     until = time.monotonic() + GONE
-    while any(_is_alive(each) for each in begun):
+    while any(runs(each) for each in begun):
         assert time.monotonic() < until, "processes of a client that was killed go on"
         time.sleep(0.01)
 
 
-def _is_alive(pid: int) -> bool:
+def runs(pid: int) -> bool:
+    """Whether a process runs; one that is dead and only waits to be asked for its status does not."""
     with suppress(OSError):
         return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0] not in "ZX"
     return False

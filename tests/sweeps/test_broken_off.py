@@ -15,9 +15,9 @@ import pytest
 from mbla.cli import main
 from mbla.sweeps.journal.shards import journal_name
 from tests.sweeps.commands import Command, check_clean, rows_in, run
+from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.killed_sweeps import written
-from tests.sweeps.worker.test_supervised import wait_for
 
 POINTS = 24
 HEADER = 2

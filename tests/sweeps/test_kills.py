@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.engine import EngineOptions
 from tests.sweeps.commands import DASK_KILLED, nothing_left
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.journal.forked import forked

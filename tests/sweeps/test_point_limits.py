@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 
 from mbla.cli import main
-from mbla.sweeps.engine import serial
-from mbla.sweeps.worker import batch
-from mbla.sweeps.worker.supervised import SupervisedRunner
+from mbla.sweeps.engine import engine, on_worker
+from mbla.sweeps.engine.supervised import SupervisedRunner
 from tests.line import BLOCK
 from tests.sweeps import faulty_child
 from tests.sweeps.faulty_child import HANGS, KILLS, LOG, TAKES
@@ -50,7 +49,7 @@ def test_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: str) -
     command = ["sweep", str(path), "-q", "-j", workers]
     with monkeypatch.context() as patch:
         faulty = partial(SupervisedRunner, command=(sys.executable, "-P", str(Path(faulty_child.__file__))))
-        for module in (serial, batch):
+        for module in (engine, on_worker):
             patch.setattr(module, "SupervisedRunner", faulty)
         assert main(command) == 8
         check_rows(folder)

@@ -118,7 +118,8 @@ def series(*positions: tuple[str, float | None], worst: int | None) -> dict[str,
         {"case": f"t_{row}", "position": row, "status": status, "load_factor": factor}
         for row, (status, factor) in enumerate(positions, 1)
     ]
-    cases = [{"name": each["case"], "verified": True, **each} for each in found]
+    time = {"total": 0.5, "solver": 0.25}
+    cases = [{"name": each["case"], "verified": True, "time": time, **each} for each in found]
     own = None if worst is None else found[worst]
     return {"cases": cases, "series": [{"name": "t", "complete": True, "positions": found, "worst": own}]}
 
@@ -127,6 +128,7 @@ def test_a_travelling_load_has_the_values_of_its_worst_position() -> None:
     record = series(("solved", 0.5), ("solved", 0.3), ("unbounded", None), worst=1)
     found = values(record, "status", "load_factor", "worst.position", "positions.0.load_factor", cases=("t",))
     assert list(found.values()) == ["solved", 0.3, 2, 0.5]
+    assert values(record, "time.total", cases=("t",)) == {"time.total": 1.5}  # of all positions
 
 
 @pytest.mark.parametrize(

@@ -17,9 +17,9 @@ from types import SimpleNamespace, TracebackType
 from typing import Any, TypeVar
 
 from mbla.errors import FileError, UsageError
-from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.engine import EngineOptions
+from mbla.sweeps.engine.on_worker import describe, end_processes
 from mbla.sweeps.identity import difference, library_versions, program_identity
-from mbla.sweeps.worker.batch import describe, end_processes
 
 LOOK = 1.0
 """seconds between looks at whether scheduler and workers are still there"""

@@ -1,9 +1,6 @@
-"""Load factor over the direction of a load, or over the shares of two loads::
+"""Load factor over the direction of a load, or over the shares of two loads, a sweep over an angle::
 
     deck ──> question ──> points ──> domain ──> table, diagram
-             direction.py            domain.py
-             two_loads.py
 
-The points go through the workers of parameter sweeps (:mod:`mbla.sweeps`); ``command.py`` puts the parts
-together.
+``study.py`` puts the parts together; ``words.py`` and ``picture.py`` tell.
 """

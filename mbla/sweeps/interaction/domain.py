@@ -19,15 +19,107 @@ carried is convex in the space of the load parameters.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.plan import DONE, Outcome
+
+RESULTS = (
+    "status",
+    "verified",
+    "load_factor",
+    "associative_load_factor",
+    "static_bound",
+    "kinematic_bound",
+    "standing.verdict",
+    "mechanism.class",
+)
+"""what of the record of a load case a diagram is made from, beside the powers of a pair of loads"""
+POWER = "powers."
+NAN = math.nan
+
+
+@dataclass(frozen=True)
+class Point:
+    """The answer at an angle in degrees.
+
+    answered     : verified: there is a load factor, or it is verified that there is none
+    exit_code    : that a run of this point alone ends with
+    status       : of the load case; empty where it was not solved at all
+    load_factor  : by the deck's flow rule, nan where there is none
+    associative  : by associative flow, with its bounds; nan where there are none
+    standing     : verdict on the dead load alone; empty where there is none
+    mechanism    : class of the mechanism in a word; empty where there is none
+    powers       : of live loads in the mechanism of the kinematic bound, by load case
+    reason       : in one line, empty where there is nothing to say
+    """
+
+    angle: float
+    answered: bool
+    exit_code: int
+    status: str
+    load_factor: float
+    associative: float
+    static_bound: float
+    kinematic_bound: float
+    standing: str = ""
+    mechanism: str = ""
+    powers: Mapping[str, float] = field(default_factory=dict)
+    reason: str = ""
+    seconds: float = NAN
+
+    @property
+    def has_factor(self) -> bool:
+        """Whether a verified load factor is there."""
+        return self.answered and not math.isnan(self.load_factor)
+
+    @property
+    def unbounded(self) -> bool:
+        """Whether it is verified that the load never brings collapse."""
+        return self.answered and self.status == Status.UNBOUNDED
+
+    def at(self, factor: float) -> tuple[float, float]:
+        """Coordinates in the diagram at a load factor on this ray."""
+        cosine, sine = horizontal(self.angle, 1.0)
+        return factor * cosine, factor * sine
+
+
+def point_of(angle: float, outcome: Outcome) -> Point:
+    """The point that an outcome is."""
+    results: Mapping[str, Any] = outcome.results
+
+    def figure(name: str) -> float:
+        value = results.get(name)
+        return NAN if value is None else float(value)
+
+    return Point(
+        angle=angle,
+        answered=outcome.state == DONE,
+        exit_code=outcome.exit_code,
+        status=results.get("status") or "",
+        load_factor=figure("load_factor"),
+        associative=figure("associative_load_factor"),
+        static_bound=figure("static_bound"),
+        kinematic_bound=figure("kinematic_bound"),
+        standing=results.get("standing.verdict") or "",
+        mechanism=results.get("mechanism.class") or "",
+        powers={
+            name.removeprefix(POWER): float(value)
+            for name, value in results.items()
+            if name.startswith(POWER) and value is not None
+        },
+        reason=" ".join(outcome.reason.split()),
+        seconds=outcome.seconds,
+    )
+
 
 CROSSED = GAP_TOLERANCE
 """relative distance by which safe points may pass a bound: up to which the two bounds of a point count as one"""
@@ -157,7 +249,7 @@ def _sector(angles: Sequence[float], far: float, *, closed: bool) -> FloatArray:
     span = angles[-1] - angles[0]
     if closed or span > 180.0:
         return square
-    first, last = unit_vector(angles[0]), unit_vector(angles[-1])
+    first, last = horizontal(angles[0], 1.0), horizontal(angles[-1], 1.0)
     sector = clipped(square, np.array([first[1], -first[0], 0.0]))
     return clipped(sector, np.array([-last[1], last[0], 0.0]))
 
@@ -184,7 +276,7 @@ def _hull_beyond(inner: FloatArray, points: Sequence[Point]) -> list[Crossing]:
     found = []
     for point in points:
         bound = point.kinematic_bound
-        reach = reach_along(inner, unit_vector(point.angle))
+        reach = reach_along(inner, horizontal(point.angle, 1.0))
         if np.isfinite(bound) and reach - bound > CROSSED * max(abs(bound), reach):
             found.append(Crossing(point.angle, point.angle, (reach - bound) / max(abs(bound), reach)))
     return found
@@ -204,3 +296,44 @@ def reach_along(polygon: FloatArray, way: tuple[float, float]) -> float:
             share = across[row] / (across[row] - across[other])
             reaches.append(float(along[row] + share * (along[other] - along[row])))
     return max((reach for reach in reaches if reach >= 0.0), default=-np.inf)
+
+
+SAME = 1e-5
+"""relative difference up to which load factors are one: to which a solved one may be uncertain"""
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A load factor and the angles at which it is found, degrees."""
+
+    load_factor: float
+    angles: tuple[float, ...]
+
+
+def extremes(points: Sequence[Point]) -> tuple[Extreme, Extreme] | None:
+    """The least and the greatest of the verified load factors; None where there is none."""
+    known = [point for point in points if point.has_factor]
+    if not known:
+        return None
+    return _extreme(known, min(point.load_factor for point in known)), _extreme(
+        known, max(point.load_factor for point in known)
+    )
+
+
+def _extreme(points: Sequence[Point], value: float) -> Extreme:
+    room = SAME * max(abs(value), 1e-300)
+    return Extreme(value, tuple(point.angle for point in points if abs(point.load_factor - value) <= room))
+
+
+def everywhere(domain: Domain | None, *, closed: bool) -> float | None:
+    """What associative flow carries at least at every angle, those between the points among them.
+
+    The distance of the inner polygon's nearest side from the origin; None where it does not lie around the origin, or
+    where a bound is in doubt.
+    """
+    if domain is None or not closed or domain.crossings or len(domain.inner) < 3:
+        return None
+    here, there = domain.inner, np.roll(domain.inner, -1, axis=0)
+    sides = there - here
+    outside = (here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]) / np.linalg.norm(sides, axis=1)
+    return float(outside.min()) if outside.min() > 0.0 else None

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,11 +30,12 @@ from mbla.results.pictures.page import (
     add_words,
     open_page,
 )
-from mbla.sweeps.interaction.extremes import extremes
-from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.interaction.domain import Point, extremes
 from mbla.sweeps.interaction.question import DIRECTION
-from mbla.sweeps.interaction.study import Study
 from mbla.sweeps.interaction.words import ASSOCIATIVE, conclusions
+
+if TYPE_CHECKING:
+    from mbla.sweeps.interaction.study import Study
 
 SIZE = (1200, 1240)
 """pixels: a square diagram, words above and a legend below"""
@@ -54,7 +55,7 @@ def draw_study(path: Path, study: Study, options: PictureOptions | None = None) 
         mark = f"NOT VERIFIED at {counted(left_out, 'point')} of {len(study.points)}" if left_out else ""
         if study.domain is not None and study.domain.crossings:
             mark = "ERROR OF VERIFICATION: bounds contradict each other" + (f"; {mark}" if mark else "")
-        title = study.heading
+        title = study.about.heading
         above = add_words(page, [title, *study.question.words, *conclusions(study)[:2]], mark)
         polar = study.question.kind == DIRECTION
         edge = _edge(study)
@@ -139,7 +140,7 @@ def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[An
 def _draw_points(page: Page, axes: Any, study: Study, edge: float, *, polar: bool) -> list[Any]:
     points = study.points
     handles: list[Any] = []
-    own = study.flow_rule == ASSOCIATIVE
+    own = study.about.flow_rule == ASSOCIATIVE
     colour = INK if own else VERMILION
     size = (4.5 if len(points) > 40 else 6.0) * page.scale
     curve = {"color": colour, "linewidth": 1.6 * page.scale}
@@ -150,7 +151,7 @@ def _draw_points(page: Page, axes: Any, study: Study, edge: float, *, polar: boo
     if known:
         dots = {"marker": "o", "markersize": size, "color": colour, "linestyle": "none"}
         axes.plot(*_onto([point.at(point.load_factor) for point in known], polar=polar), zorder=5, **dots)
-        name = f"load factor, {study.flow_rule.replace('_', '-')} flow"
+        name = f"load factor, {study.about.flow_rule.replace('_', '-')} flow"
         handles.append(page.parts.Line2D([], [], marker="o", markersize=size, label=name, **curve))
     handles += _draw_least(page, axes, study, polar=polar)
     doubtful = [point for point in points if not point.answered]

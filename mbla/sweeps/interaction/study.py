@@ -1,31 +1,68 @@
-"""The diagram of one deck: table of contents of ``mbla interact``."""
+"""``mbla interact``: a sweep over an angle, its table, diagram and what the points prove together."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from contextlib import closing
-from dataclasses import dataclass, field
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.deck import Deck
-from mbla.deck.units import Units
-from mbla.results.failures import SIGNALS, words_of
-from mbla.results.provenance import collect_provenance
-from mbla.results.results import now
-from mbla.run import title_of
-from mbla.sweeps.engine.engine import Engine
-from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
-from mbla.sweeps.interaction.domain import Domain, domain_of
-from mbla.sweeps.interaction.point import NAN, POWER, RESULTS, Point, point_of
-from mbla.sweeps.interaction.question import Question
-from mbla.sweeps.plan import Plan, Task
-from mbla.sweeps.reasons import shown_folders
+from mbla.errors import UsageError
+from mbla.model import build_model
+from mbla.results.failures import SIGNALS
+from mbla.results.files import OutputFolder
+from mbla.results.records.numbers import number
+from mbla.run import contacts_of
+from mbla.run_options import RunOptions
+from mbla.sweeps.design.design import DesignColumn
+from mbla.sweeps.design.directions import FULL_CIRCLE
+from mbla.sweeps.engine.engine import Engine, EngineOptions, engine_for
+from mbla.sweeps.interaction.domain import (
+    NAN,
+    POWER,
+    RESULTS,
+    Domain,
+    Extreme,
+    Point,
+    domain_of,
+    everywhere,
+    extremes,
+    point_of,
+)
+from mbla.sweeps.interaction.picture import draw_study
+from mbla.sweeps.interaction.question import (
+    DIRECTION,
+    TWO_LOADS,
+    Question,
+    direction_question,
+    two_loads_question,
+)
+from mbla.sweeps.interaction.words import conclusions
+from mbla.sweeps.plan import Outcome
+from mbla.sweeps.studies import (
+    NOT_SOLVED,
+    About,
+    about,
+    about_json,
+    plan_of,
+    rows_json,
+    solved,
+    study_table,
+    tasks_of,
+    with_columns,
+    write_study,
+)
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
-STOPPED = tuple(status for status, _ in SIGNALS.values())
-"""exit statuses of points that were not solved as a signal came before"""
-NOT_SOLVED = "not solved: interrupted before"
-"""reason of points that were not reached"""
+DIRECTIONS, ANGLES = 72, 31
+"""points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
+MOST_POINTS = 3600
+QUARTER = 90.0
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
 """exit codes of points that were not answered"""
 NO_FACTOR = 5
@@ -37,32 +74,18 @@ Report = Callable[[int, int], None]
 class Study:
     """Every point of the diagram, and what they say together.
 
-    overrides : of the command line
-    domain    : of associative flow; None where the points do not lie in the plane of two loads
-    seconds   : by the clock
+    domain  : of associative flow; None where the points do not lie in the plane of two loads
+    stop    : exit status of the signal that ended it, 0 without one
+    seconds : by the clock
     """
 
-    deck: str
-    title: str
-    overrides: tuple[str, ...]
-    units: Units
-    flow_rule: str
+    about: About
     question: Question
     points: tuple[Point, ...]
+    table: SweepTable
     domain: Domain | None
+    stop: int
     seconds: float
-    provenance: dict[str, str]
-    created: str = field(default_factory=now)
-
-    @property
-    def heading(self) -> str:
-        """Deck and title; the deck alone where it has no title."""
-        return self.deck if self.title == self.deck else f"{self.deck}: {self.title}"
-
-    @property
-    def interrupted(self) -> bool:
-        """Whether it ended before every point was solved."""
-        return any(point.exit_code in STOPPED for point in self.points)
 
     @property
     def exit_code(self) -> int:
@@ -71,8 +94,8 @@ class Study:
         Before the last two come points without a verified answer, with the gravest of their codes.
         A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
         """
-        if self.interrupted:
-            return next(point.exit_code for point in self.points if point.exit_code in STOPPED)
+        if self.stop:
+            return self.stop
         codes = {point.exit_code for point in self.points if not point.answered}
         if codes:
             return next((code for code in GRAVEST_FIRST if code in codes), max(codes))
@@ -81,72 +104,162 @@ class Study:
         return 0 if any(point.has_factor for point in self.points) else NO_FACTOR
 
 
+def interact(
+    deck: Deck, run: RunOptions, options: Any, report: Report | None
+) -> tuple[Study, dict[str, Any], list[str]]:
+    """Solve the points of a diagram and write the files; the study, its JSON record, and remarks.
+
+    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given;
+              ``jobs``, how many processes solve points
+
+    Raises
+    ------
+    DeckError, UsageError
+        The deck is not valid, or cannot be asked this; nothing is written then.
+    FileError
+        Files are in the way or cannot be written.
+    """
+    engine = engine_for(EngineOptions(workers=options.jobs))
+    question = question_of(deck, options)
+    loads = question.pair if question.kind == TWO_LOADS else ()
+    stem = "_".join((deck.path.stem, "interact", *loads))
+    out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
+    out.refuse(f"{stem}.csv", f"{stem}.json")
+    with out:
+        with engine as workers:
+            if question.kind == TWO_LOADS:
+                question = question_of(deck, options, factor_ratio(deck, run.overrides, options, workers))
+            study = study_points(deck, run.overrides, question, workers, report)
+
+        def draw(folder: OutputFolder, ending: str) -> None:
+            with folder.writing(f"{stem}.{ending}") as path:
+                draw_study(path, study)
+
+        remarks = write_study(out, bool(study.stop), study.table, draw, lambda names: study_json(study, names))
+    return study, study_json(study, out.names), remarks
+
+
+def factor_ratio(deck: Deck, overrides: Sequence[str], options: Any, workers: Engine) -> float:
+    """Load factor of the second load alone over that of the first; 1 where either has none."""
+    alone = copy(options)
+    alone.start, alone.end, alone.directions = 0.0, QUARTER, 2
+    study = study_points(deck, overrides, question_of(deck, alone), workers, None)
+    if study.stop:
+        raise next(kind for kind, (status, _) in SIGNALS.items() if status == study.stop)
+    factors = [point.load_factor if point.has_factor else 0.0 for point in study.points]
+    return factors[1] / factors[0] if min(factors) > 0 else 1.0
+
+
+def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
+    """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
+
+    ratio : of two loads, as ``factor_ratio`` gives it
+    """
+    model = build_model(deck)
+    contacts_of(deck, model)
+    if options.loads is None:
+        if options.start is not None or options.end is not None:
+            raise UsageError("interact-option", "--from and --to apply with --loads; directions go all around")
+        return direction_question(deck, options.case or "", _count(options.directions, DIRECTIONS, 1))
+    if options.case:
+        raise UsageError("interact-option", "--case and --loads: one or the other; --loads names the two load cases")
+    start = 0.0 if options.start is None else options.start
+    end = start + QUARTER if options.end is None else options.end
+    if not start < end <= start + FULL_CIRCLE:
+        raise UsageError(
+            "interact-option", f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
+        )
+    first, second = options.loads
+    count = _count(options.directions, ANGLES, 2)
+    return two_loads_question(deck, model, (first, second), start, end, count, ratio)
+
+
+def _count(given: int | None, usual: int, least: int) -> int:
+    count = usual if given is None else given
+    if not least <= count <= MOST_POINTS:
+        raise UsageError("interact-option", f"--directions {count}: {least} to {MOST_POINTS} points")
+    return count
+
+
 def study_points(
-    deck: Deck, fixed: Sequence[str], question: Question, plan: Plan, engine: Engine, report: Report | None
+    deck: Deck, overrides: Sequence[str], question: Question, engine: Engine, report: Report | None
 ) -> Study:
-    """Solve every point of a question; ``fixed`` are the overrides that the deck was read with.
+    """Solve every point of a question; ``overrides`` are those that the deck was read with.
 
-    An interruption ends it with the points solved until then; one before the first is raised.
-
-    Raises as the engine does.
+    An interruption ends it with the points solved until then; one before the first is raised. Raises as the engine
+    does.
     """
     started = time.perf_counter()
-    tasks = tasks_of(question, plan.fingerprint)
-    numbers = {task.key: task.number for task in tasks}
-    shown = shown_folders(plan, deck.path.name)
-    points: dict[int, Point] = {}
-    stop = 0
-    with closing(engine.run(plan, tasks)) as outcomes:
-        try:
-            for outcome in map(shown.in_outcome, outcomes):
-                number = numbers[outcome.key]
-                points[number] = point_of(question.angles[number - 1], outcome)
-                if report is not None:
-                    report(len(points), len(tasks))
-        except tuple(SIGNALS) as error:
-            if not points:
-                raise
-            stop, _ = words_of(error)
-    ordered = tuple(points.get(task.number) or _not_solved(question.angles[task.number - 1], stop) for task in tasks)
-    domain = domain_of(ordered, question.pair, closed=question.closed) if question.pair else None
+    results = (*RESULTS, *(POWER + name for name in question.pair))
+    plan = plan_of(deck, (*overrides, *question.fixed), (question.case,), results)
+    count = len(question.settings)
+    told = None if report is None else lambda done: report(done, count)
+    outcomes, stop = solved(engine, plan, tasks_of(plan, question.settings), deck, told)
+    points = tuple(_point(angle, outcomes.get(n), stop) for n, angle in enumerate(question.angles, 1))
+    of = about(deck, overrides)
+    name = "azimuth" if question.kind == DIRECTION else "angle"
+    words = "from +x towards +y" if question.kind == DIRECTION else "of two loads: A times cosine, B times sine"
+    angle = DesignColumn(name, "degree", words, "float", "azimuth", name)
     return Study(
-        deck=deck.path.name,
-        title=title_of(deck),
-        overrides=tuple(fixed),
-        units=deck.units,
-        flow_rule=deck.analysis.flow_rule,
+        about=of,
         question=question,
-        points=ordered,
-        domain=domain,
+        points=points,
+        table=with_columns(study_table(of, angle, question.angles, plan, outcomes), _factors(question, points)),
+        domain=domain_of(points, question.pair, closed=question.closed) if question.pair else None,
+        stop=stop,
         seconds=time.perf_counter() - started,
-        provenance=collect_provenance(),
     )
 
 
-def _not_solved(angle: float, stop: int) -> Point:
-    return Point(angle, False, stop, "", NAN, NAN, NAN, NAN, reason=NOT_SOLVED)
+def _point(angle: float, outcome: Outcome | None, stop: int) -> Point:
+    if outcome is None:
+        return Point(angle, False, stop, "", NAN, NAN, NAN, NAN, reason=NOT_SOLVED)
+    return point_of(angle, outcome)
 
 
-def tasks_of(question: Question, fingerprint: str) -> list[Task]:
-    """One task for each angle; no two angles are one point."""
+def _factors(question: Question, points: Sequence[Point]) -> list[tuple[SweepColumn, FloatArray]]:
+    """The load factor along both axes of the diagram."""
+    places = np.array([point.at(point.load_factor) for point in points]).reshape(-1, 2)
     return [
-        Task(key_hash(fingerprint, settings, ()), number, settings)
-        for number, settings in enumerate(question.settings, 1)
+        (SweepColumn(f"factor_{name}", "", f"{axis}: load factor times {part}", "float", "result"), places[:, row])
+        for row, (name, axis, part) in enumerate(zip(question.short, question.axes, ("cosine", "sine"), strict=True))
     ]
 
 
-def plan_of(path: Path, overrides: Sequence[str], question: Question) -> Plan:
-    """What the points have in common; ``overrides`` are those of the command line."""
-    fixed = (*overrides, *question.fixed)
-    return Plan(
-        deck=str(path.resolve()),
-        fingerprint=fingerprint_of(path, fixed),
-        fixed=fixed,
-        cases=(question.case,),
-        results=(*RESULTS, *(POWER + name for name in question.pair)),
-        keep="none",
-        folder=str(path.resolve().parent),
-        time_limit=None,
-        memory_limit=None,
-        program=program_identity(),
-    )
+def study_json(study: Study, files: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The record that ``--json`` prints and ``STEM_interact.json`` holds; ``points`` are the rows of the table."""
+    ends, question = extremes(study.points), study.question
+    azimuth = "from +x towards +y" if question.absolute else "turned from the deck's directions"
+    return {
+        **about_json(study.about, study.exit_code),
+        "kind": question.kind,
+        "case": question.case if question.kind == DIRECTION else None,
+        "loads": list(question.pair) if question.kind == TWO_LOADS else None,
+        "azimuth": azimuth if question.kind == DIRECTION else None,
+        "axes": list(question.axes),
+        "closed": question.closed,
+        "points": rows_json(study.table),
+        "least": None if ends is None else _extreme_json(ends[0]),
+        "greatest": None if ends is None else _extreme_json(ends[1]),
+        "domain": None if study.domain is None else _domain_json(study, study.domain),
+        "words": [*question.words, *conclusions(study)],
+        "time": study.seconds,
+        "files": list(files),
+    }
+
+
+def _extreme_json(extreme: Extreme) -> Mapping[str, Any]:
+    return {"load_factor": extreme.load_factor, "angles": list(extreme.angles)}
+
+
+def _domain_json(study: Study, domain: Domain) -> Mapping[str, Any]:
+    return {
+        "flow_rule": "associative",
+        "inner": (domain.inner + 0.0).tolist(),
+        "outer": (domain.outer + 0.0).tolist(),
+        "cut_off": domain.cut_off,
+        "gap": number(domain.gap),
+        "convex": not domain.crossings,
+        "crossings": [{"angle": one.angle, "safe": one.safe, "share": number(one.share)} for one in domain.crossings],
+        "least_everywhere": everywhere(domain, closed=study.question.closed),
+    }

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from mbla.results.listing.answers import status_name
 from mbla.results.listing.text import INDENT, counted, number, percent, sentence, table
 from mbla.solution.solution import Status
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.domain import Domain
-from mbla.sweeps.interaction.extremes import Extreme, everywhere, extremes
-from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.interaction.domain import Domain, Extreme, Point, everywhere, extremes
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
-from mbla.sweeps.interaction.study import STOPPED, Study
+from mbla.sweeps.studies import NOT_SOLVED
+
+if TYPE_CHECKING:
+    from mbla.sweeps.interaction.study import Study
 
 MOST_ANGLES = 4
 """angles that are named of one extreme"""
@@ -22,7 +24,7 @@ ASSOCIATIVE = "associative"
 
 def study_lines(study: Study) -> list[str]:
     """Everything that the terminal shows."""
-    lines = [study.heading, f"{INDENT}flow rule {study.flow_rule}"]
+    lines = [study.about.heading, f"{INDENT}flow rule {study.about.flow_rule}"]
     for text in study.question.words:
         lines += sentence(text)
     lines += ["", *point_table(study), ""]
@@ -36,14 +38,14 @@ def point_table(study: Study) -> list[str]:
     both = study.question.kind == TWO_LOADS
     head = ["angle" if both else "azimuth", "load factor"]
     head += list(study.question.axes) if both else []
-    head += [*([] if study.flow_rule == ASSOCIATIVE else [ASSOCIATIVE]), "static bound", "kinem. bound"]
+    head += [*([] if study.about.flow_rule == ASSOCIATIVE else [ASSOCIATIVE]), "static bound", "kinem. bound"]
     words = [(mark_words(point), point.mechanism) for point in study.points]
     own = [name for column, name in ((1, "mechanism"), (0, "status")) if any(row[column] for row in words)]
     rows = []
     for point, (mark, mechanism) in zip(study.points, words, strict=True):
         row = [f"{point.angle:.6g}", number(point.load_factor)]
         row += [number(value) for value in point.at(point.load_factor)] if both else []
-        row += [] if study.flow_rule == ASSOCIATIVE else [number(point.associative)]
+        row += [] if study.about.flow_rule == ASSOCIATIVE else [number(point.associative)]
         row += [number(point.static_bound), number(point.kinematic_bound)]
         rows.append([*row, *({"mechanism": mechanism, "status": mark}[name] for name in own)])
     return table([*head, *own], rows, left=0)
@@ -52,7 +54,7 @@ def point_table(study: Study) -> list[str]:
 def mark_words(point: Point) -> str:
     """What is not plain of a point: capitals where it has no verified answer, as a run says it."""
     if not point.status:
-        return "NOT SOLVED" if point.exit_code in STOPPED else "FAILED"
+        return "NOT SOLVED" if point.reason == NOT_SOLVED else "FAILED"
     name = status_name(Status(point.status))
     if not point.answered:
         return name.upper() if point.status != Status.SOLVED else "NOT VERIFIED"
@@ -91,8 +93,8 @@ def domain_words(study: Study) -> list[str]:
     words = [text]
     if least is not None:
         words.append(f"at angles between the points too, associative flow carries at least {number(least)}")
-    if study.flow_rule != ASSOCIATIVE:
-        words.append(f"load factors by {study.flow_rule} flow lie inside of it; their curve need not be convex")
+    if study.about.flow_rule != ASSOCIATIVE:
+        words.append(f"load factors by {study.about.flow_rule} flow lie inside of it; their curve need not be convex")
     return words
 
 
@@ -120,7 +122,7 @@ def _alone_words(study: Study) -> list[str]:
     """Each of two loads by itself, where there is a point of it; the least factor over their shares says nothing."""
     words = []
     for point in study.points:
-        x, y = unit_vector(point.angle)
+        x, y = horizontal(point.angle, 1.0)
         if point.has_factor and 0.0 in (x, y):
             name = study.question.short[int(x == 0.0)]
             words.append(f"{name} alone{', the other way' if x + y < 0.0 else ''}: {number(point.load_factor)}")

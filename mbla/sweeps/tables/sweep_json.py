@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -70,6 +71,11 @@ def sweep_json(
         "time": {"total": number(run.seconds)},
         "files": list(files),
     }
+
+
+def record_text(record: Mapping[str, Any]) -> str:
+    """A record as its file has it."""
+    return json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def counts(table: SweepTable) -> dict[str, int]:
@@ -153,9 +159,9 @@ OWN_WORDS = "parameters of the design, in the order of the sweep file, with thei
 RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
 
 
-def sweep_record_page() -> str:
-    """The keys as a Markdown table."""
-    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in SWEEP_RECORD)]
+def keys_page(keys: Sequence[Key]) -> str:
+    """Keys of a record as a Markdown table."""
+    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in keys)]
     return "\n".join(["| key | type | meaning |", "|---|---|---|", *rows]) + "\n"
 
 

@@ -12,9 +12,8 @@ from mbla.results.files import OutputFolder
 from mbla.results.tables.csv_file import csv_text
 from mbla.results.tables.parquet_file import ParquetColumn, parquet_bytes, require_parquet
 from mbla.sweeps.fragility import Fragility, fragility_csv, fragility_json
-from mbla.sweeps.measure.study_files import record_text
 from mbla.sweeps.tables.read_table import CSV, JSON
-from mbla.sweeps.tables.sweep_json import SweepRun, sweep_json
+from mbla.sweeps.tables.sweep_json import SweepRun, record_text, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.table_hdf5 import sweep_hdf5
 

@@ -1,1 +1,5 @@
-"""Speed against accuracy on one deck: ladder of settings -> runs -> distances from a reference -> front, advice."""
+"""Speed against accuracy on one deck, a sweep over its settings: ladder -> points -> distances -> front, advice.
+
+``ladder.py`` has the settings, ``study.py`` runs them and writes the files, ``trade.py`` compares, ``words.py`` and
+``picture.py`` tell.
+"""

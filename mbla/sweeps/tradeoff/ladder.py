@@ -1,17 +1,32 @@
-"""The ladder of a deck: presets, tolerances, solvers, polyhedra, schemes, other models; or what a user names."""
+"""The settings under which a deck is run: presets, tolerances, solvers, polyhedra, schemes, other models; or what a
+user names.
+
+``--knob analysis.tolerance=1e-6,1e-8`` is one setting for each value; several knobs make every combination of theirs.
+``--setting 'NAME: analysis.accuracy=draft analysis.solver=clarabel'`` is one setting under a name of its own.
+
+Settings that solve the same model differ by an error; another flow rule or contact model, and anything outside of the
+analysis section, is another model, whose difference is no error. Friction polyhedra stand for the cone: the same model.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
+from math import prod
+from typing import Any
 
-from mbla.deck import Deck
+from mbla.deck import Deck, read_deck
+from mbla.deck.content import DeckContent
+from mbla.deck.reader import read_yaml
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.sources import SourceText
 from mbla.errors import DeckError, UsageError
-from mbla.sweeps.measure.setting import Setting, given_knobs, read_setting
-from mbla.sweeps.tradeoff.mechanics import other_model
-from mbla.sweeps.tradeoff.rung import REFERENCE, Rung
+from mbla.sweeps.identity import effective_tree
+from mbla.sweeps.plan import Plain, override_texts
 
+REFERENCE = "accuracy: reference"
+"""name of the setting that the others are held against"""
 PRESETS = ("standard", "reference", "draft")
 """the reference early, so that a time limit that ends the ladder leaves something to compare"""
 TOLERANCES = ("1e-4", "1e-6", "1e-8", "1e-10")
@@ -19,78 +34,170 @@ SOLVERS = ("mbla", "clarabel", "highs")
 SIDES = (4, 8, 16, 32)
 SCHEMES = ("proximal", "interior", "path", "published")
 POINTS = (2, 3)
-PLANAR = "friction has two directions in a planar structure: any polyhedron is exact"
+LIMITS = ("max_iterations", "time_limit")
+"""knobs without a default that are limits of effort, none of accuracy"""
+MODEL_KEYS = ("flow_rule", "contact_model")
+"""keys of the analysis section that choose what is modelled"""
+NO_MODEL = {"analysis", "output", "expected", "title"}
+MOST = 200
+"""settings in one study"""
+BRACKETS = {"[": 1, "{": 1, "]": -1, "}": -1}
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A setting under a name.
+
+    name  : as a deck says it, ``accuracy: draft``
+    set   : values by key path of the deck
+    freed : knobs of the analysis section that the deck gives and this setting leaves to ``accuracy``
+    unfit : why it does not apply to this deck; empty where it does
+    model : what makes it another model than the deck's, in words; empty where it is the deck's
+    spatial : tells nothing in a planar structure
+    """
+
+    name: str
+    set: Mapping[str, Plain] = field(default_factory=dict)
+    freed: tuple[str, ...] = ()
+    unfit: str = ""
+    model: str = ""
+    spatial: bool = False
+
+    def settings(self, deck: Deck, fixed: Sequence[str]) -> dict[str, Plain]:
+        """Values by key path, as a point sets them: knobs are left out by writing the analysis section without them."""
+        if not self.freed:
+            return dict(self.set)
+        own: Mapping[str, Any] = effective_tree(deck.path, fixed).data["analysis"]
+        section: dict[str, Plain] = {key: value for key, value in own.items() if key not in self.freed}
+        return {"analysis": section | {key.removeprefix("analysis."): value for key, value in self.set.items()}}
 
 
 def usual_ladder(deck: Deck, fixed: Sequence[str]) -> list[Rung]:
-    """Every rung that mbla knows of, those that do not apply with the reason."""
-    rungs = [_preset(deck, fixed, word) for word in PRESETS]
-    rungs.append(Rung("the deck's own settings"))
-    rungs += [Rung(f"tolerance: {value}", _of(f"analysis.tolerance={value}")) for value in TOLERANCES]
-    rungs += [Rung(f"solver: {name}", _of(f"analysis.solver={name}")) for name in SOLVERS]
-    rungs += [_polyhedron(sides) for sides in SIDES]
-    rungs += [_scheme(deck, name) for name in SCHEMES]
-    rungs += [_points(deck, number) for number in POINTS]
-    rungs.append(Rung("contact_model: convex", _of("analysis.contact_model=convex")))
-    rungs.append(Rung("flow_rule: associative", _of("analysis.flow_rule=associative")))
-    return rungs
+    """Every setting that mbla knows of, those that do not apply with the reason."""
+    rule, spacing = deck.analysis.flow_rule, deck.contacts.points.spacing
+    no_scheme = "" if rule == "non_associative" else f"a scheme of flow_rule: non_associative ({rule} here)"
+    no_points = "" if spacing is None else "the deck gives the spacing of contact points"
+    polyhedral: dict[str, Plain] = {"analysis.friction_cone": "polyhedral"}
+    return [
+        *(_preset(deck, fixed, word) for word in PRESETS),
+        Rung("the deck's own settings"),
+        *(Rung(f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in TOLERANCES),
+        *(Rung(f"solver: {name}", {"analysis.solver": name}) for name in SOLVERS),
+        *(Rung(f"polyhedron: {sides} sides", {**polyhedral, "analysis.sides": sides}, spatial=True) for sides in SIDES),
+        *(Rung(f"scheme: {name}", {"analysis.scheme": name}, unfit=no_scheme) for name in SCHEMES),
+        *(Rung(f"points per edge: {n}", {"contacts.points.per_edge": n}, unfit=no_points) for n in POINTS),
+        Rung("contact_model: convex", {"analysis.contact_model": "convex"}),
+        Rung("flow_rule: associative", {"analysis.flow_rule": "associative"}),
+    ]
 
 
-def asked_ladder(deck: Deck, fixed: Sequence[str], asked: Sequence[Rung]) -> list[Rung]:
-    """The reference and the rungs that the user names."""
-    return [_preset(deck, fixed, "reference"), *(rung for rung in asked if rung.name != REFERENCE)]
+def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
+    """One word, free of the knobs that the deck sets by itself; the reference with the true friction cone."""
+    own: dict[str, Plain] = {"analysis.accuracy": word}
+    if word == "reference" and deck.analysis.friction_cone == "polyhedral":
+        own["analysis.friction_cone"] = "circular"
+        if deck.analysis.solver == "highs":
+            own["analysis.solver"] = "auto"
+    return Rung(f"accuracy: {word}", own, given_knobs(deck, fixed))
 
 
-def fitted(path: Path, fixed: Sequence[str], deck: Deck, rungs: Sequence[Rung]) -> list[Rung]:
-    """The rungs with what is wrong with them on this deck: refused by it, the same as an earlier one, another model.
+def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
+    """Knobs that ``accuracy`` sets and the deck gives by itself; not those of ``fixed``, which the user wants so."""
+    chosen = {text.partition("=")[0].strip().removeprefix("analysis.") for text in fixed}
+    return tuple(
+        name
+        for name, key in AnalysisSection.model_fields.items()
+        if key.default is None and name not in LIMITS and name not in chosen
+        if getattr(deck.analysis, name) is not None
+    )
 
-    Raises UsageError where two rungs have one name.
+
+def named_ladder(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[Rung]:
+    """The reference and the settings that the user names."""
+    return [_preset(deck, fixed, "reference"), *(rung for rung in named if rung.name != REFERENCE)]
+
+
+def fitted(deck: Deck, fixed: Sequence[str], rungs: Sequence[Rung]) -> list[Rung]:
+    """The settings with what is wrong with them on this deck: refused by it, the same as an earlier one, another model.
+
+    Raises UsageError where two have one name.
     """
     ready: list[Rung] = []
     seen: dict[str, str] = {}
     for rung in rungs:
         if rung.name in [other.name for other in ready]:
             raise UsageError("tradeoff-option", f"{rung.name}: two settings of that name")
-        if rung.unfit:
-            ready.append(rung)
-            continue
-        try:
-            content = read_setting(path, fixed, rung.setting).content
-        except DeckError as error:
-            ready.append(replace(rung, unfit="; ".join(fault.message for fault in error.faults)))
-            continue
-        same = seen.setdefault(content.model_dump_json(exclude={"output", "expected"}), rung.name)
-        unfit = "" if same == rung.name else f"the same as {same}"
-        ready.append(replace(rung, unfit=unfit, model=other_model(deck.content, content)))
+        ready.append(rung if rung.unfit else _fitted(deck, fixed, rung, seen))
     return ready
 
 
-def _of(*overrides: str) -> Setting:
-    return Setting(overrides)
+def _fitted(deck: Deck, fixed: Sequence[str], rung: Rung, seen: dict[str, str]) -> Rung:
+    try:
+        content = read_deck(deck.path, (*fixed, *override_texts(rung.settings(deck, fixed)))).content
+    except DeckError as error:
+        return replace(rung, unfit="; ".join(fault.message for fault in error.faults))
+    same = seen.setdefault(content.model_dump_json(exclude={"output", "expected"}), rung.name)
+    unfit = "" if same == rung.name else f"the same as {same}"
+    return replace(rung, unfit=unfit, model=other_model(deck.content, content))
 
 
-def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
-    """One word, free of the knobs that the deck sets by itself; the reference with the true friction cone."""
-    overrides = [f"analysis.accuracy={word}"]
-    if word == "reference" and deck.analysis.friction_cone == "polyhedral":
-        overrides.append("analysis.friction_cone=circular")
-        if deck.analysis.solver == "highs":
-            overrides.append("analysis.solver=auto")
-    return Rung(f"accuracy: {word}", Setting(tuple(overrides), given_knobs(deck, fixed)))
+def other_model(deck: DeckContent, changed: DeckContent) -> str:
+    """What makes it another model, as ``flow_rule, contacts``; empty where it is the same."""
+    keys = [key for key in MODEL_KEYS if getattr(deck.analysis, key) != getattr(changed.analysis, key)]
+    own, its = (content.model_dump(mode="json", exclude=NO_MODEL) for content in (deck, changed))
+    return ", ".join([*keys, *(key for key in own if own[key] != its.get(key))])
 
 
-def _polyhedron(sides: int) -> Rung:
-    setting = _of("analysis.friction_cone=polyhedral", f"analysis.sides={sides}")
-    return Rung(f"polyhedron: {sides} sides", setting, spatial=PLANAR)
+# --- settings of the command line -------------------------------------------------------------------------------------
 
 
-def _scheme(deck: Deck, name: str) -> Rung:
-    rule = deck.analysis.flow_rule
-    unfit = "" if rule == "non_associative" else f"a scheme of flow_rule: non_associative ({rule} here)"
-    return Rung(f"scheme: {name}", _of(f"analysis.scheme={name}"), unfit)
+def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
+    """Settings of the two options, none if neither is given; UsageError for a text that is none."""
+    choices = [_values(text) for text in knobs]
+    count = len(settings) + (prod(len(choice) for choice in choices) if knobs else 0)
+    if count > MOST:
+        raise UsageError("tradeoff-option", f"--knob: {count} settings, more than {MOST}; name fewer values")
+    rungs = [_combination(texts) for texts in product(*choices)] if knobs else []
+    return rungs + [_named(text) for text in settings]
 
 
-def _points(deck: Deck, number: int) -> Rung:
-    spacing = deck.contacts.points.spacing
-    unfit = "" if spacing is None else "the deck gives the spacing of contact points"
-    return Rung(f"points per edge: {number}", _of(f"contacts.points.per_edge={number}"), unfit)
+def _values(text: str) -> list[str]:
+    """``key=value`` for each value; commas inside of brackets do not part them."""
+    key, equals, listed = text.partition("=")
+    parts, depth = [""], 0
+    for letter in listed:
+        depth += BRACKETS.get(letter, 0)
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    values = [part.strip() for part in parts]
+    if not equals or not key.strip() or not all(values):
+        raise UsageError("tradeoff-option", f"--knob {text}: must be KEY.PATH=VALUE,VALUE,...")
+    return [f"{key.strip()}={value}" for value in values]
+
+
+def _combination(texts: Sequence[str]) -> Rung:
+    shown = [text.removeprefix("analysis.").replace("=", ": ", 1) for text in texts]
+    return Rung(", ".join(shown), dict(map(_setting, texts)))
+
+
+def _named(text: str) -> Rung:
+    name, colon, rest = text.partition(":")
+    texts = rest.split()
+    if not colon or not name.strip() or not texts or not all("=" in each for each in texts):
+        raise UsageError(
+            "tradeoff-option",
+            f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",
+        )
+    return Rung(" ".join(name.split()), dict(map(_setting, texts)))
+
+
+def _setting(text: str) -> tuple[str, Plain]:
+    """Key path and value of a ``key.path=value`` text, the value as YAML has it."""
+    key, _, value = text.partition("=")
+    document = read_yaml(SourceText("--set", value, line=1), 0)
+    if document.faults or document.data is None:
+        raise UsageError("tradeoff-option", f"{text}: {value} is no value of a deck")
+    data: Plain = document.data
+    return key.strip(), data

@@ -7,13 +7,14 @@ and the words say it. Distances that are too small to be told lie on the line of
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION, WARNING, Page, add_words, open_page
-from mbla.sweeps.tradeoff.label_places import Box, label_places
 from mbla.sweeps.tradeoff.trade import CaseTrade, Row
 from mbla.sweeps.tradeoff.words import reference_words
 
@@ -23,6 +24,10 @@ ROOM = 3.0
 """factor of time and error left free around the points, for the labels"""
 LEADER = 1.2
 """distance of a label from its point, in heights of a line, from which on a line joins them"""
+RINGS = (1.0, 1.8, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0)
+"""distances of a label that are tried one after the other, in heights of a line"""
+SIDES = 16
+"""directions at each of them"""
 
 
 def draw_trade(path: Path, title: str, trade: CaseTrade, advised: str, options: PictureOptions | None = None) -> None:
@@ -32,11 +37,11 @@ def draw_trade(path: Path, title: str, trade: CaseTrade, advised: str, options: 
     """
     with open_page(path, options or PictureOptions()) as page:
         words = [title, f"load case {trade.name}: {reference_words(trade)}", advised]
-        others = [row.name for row in trade.rows if row.measurement is not None and row.run.rung.model]
+        others = [row.name for row in trade.solved if row.rung.model]
         if others:
             words.append(f"not drawn, as their difference is no error: {', '.join(others)}")
-        rows = [row for row in trade.rows if row.measurement is not None and not row.run.rung.model]
-        drawn = [row for row in rows if trade.has_figure and trade.error(row) == trade.error(row)]
+        rows = [row for row in trade.solved if not row.rung.model]
+        drawn = [row for row in rows if trade.has_figure and not math.isnan(trade.error(row))]
         mark = "" if trade.verified else "NOT VERIFIED: no run is verified that the others could be held against"
         above = add_words(page, words, mark)
         axes = page.figure.add_axes((LEFT, BOTTOM, RIGHT - LEFT, 1 - above - BOTTOM - 0.02))
@@ -47,7 +52,7 @@ def draw_trade(path: Path, title: str, trade: CaseTrade, advised: str, options: 
 
 
 def _draw(page: Page, axes: Any, trade: CaseTrade, rows: Sequence[Row]) -> None:
-    points = [(_wall(row), trade.error(row)) for row in rows]
+    points = [(row.seconds, trade.error(row)) for row in rows]
     _frame(page, axes, trade, points)
     front = sorted(point for row, point in zip(rows, points, strict=True) if row.front)
     if front:
@@ -108,6 +113,58 @@ def _label(page: Page, axes: Any, rows: Sequence[Row], points: Sequence[tuple[fl
             axes.plot(*zip(*ends, strict=True), color=GHOST, linewidth=0.7 * page.scale, zorder=0)
 
 
-def _wall(row: Row) -> float:
-    assert row.measurement is not None
-    return row.measurement.wall
+@dataclass(frozen=True)
+class Box:
+    """A rectangle, in pixels."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    def overlaps(self, other: Box) -> bool:
+        """Whether the two have an area in common."""
+        beside = self.right <= other.left or other.right <= self.left
+        return not (beside or self.top <= other.bottom or other.top <= self.bottom)
+
+    def within(self, other: Box) -> bool:
+        """Whether this lies inside of the other."""
+        across = other.left <= self.left and self.right <= other.right
+        return across and other.bottom <= self.bottom and self.top <= other.top
+
+
+def label_places(
+    points: Sequence[tuple[float, float]], sizes: Sequence[tuple[float, float]], frame: Box, mark: float
+) -> list[Box | None]:
+    """A box for the label of each point, the nearest that is free; None where there is none within reach.
+
+    points : of the marks, in pixels; earlier ones choose first
+    sizes  : width and height of each label
+    mark   : half the size of a mark
+    """
+    taken = [Box(x - mark, y - mark, x + mark, y + mark) for x, y in points]
+    places: list[Box | None] = []
+    for point, size in zip(points, sizes, strict=True):
+        tried = (box for box in _around(point, size, mark))
+        free = next((box for box in tried if box.within(frame) and not any(box.overlaps(each) for each in taken)), None)
+        places.append(free)
+        taken += [] if free is None else [free]
+    return places
+
+
+def _around(point: tuple[float, float], size: tuple[float, float], mark: float) -> list[Box]:
+    """Boxes around a point, ring after ring, to the right first."""
+    (x, y), (width, height) = point, size
+    boxes = []
+    for ring in RINGS:
+        reach = mark + 0.4 * height * ring
+        for step in range(SIDES):
+            turn = (step + 1) // 2 * (1 if step % 2 else -1)
+            angle = 2.0 * math.pi * turn / SIDES
+            ahead, aside = math.cos(angle), math.sin(angle)
+            centre_x = x + ahead * (reach + width / 2.0)
+            centre_y = y + aside * (reach + height / 2.0)
+            boxes.append(
+                Box(centre_x - width / 2.0, centre_y - height / 2.0, centre_x + width / 2.0, centre_y + height / 2.0)
+            )
+    return boxes

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.sweeps.engine.line_process import PACKAGES
-from tests.sweeps.worker.test_supervised import wait_for
+from tests.sweeps.engine.test_supervised import wait_for
 
 
 @dataclass

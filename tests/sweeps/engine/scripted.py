@@ -10,10 +10,9 @@ from typing import Any
 import pytest
 
 from mbla.sweeps.engine import connection
-from mbla.sweeps.engine.choice import engine_for
 from mbla.sweeps.engine.cluster import ClusterEngine
-from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.worker.batch import describe
+from mbla.sweeps.engine.engine import EngineOptions, engine_for
+from mbla.sweeps.engine.on_worker import describe
 
 ADDRESS = "tcp://host:8786"
 WORKER = "tcp://worker:1"

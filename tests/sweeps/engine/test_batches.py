@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.sweeps.engine.batches import MOST, Batches
+from mbla.sweeps.engine.cluster import MOST, Batches
 from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.small_plan import frictions
 

@@ -8,10 +8,8 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
-from mbla.sweeps.engine.choice import engine_for
 from mbla.sweeps.engine.cluster import ClusterEngine
-from mbla.sweeps.engine.options import EngineOptions
-from mbla.sweeps.engine.serial import SerialEngine
+from mbla.sweeps.engine.engine import EngineOptions, SerialEngine, engine_for
 
 TLS = "tls://host:8786"
 

@@ -12,14 +12,13 @@ import pytest
 from distributed import Client
 
 from mbla.errors import FileError, UsageError
-from mbla.sweeps.engine.choice import engine_for
+from mbla.sweeps.engine.engine import EngineOptions, engine_for
 from mbla.sweeps.engine.line_process import PACKAGES
-from mbla.sweeps.engine.options import EngineOptions
 from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.real_cluster import kill, real_cluster
+from tests.sweeps.engine.test_supervised import children, wait_for
 from tests.sweeps.small_plan import ROW, frictions, plan_over
-from tests.sweeps.worker.test_supervised import children, wait_for
 
 WALLS = tuple(Task(f"key{i}", i, {"parameters.n": 7, "parameters.mu": i / 50}) for i in range(1, 25))
 """points that take some tenths of a second each"""

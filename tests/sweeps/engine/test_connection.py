@@ -11,7 +11,7 @@ import pytest
 
 from mbla.errors import FileError, UsageError
 from mbla.sweeps.engine import connection
-from mbla.sweeps.worker.batch import describe
+from mbla.sweeps.engine.on_worker import describe
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.scripted import ADDRESS, Script, scripted_engine
 

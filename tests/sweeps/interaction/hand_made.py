@@ -10,14 +10,14 @@ from typing import Any
 from mbla.deck import read_deck
 from mbla.deck.units import Units
 from mbla.model import build_model
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.command import question_of
-from mbla.sweeps.interaction.domain import domain_of
-from mbla.sweeps.interaction.point import Point
+from mbla.sweeps.design.design import DesignColumn
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.interaction.domain import Point, domain_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
-from mbla.sweeps.interaction.study import Study, plan_of, study_points
-from mbla.sweeps.plan import Outcome, Plan, Task
-from mbla.sweeps.worker.runner import PointRunner
+from mbla.sweeps.interaction.study import Study, question_of, study_points
+from mbla.sweeps.plan import DONE, Outcome, Plan, Task
+from mbla.sweeps.studies import About, study_table
 from tests.line import HEAD
 
 BLOCK = (
@@ -59,9 +59,6 @@ class Asked:
 class ThisProcess:
     """An engine that solves the points where it is."""
 
-    def expect(self, plan: Plan, points: int) -> None:
-        """Nothing takes long to begin here."""
-
     def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes, the last task first: the order must not matter."""
         runner = PointRunner(plan)
@@ -83,10 +80,9 @@ def written(folder: Path) -> Path:
 
 def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Study:
     """The diagram of the block."""
-    path = written(folder)
-    deck = read_deck(path, overrides)
+    deck = read_deck(written(folder), overrides)
     wanted = question_of(deck, Asked(**asked))
-    return study_points(deck, overrides, wanted, plan_of(path, overrides, wanted), ThisProcess(), None)
+    return study_points(deck, overrides, wanted, ThisProcess(), None)
 
 
 def live_load(folder: Path, settings: Sequence[str], case: str) -> Any:
@@ -98,7 +94,7 @@ def live_load(folder: Path, settings: Sequence[str], case: str) -> Any:
 
 def point(angle: float, factor: float = 0.5, **changes: Any) -> Point:
     """A verified point of associative flow whose mechanism bounds the domain across its ray."""
-    cosine, sine = unit_vector(angle)
+    cosine, sine = horizontal(angle, 1.0)
     plain = Point(
         angle,
         True,
@@ -135,10 +131,12 @@ def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "asso
     )
     assert kind in (DIRECTION, TWO_LOADS)
     domain = domain_of(points, pair, closed=closed)
-    provenance = {"mbla": "0"}
-    return Study(
-        "block.yaml", "Block", (), Units("m", "N", "kg"), flow_rule, asked, tuple(points), domain, 1.0, provenance
-    )
+    of = About("block.yaml", "Block", (), Units("m", "N", "kg"), flow_rule, {"mbla": "0"})
+    angle = DesignColumn("azimuth", "degree", "", "float", "azimuth", "azimuth")
+    plan = Plan("", "", (), ("push",), ("load_factor",), "none", "", None, None, "")
+    outcomes = {n: Outcome(str(n), DONE, 0, "", {}, 1, 0.1) for n in range(1, len(points) + 1)}
+    table = study_table(of, angle, asked.angles, plan, outcomes)
+    return Study(of, asked, tuple(points), table, domain, 0, 1.0)
 
 
 def around(count: int, **changes: Any) -> list[Point]:

@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.domain import area
-from mbla.sweeps.interaction.extremes import everywhere, extremes
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.interaction.domain import area, everywhere, extremes
 from tests.sweeps.interaction.hand_made import solved
 
 EXACT = 1e-6
@@ -35,7 +34,7 @@ def test_a_block_turns_over_its_edges_and_corners(tmp_path: Path) -> None:
     """About the edges the factor is b/h over the cosine to each normal; the domain is the rectangle of both."""
     study = solved(tmp_path, ["parameters.by=1.4"], case="push", directions=12)
     for point in study.points:
-        cosine, sine = map(abs, unit_vector(point.angle))
+        cosine, sine = map(abs, horizontal(point.angle, 1.0))
         expected = min(b / (2 * share) for b, share in ((1.0, cosine), (1.4, sine)) if share)
         assert point.load_factor == pytest.approx(expected, rel=EXACT)
     assert study.domain is not None
@@ -50,7 +49,7 @@ def test_the_interaction_polygon_of_two_loads(tmp_path: Path) -> None:
     """Mass force α W at mid-height and β W at the top: α + β ≤ μ slides, α + 2 β ≤ b/h turns over."""
     study = solved(tmp_path, ["parameters.mu=0.4"], loads=("push", "top"), directions=7)
     for point in study.points:
-        cosine, sine = unit_vector(point.angle)
+        cosine, sine = horizontal(point.angle, 1.0)
         assert point.load_factor == pytest.approx(min(0.4 / (cosine + sine), 0.5 / (cosine + 2 * sine)), rel=EXACT)
         assert point.powers["push"] * cosine + point.powers["top"] * sine == pytest.approx(1.0)
     assert study.domain is not None

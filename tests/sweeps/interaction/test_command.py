@@ -14,11 +14,10 @@ import mbla
 from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.process.signals import Terminated
-from mbla.sweeps.interaction.command import factor_ratio, file_name, question_of
-from mbla.sweeps.interaction.study import plan_of, study_points
+from mbla.sweeps.interaction.study import factor_ratio, question_of, study_points
 from mbla.sweeps.interaction.words import conclusions
 from mbla.sweeps.plan import Outcome, Plan, Task
-from tests.sweeps.interaction.hand_made import Asked, ThisProcess, question, solved, written
+from tests.sweeps.interaction.hand_made import Asked, ThisProcess, solved, written
 
 
 def test_files_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -57,12 +56,6 @@ def test_a_point_that_cannot_be_asked_fails_alone(tmp_path: Path) -> None:
     assert study.exit_code == 3
 
 
-def test_two_questions_of_one_deck_have_files_of_their_own(tmp_path: Path) -> None:
-    deck = tmp_path / "block.yaml"
-    assert file_name(deck, question(tmp_path, case="push")) == "block_interact"
-    assert file_name(deck, question(tmp_path, loads=("push", "top"))) == "block_interact_push_top"
-
-
 def test_a_point_over_the_time_limit_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["--case", "push", "--directions", "1", "--time-limit", "1e-9", "--json"]
     assert main(["interact", str(written(tmp_path)), *arguments]) == 7
@@ -98,7 +91,7 @@ def test_an_interrupted_study_is_shown_and_never_written_over_an_earlier_one(
     if earlier:
         assert main(arguments) == 0
     before = table.read_bytes() if earlier else b""
-    monkeypatch.setattr("mbla.sweeps.interaction.command.engine_for", lambda _: Interrupted(2))
+    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(2))
     assert main(arguments) == 130
     out, err = capsys.readouterr()
     assert "no verified answer at 0, 90 degrees: not solved: interrupted before" in " ".join(out.split())
@@ -110,7 +103,7 @@ def test_an_interrupted_study_is_shown_and_never_written_over_an_earlier_one(
 def test_a_study_that_is_terminated_has_its_points_too(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mbla.sweeps.interaction.command.engine_for", lambda _: Interrupted(2, Terminated))
+    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(2, Terminated))
     assert main(["interact", str(written(tmp_path)), "--case", "push", "--directions", "4", "--json"]) == 143
     record = json.loads(capsys.readouterr().out)
     assert record["exit_code"] == 143
@@ -118,7 +111,7 @@ def test_a_study_that_is_terminated_has_its_points_too(
 
 
 def test_an_interruption_before_the_first_point_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.sweeps.interaction.command.engine_for", lambda _: Interrupted(0))
+    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(0))
     assert main(["interact", str(written(tmp_path)), "--case", "push", "-q"]) == 130
     assert not (tmp_path / "block.out").exists()
 
@@ -131,7 +124,7 @@ def test_an_interruption_before_the_angles_are_known_writes_nothing(
     arguments = ["interact", str(written(tmp_path)), "--loads", "push", "top", "--set", "parameters.mu=0.4", "-q"]
     for error, status in ((KeyboardInterrupt, 130), (Terminated, 143)):
         engine = Interrupted(after, error)
-        monkeypatch.setattr("mbla.sweeps.interaction.command.engine_for", lambda _, engine=engine: engine)
+        monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _, engine=engine: engine)
         assert main(arguments) == status
         assert not (tmp_path / "block.out").exists()
 
@@ -140,7 +133,7 @@ def test_the_points_of_two_loads_are_those_of_their_ratio(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The flat block slides under either at 0.4 of its weight; the second load is twice as large."""
-    monkeypatch.setattr("mbla.sweeps.interaction.command.engine_for", lambda _: Interrupted(9))
+    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(9))
     settings = [
         "--set",
         "parameters.mu=0.4",
@@ -184,7 +177,7 @@ def test_two_processes_give_the_same_table(tmp_path: Path) -> None:
             == 0
         )
         with (out / "block_interact.csv").open(newline="", encoding="utf-8") as file:
-            tables.append([{k: v for k, v in row.items() if k != "time [s]"} for row in csv.DictReader(file)])
+            tables.append([{k: v for k, v in row.items() if k != "seconds [s]"} for row in csv.DictReader(file)])
     assert tables[0] == tables[1]
 
 
@@ -204,7 +197,7 @@ def test_each_point_is_reported_as_it_comes(tmp_path: Path) -> None:
     path = written(tmp_path)
     deck, told = read_deck(path), list[tuple[int, int]]()
     wanted = question_of(deck, Asked(case="push", directions=3))
-    study_points(deck, (), wanted, plan_of(path, (), wanted), ThisProcess(), lambda *done: told.append(done))
+    study_points(deck, (), wanted, ThisProcess(), lambda *done: told.append(done))
     assert told == [(1, 3), (2, 3), (3, 3)]
 
 

@@ -10,8 +10,8 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.errors import UsageError
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.direction import direction_question
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.interaction.question import direction_question
 from mbla.sweeps.plan import override_texts
 from tests.sweeps.interaction.hand_made import live_load, question, written
 
@@ -26,7 +26,7 @@ def test_azimuths_are_absolute_whatever_the_direction_of_the_deck(tmp_path: Path
     for azimuth, settings in zip(asked.angles, asked.settings, strict=True):
         load, _ = live_load(tmp_path, override_texts(settings), case)
         vertical = -0.5 * WEIGHT if case == "slanted" else 0.0
-        assert load == pytest.approx([*np.multiply(unit_vector(azimuth), WEIGHT), vertical, 0, 0, 0], abs=1e-9)
+        assert load == pytest.approx([*np.multiply(horizontal(azimuth, 1.0), WEIGHT), vertical, 0, 0, 0], abs=1e-9)
 
 
 def test_a_force_keeps_its_point_and_so_its_arm(tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_the_axis_cases_add_up_to_every_point(tmp_path: Path) -> None:
     axes = [live_load(tmp_path, asked.fixed, name)[0] for name in asked.pair]
     for azimuth, settings in zip(asked.angles, asked.settings, strict=True):
         load, _ = live_load(tmp_path, override_texts(settings), "top")
-        cosine, sine = unit_vector(azimuth)
+        cosine, sine = horizontal(azimuth, 1.0)
         assert load == pytest.approx(cosine * axes[0] + sine * axes[1], abs=1e-9)
 
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.sweeps.interaction.domain import area, clipped, convex_hull, domain_of, reach_along
-from mbla.sweeps.interaction.extremes import everywhere
+from mbla.sweeps.interaction.domain import area, clipped, convex_hull, domain_of, everywhere, reach_along
 from tests.sweeps.interaction.hand_made import around, point, study
 
 PAIR = ("A", "B")

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.sweeps.interaction.domain import Point
 from mbla.sweeps.interaction.picture import ROOM, draw_study
-from mbla.sweeps.interaction.point import Point
 from mbla.sweeps.interaction.question import TWO_LOADS
 from tests.sweeps.drawn import names_in_legend, places
 from tests.sweeps.interaction.hand_made import around, point, study

@@ -8,8 +8,8 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import UsageError
 from mbla.model import build_model
-from mbla.sweeps.interaction.angles import unit_vector
-from mbla.sweeps.interaction.two_loads import two_loads_question
+from mbla.sweeps.design.directions import horizontal
+from mbla.sweeps.interaction.question import two_loads_question
 from mbla.sweeps.plan import override_texts
 from tests.sweeps.interaction.hand_made import live_load, question
 
@@ -19,7 +19,7 @@ def test_both_act_with_cosine_and_sine(tmp_path: Path) -> None:
     own = [live_load(tmp_path, (), name)[0] for name in ("named", "top")]
     for angle, settings in zip(asked.angles, asked.settings, strict=True):
         load, dead = live_load(tmp_path, override_texts(settings), asked.case)
-        cosine, sine = unit_vector(angle)
+        cosine, sine = horizontal(angle, 1.0)
         assert load == pytest.approx(cosine * own[0] + sine * own[1], abs=1e-9)
         assert dead == pytest.approx(live_load(tmp_path, (), "top")[1])
 

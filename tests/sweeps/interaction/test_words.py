@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from mbla.sweeps.interaction.description import INTERACT_RECORD
+from mbla.sweeps.interaction.domain import Point
 from mbla.sweeps.interaction.picture import draw_study, joined_runs
-from mbla.sweeps.interaction.point import Point
 from mbla.sweeps.interaction.question import TWO_LOADS
-from mbla.sweeps.interaction.records import study_csv, study_json
+from mbla.sweeps.interaction.study import study_json
 from mbla.sweeps.interaction.words import angle_words, conclusions, mark_words, study_lines
 from tests.sweeps.interaction.hand_made import around, point, study
 
@@ -98,18 +96,10 @@ def test_contradicting_bounds_are_an_error_of_verification() -> None:
     assert record["domain"]["least_everywhere"] is None
 
 
-def test_records_have_no_figure_where_there_is_none() -> None:
-    made = study(with_one(LATE))
-    record = json.loads(json.dumps(study_json(made), allow_nan=False))
-    told = record["points"][1]
-    assert (told["verified"], told["status"], told["load_factor"], told["factors"]) == (False, None, None, [None, None])
-    assert told["half_plane"] is None
-    assert record["points"][2]["factors"] == [-0.5, 0.0]
-    assert record["points"][2]["half_plane"] == [-1.0, 0.0]
-    rows = list(csv.DictReader(io.StringIO(study_csv(made))))
-    assert (rows[1]["verified"], rows[1]["load_factor"], rows[1]["reason"]) == ("False", "", "stopped after 3 s")
-    assert float(rows[3]["factor_y"]) == -0.5
-    assert rows[0]["azimuth [degree]"] == "0.0"
+def test_every_key_of_the_record_is_described() -> None:
+    record = study_json(study(around(4)))
+    described = {key.path for key in INTERACT_RECORD}
+    assert described == set(record) | {f"domain.{key}" for key in record["domain"]}
 
 
 def test_no_line_leads_to_a_point_without_a_verified_factor() -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +14,10 @@ import pytest
 
 import mbla
 from mbla.cli import main
-from mbla.results.outcome import law_residual
+from mbla.process.signals import Terminated
+from mbla.sweeps.engine.engine import SerialEngine
+from mbla.sweeps.plan import DONE, Outcome, Plain, Plan, Task
+from mbla.sweeps.tradeoff import study
 from tests.line import BLOCK
 
 DECK = BLOCK.replace("  push:", "  lift: {live: [{acceleration: [0, 0, -1]}]}\n  push:")
@@ -56,52 +61,45 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Written:
 
 @pytest.mark.parametrize("name", SETTINGS)
 def test_every_column_is_that_of_a_run(written: Written, name: str) -> None:
-    (row,) = [row for row in written.rows if (row["case"], row["setting"]) == ("push", name)]
+    (row,) = [row for row in written.rows if row["setting"] == name]
     run = mbla.run(written.deck, set=SETTINGS[name], cases="push")
     (case,) = run.records.cases
-    assert row["status"] == case.status.value == "solved"
-    assert row["verified"] == str(case.checks.verified)
+    assert row["push.status"] == case.status.value == "solved"
+    assert row["push.verified"] == str(case.checks.verified)
     assert case.solution.mechanics is not None
     expected = {
         "load_factor": case.solution.mechanics.load_factor,
-        "lower_bound": case.checks.static_bound,
-        "upper_bound": case.checks.kinematic_bound,
-        "accuracy": case.checks.gap,
-        "residual": law_residual(case.checks),
+        "static_bound": case.checks.static_bound,
+        "kinematic_bound": case.checks.kinematic_bound,
+        "gap": case.checks.gap,
     }
     for column, value in expected.items():
-        assert float(row[column]) == pytest.approx(value, rel=1e-9, abs=1e-12), column
-    assert int(row["programs"]) == len(case.solution.programs)
-    assert int(row["iterations"]) == sum(program.iterations for program in case.solution.programs)
-    assert row["solvers"] == " ".join(dict.fromkeys(p.solver for p in case.solution.programs if p.solver))
-    assert 0.0 < float(row["solver_time [s]"]) < float(row["time [s]"])
-    assert float(row["processor_time [s]"]) > 0.0
-    assert 0.0 <= float(row["memory [MB]"]) < 100.0  # of one block: imports are not charged
+        assert float(row[f"push.{column}"]) == pytest.approx(value, rel=1e-9, abs=1e-12), column
+    assert int(row["push.iterations"]) == sum(program.iterations for program in case.solution.programs)
+    assert 0.0 < float(row["push.time.solver [s]"]) < float(row["push.time.total [s]"])
 
 
 def test_another_model_is_told_from_an_error(written: Written) -> None:
     """The lower and rougher block rests on friction of 0.9 instead of turning over at 0.5."""
-    rows = {row["setting"]: row for row in written.rows if row["case"] == "push"}
-    assert rows["stronger"]["other_model"] == "parameters, joints, blocks"
-    assert float(rows["stronger"]["load_factor"]) == pytest.approx(0.9, rel=1e-6)
-    assert float(rows["stronger"]["distance"]) == pytest.approx(0.8, rel=1e-5)
-    assert rows["stronger"]["front"] == "False"
-    assert float(rows["tolerance: 1e-9"]["distance"]) < 1e-8
+    rows = {row["setting"]: row for row in written.rows}
+    assert float(rows["stronger"]["push.load_factor"]) == pytest.approx(0.9, rel=1e-6)
+    assert float(rows["stronger"]["push.distance"]) == pytest.approx(0.8, rel=1e-5)
+    assert rows["stronger"]["push.front"] == "False"
+    assert float(rows["tolerance: 1e-9"]["push.distance"]) < 1e-8
     assert "other models (parameters, joints, blocks), whose difference is no error:" in written.words
 
 
 def test_a_load_case_that_nothing_brings_down(written: Written) -> None:
-    rows = [row for row in written.rows if row["case"] == "lift" and row["end"] == "done"]
-    assert {row["status"] for row in rows} == {"unbounded"}
-    assert {row["load_factor"] for row in rows} == {""}
-    assert {row["distance"] for row in rows} == {"0.0"}
+    rows = [row for row in written.rows if row["state"] == "done"]
+    assert {row["lift.status"] for row in rows} == {"unbounded"}
+    assert {row["lift.distance"] for row in rows} == {"0.0"}
+    assert "lift.load_factor" not in rows[0]
     assert "all are held against accuracy: reference: unbounded" in written.words
 
 
 def test_a_setting_that_the_deck_refuses_is_told(written: Written) -> None:
     (told,) = [each for each in written.printed["settings"] if each["name"] == "path"]
     assert told["end"] == "unfit"
-    assert told["reason"] == "must be auto, mbla, clarabel or highs"
     assert "path: does not apply" in written.words
 
 
@@ -157,12 +155,67 @@ def test_refusals(
     assert not deck.with_suffix(".out").exists()
 
 
-def test_a_solver_that_takes_no_cones_does_not_apply(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    deck = tmp_path / "block.yaml"
-    deck.write_text(BLOCK, encoding="utf-8")
-    arguments = ["--set", "analysis.reductions=false", "--setting", "highs: analysis.solver=highs"]
-    assert main(["tradeoff", str(deck), *arguments]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    assert "highs: does not apply: analysis.solver = highs solves linear programs only" in told
-    record = json.loads((tmp_path / "block.out" / "block_tradeoff.json").read_text(encoding="utf-8"))
-    assert {run["name"]: run["end"] for run in record["settings"]} == {"accuracy: reference": "done", "highs": "unfit"}
+class LeftAfter(SerialEngine):
+    """Some points are solved, then the study is interrupted."""
+
+    points = 1
+    error: type[BaseException] = KeyboardInterrupt
+
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        """Each has the load factor of a block."""
+        for task in tasks:
+            if task.number > self.points:
+                raise self.error
+            found: dict[str, Plain] = {"status": "solved", "load_factor": 0.5, "verified": True, "time.total": 2.0}
+            yield Outcome(task.key, DONE, 0, "", found, 1, 2.0)
+
+
+@pytest.fixture
+def left(deck: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    monkeypatch.setattr(study, "SerialEngine", LeftAfter)
+    return ["tradeoff", str(deck), "--knob", "analysis.tolerance=1e-6,1e-7,1e-8"]
+
+
+@pytest.mark.parametrize(("error", "status"), [(KeyboardInterrupt, 130), (Terminated, 143)])
+def test_what_was_solved_before_an_interruption_is_told_and_written(
+    left: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    error: type[BaseException],
+    status: int,
+) -> None:
+    monkeypatch.setattr(LeftAfter, "error", error)
+    assert main([*left, "--json"]) == status
+    told = capsys.readouterr()
+    record, word = json.loads(told.out), {130: "interrupted", 143: "terminated"}[status]
+    assert [setting["end"] for setting in record["settings"]] == ["done", *[word] * 3]
+    assert [point["load_factor"] for point in record["points"]] == [0.5, None, None, None]
+    assert "mbla: interrupted: here is what was found until then" in told.err
+    assert f"not run: {word} before" in " ".join(told.err.split())
+
+
+def test_an_earlier_study_is_not_replaced_by_half_a_one(left: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    earlier = Path(left[1]).with_suffix(".out") / "block_tradeoff.csv"
+    earlier.parent.mkdir()
+    earlier.write_text("earlier", encoding="utf-8")
+    assert main([*left, "--force"]) == 130
+    assert "the files of the earlier study are left as they are" in capsys.readouterr().err
+    assert [path.name for path in earlier.parent.iterdir()] == [earlier.name]
+    assert earlier.read_text(encoding="utf-8") == "earlier"
+
+
+def test_before_anything_was_solved_nothing_is_left(left: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(LeftAfter, "points", 0)
+    assert main(left) == 130
+    assert not Path(left[1]).with_suffix(".out").exists()
+
+
+def test_without_the_extra_for_pictures_the_rest_is_written(
+    left: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(LeftAfter, "points", 9)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(left) == 0
+    assert "mbla: no pictures: " in capsys.readouterr().err
+    names = sorted(path.name for path in Path(left[1]).with_suffix(".out").iterdir())
+    assert names == ["block_tradeoff.csv", "block_tradeoff.json"]

@@ -1,85 +1,101 @@
-"""Which rungs a ladder has, and what becomes of each, by a process made by hand."""
+"""The settings of a ladder, and those named on the command line."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 from mbla.deck import read_deck
-from mbla.sweeps.measure.measuring import ChildRun
-from mbla.sweeps.tradeoff import ladder_run
-from mbla.sweeps.tradeoff.ladder import asked_ladder
-from mbla.sweeps.tradeoff.ladder_run import Limits, run_ladder
-from mbla.sweeps.tradeoff.rung import Rung
+from mbla.errors import UsageError
+from mbla.sweeps.plan import Plain
+from mbla.sweeps.tradeoff.ladder import Rung, fitted, given_knobs, named_ladder, named_rungs, usual_ladder
 from tests.line import BLOCK
-from tests.sweeps.tradeoff.hand_made import measured
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "block.yaml"
+    path.write_text(BLOCK, encoding="utf-8")
+    return path
 
 
 @pytest.mark.parametrize(
     ("overrides", "added"),
     [
-        ((), ()),
-        (("analysis.friction_cone=polyhedral",), ("analysis.friction_cone=circular",)),
-        (("analysis.friction_cone=polyhedral", "analysis.solver=highs"),
-         ("analysis.friction_cone=circular", "analysis.solver=auto")),
+        ((), {}),
+        (("analysis.friction_cone=polyhedral",), {"analysis.friction_cone": "circular"}),
+        (
+            ("analysis.friction_cone=polyhedral", "analysis.solver=highs"),
+            {"analysis.friction_cone": "circular", "analysis.solver": "auto"},
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_reference_has_the_true_friction_cone(
-    tmp_path: Path, overrides: tuple[str, ...], added: tuple[str, ...]
+    path: Path, overrides: tuple[str, ...], added: dict[str, Plain]
 ) -> None:
     """And a solver that takes it."""
-    path = tmp_path / "block.yaml"
-    path.write_text(BLOCK, encoding="utf-8")
-    reference, draft = asked_ladder(read_deck(path, overrides), overrides, [Rung("accuracy: draft")])
+    reference, draft = named_ladder(read_deck(path, overrides), overrides, [Rung("accuracy: draft")])
     assert reference.name == "accuracy: reference"
-    assert reference.setting.overrides == ("analysis.accuracy=reference", *added)
+    assert reference.set == {"analysis.accuracy": "reference", **added}
     assert draft == Rung("accuracy: draft")
 
 
-class Answers:
-    """In place of the process that measures: a load case is answered, then the run ends as it is told."""
-
-    end = ChildRun((measured(0.5, 1.0),), "stopped")
-
-    def __enter__(self) -> Answers:
-        return self
-
-    def __exit__(self, *what: object) -> None:
-        return None
-
-    def run(self, task: Any, until: Any, seconds: Any, report: Callable[[Any], None]) -> ChildRun:
-        report(self.end.measurements[0])
-        return self.end
+def test_presets_are_free_of_the_knobs_that_the_deck_sets_by_itself(path: Path) -> None:
+    path.write_text(re.sub("analysis: .*", "analysis: {tolerance: 1e-5, gap: 1e-3}", BLOCK), encoding="utf-8")
+    fixed = ("analysis.gap=1e-2",)
+    deck = read_deck(path, fixed)
+    assert given_knobs(deck, fixed) == ("tolerance",)  # the user wants the other one so
+    standard = usual_ladder(deck, fixed)[0]
+    assert standard.settings(deck, fixed) == {"analysis": {"gap": 1e-2, "accuracy": "standard"}}
 
 
-@pytest.mark.parametrize(
-    ("limits", "words", "expired"),
-    [
-        (Limits(each=2.5), "stopped after 2.5 s", False),
-        (Limits(budget=600.0, each=2.5), "stopped after 2.5 s", False),
-        (Limits(budget=1.0, each=2.5), "stopped at the end of the time limit", True),
-    ],
-)
-def test_a_rung_that_was_stopped_says_by_which_limit(
-    monkeypatch: pytest.MonkeyPatch, limits: Limits, words: str, expired: bool
-) -> None:
-    """The clock says 0, then 0.1 as the rung begins and 3 when it was stopped."""
-    clock = iter([0.0, 0.1, 3.0])
-    monkeypatch.setattr(ladder_run, "MeasuringProcess", Answers)
-    monkeypatch.setattr("mbla.sweeps.tradeoff.ladder_run.time", SimpleNamespace(monotonic=lambda: next(clock)))
-    told: list[tuple[int, int, str, str]] = []
-    (run,) = run_ladder(Path("a.yaml"), (), ("push",), [Rung("accuracy: draft")], limits, lambda *at: told.append(at))
-    assert (run.end, run.words, run.expired) == ("stopped", words, expired)
-    assert [measurement.answer for measurement in run.measurements] == [0.5]
-    assert told == [(1, 1, "accuracy: draft", ""), (1, 1, "accuracy: draft", "push")]
+def test_what_does_not_apply_is_the_same_or_is_another_model(path: Path) -> None:
+    rungs = [
+        Rung("own"),
+        Rung("path", {"analysis.solver": "none"}),
+        Rung("again", {"analysis.accuracy": "standard"}),
+        Rung("points", {"contacts.points.per_edge": 3}),
+    ]
+    found = fitted(read_deck(path), (), rungs)
+    assert [rung.unfit for rung in found] == ["", "must be auto, mbla, clarabel or highs", "the same as own", ""]
+    assert [rung.model for rung in found] == ["", "", "", "contacts"]
 
 
-def test_without_a_listener_nothing_is_told_and_the_rest_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ladder_run, "MeasuringProcess", Answers)
-    rungs = [Rung("accuracy: draft"), Rung("form: static", unfit="does not fit")]
-    ends = [(run.end, run.words) for run in run_ladder(Path("a.yaml"), (), (), rungs, Limits(each=1.0), None)]
-    assert ends == [("stopped", "stopped after 1 s"), ("unfit", "does not fit")]
+def test_every_combination_of_knobs_then_settings() -> None:
+    rungs = named_rungs(
+        ["analysis.tolerance=1e-6,1e-8", "analysis.solver=mbla,clarabel"], ["fast:  analysis.accuracy=draft a.b=[1,2]"]
+    )
+    assert [rung.name for rung in rungs] == [
+        "tolerance: 1e-6, solver: mbla",
+        "tolerance: 1e-6, solver: clarabel",
+        "tolerance: 1e-8, solver: mbla",
+        "tolerance: 1e-8, solver: clarabel",
+        "fast",
+    ]
+    assert rungs[1].set == {"analysis.tolerance": 1e-6, "analysis.solver": "clarabel"}
+    assert rungs[4].set == {"analysis.accuracy": "draft", "a.b": [1, 2]}
+
+
+def test_commas_inside_of_brackets_part_nothing() -> None:
+    rungs = named_rungs(["blocks.0.wall.unit=[1,2,3],[2,3,4]"], [])
+    assert [rung.set for rung in rungs] == [{"blocks.0.wall.unit": [1, 2, 3]}, {"blocks.0.wall.unit": [2, 3, 4]}]
+
+
+@pytest.mark.parametrize("text", ["analysis.tolerance", "=1", "a.b=", "a.b=1,,2"])
+def test_a_text_that_is_no_knob(text: str) -> None:
+    with pytest.raises(UsageError, match=r"--knob .*must be KEY.PATH=VALUE"):
+        named_rungs([text], [])
+
+
+@pytest.mark.parametrize("text", ["analysis.tolerance=1", "fast:", ": a=1", "fast: a"])
+def test_a_text_that_is_no_setting(text: str) -> None:
+    with pytest.raises(UsageError, match=r"--setting .*must be 'NAME"):
+        named_rungs([], [text])
+
+
+def test_too_many() -> None:
+    numbers = ",".join(map(str, range(15)))
+    with pytest.raises(UsageError, match="225 settings, more than 200"):
+        named_rungs([f"a={numbers}", f"b={numbers}"], [])

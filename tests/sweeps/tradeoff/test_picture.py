@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +11,17 @@ import pytest
 
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GHOST, VERMILION
-from mbla.sweeps.tradeoff.ladder_run import RungRun
-from mbla.sweeps.tradeoff.picture import draw_trade
+from mbla.sweeps.tradeoff.picture import Box, draw_trade, label_places
+from mbla.sweeps.tradeoff.trade import Row
 from tests.sweeps.drawn import places
-from tests.sweeps.tradeoff.hand_made import ladder, measured, run_of, study_of
+from tests.sweeps.tradeoff.hand_made import ladder, row, trade_of
 
 pytest.importorskip("matplotlib")
 
 
-def drawn(folder: Path, figures: list[Any], runs: list[RungRun], **page: Any) -> Any:
+def drawn(folder: Path, figures: list[Any], runs: list[Row], **page: Any) -> Any:
     """The figure of a study of one load case."""
-    draw_trade(folder / "trade.png", "A block", study_of(runs).trades[0], "Take what you like.", PictureOptions(**page))
+    draw_trade(folder / "trade.png", "A block", trade_of(runs), "Take what you like.", PictureOptions(**page))
     return figures[-1]
 
 
@@ -40,38 +40,15 @@ def test_points_are_time_and_distance_and_the_front_is_a_line(tmp_path: Path, fi
     assert (front.get_color(), [x for x, _ in places(front)]) == (VERMILION, [0.2, 0.8, 2.0])
     names = {text.get_text(): text.get_weight() for text in axes.texts}
     assert names["accuracy: draft"] == "bold"
-    assert names["form: static"] == "normal"
+    assert names["solver: mbla"] == "normal"
     assert "not drawn, as their difference is no error: flow_rule: associative" in told(figure)
 
 
-def test_without_a_verified_run_there_is_no_front(tmp_path: Path, figures: list[Any]) -> None:
-    doubtful = {"verified": False, "status": "approximate"}
-    runs = [
-        run_of("accuracy: reference", measured(0.5, 2.0, accuracy=1e-3, **doubtful)),
-        run_of("accuracy: draft", measured(0.51, 0.1, accuracy=1e-2, **doubtful)),
-    ]
-    figure = drawn(tmp_path, figures, runs)
-    (axes,) = figure.axes
-    assert not [line for line in axes.lines if line.get_drawstyle() == "steps-post"]
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["resolution", "not verified"]
-    assert "NOT VERIFIED: no run is verified that the others could be held against" in told(figure)
-
-
-def test_of_a_verdict_there_are_words_alone(tmp_path: Path, figures: list[Any]) -> None:
-    none = measured(math.nan, 1.0, status="unbounded", verdict="unbounded", accuracy=math.nan)
-    figure = drawn(tmp_path, figures, [run_of("accuracy: reference", none), run_of("accuracy: draft", none)])
-    (axes,) = figure.axes
-    assert not axes.axison
-    assert not axes.lines
-    assert "load case push: all are held against accuracy: reference: unbounded" in told(figure)
-
-
-def crowd(count: int) -> list[RungRun]:
+def crowd(count: int) -> list[Row]:
     """A reference, and runs that are all as fast and as near as each other."""
-    same = measured(0.50001, 0.5)
     return [
-        run_of("accuracy: reference", measured(0.5, 2.0)),
-        *(run_of(f"tolerance: 1e-{i}", same) for i in range(count)),
+        row("accuracy: reference", 0.5, 2.0),
+        *(row(f"tolerance: 1e-{i}", 0.50001, 0.5) for i in range(count)),
     ]
 
 
@@ -86,10 +63,22 @@ def test_a_name_that_went_far_is_joined_to_its_point(tmp_path: Path, figures: li
 
 def test_a_name_without_room_is_left_out(tmp_path: Path, figures: list[Any]) -> None:
     """The point is there all the same."""
-    runs = [*crowd(3), run_of("one knob after the other " * 8, measured(0.5002, 0.7))]
+    runs = [*crowd(3), row("one knob after the other " * 8, 0.5002, 0.7)]
     (axes,) = drawn(tmp_path, figures, runs, size=(500, 400)).axes
     names = [text.get_text() for text in axes.texts]
     assert not [name for name in names if name.startswith("one knob")]
     assert "accuracy: reference" in names
     points = [place for line in axes.lines if line.get_linestyle() == "None" for place in places(line)]
     assert any(place == pytest.approx((0.7, 4e-4), rel=1e-6) for place in points)
+
+
+FRAME = Box(0.0, 0.0, 1000.0, 600.0)
+
+
+def test_crowded_points_get_labels_apart() -> None:
+    points = [(500.0 + 7.0 * place, 300.0) for place in range(10)] + [(995.0, 5.0), (2.0, 598.0)]
+    boxes = label_places(points, [(120.0, 16.0)] * len(points), FRAME, 5.0)
+    assert all(box is not None and box.within(FRAME) for box in boxes)
+    assert not any(one.overlaps(two) for one, two in combinations([box for box in boxes if box is not None], 2))
+    marks = [Box(x - 5.0, y - 5.0, x + 5.0, y + 5.0) for x, y in points]
+    assert not any(box is not None and box.overlaps(mark) for box in boxes for mark in marks)

@@ -7,16 +7,14 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.sweeps.measure.measurement import Measurement
-from mbla.sweeps.tradeoff.advice import advice
-from mbla.sweeps.tradeoff.ladder_run import RungRun
-from mbla.sweeps.tradeoff.rung import Rung
-from mbla.sweeps.tradeoff.trade import CaseTrade, case_trades, distance, on_front
-from tests.sweeps.tradeoff.hand_made import ladder, measured, run_of
+from mbla.sweeps.tradeoff.ladder import Rung
+from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, Row, advice, distance, on_front
+from mbla.sweeps.tradeoff.words import error_words, mark_words, reference_words, trade_lines
+from tests.sweeps.tradeoff.hand_made import ladder, row, trade_of
 
 
-def trade_of(runs: list[RungRun], name: str = "push", positions: int = 0) -> CaseTrade:
-    return case_trades([(name, positions)], runs)[0]
+def rung_of(one: Advice) -> str:
+    return "" if one.rung is None else one.rung.name
 
 
 def names_on_front(trade: CaseTrade) -> set[str]:
@@ -39,10 +37,10 @@ def test_distances_and_front_of_the_ladder() -> None:
 
 
 def test_distances_below_the_accuracy_of_the_reference_are_the_same() -> None:
-    runs = [run_of("accuracy: reference", measured(0.5, 2.0)), run_of("form: static", measured(0.5 + 1e-11, 1.0))]
+    runs = [row("accuracy: reference", 0.5, 2.0), row("solver: mbla", 0.5 + 1e-11, 1.0)]
     trade = trade_of(runs)
     assert trade.error(trade.rows[1]) == trade.error(trade.rows[0]) == 1e-9
-    assert names_on_front(trade) == {"form: static"}
+    assert names_on_front(trade) == {"solver: mbla"}
 
 
 @pytest.mark.parametrize(
@@ -50,8 +48,9 @@ def test_distances_below_the_accuracy_of_the_reference_are_the_same() -> None:
 )
 def test_the_fastest_that_is_near_enough_is_advised(wanted: float, rung: str) -> None:
     chosen = advice([trade_of(ladder())], wanted)
-    assert chosen.rung == rung
-    assert chosen.setting.overrides == (f"analysis.{rung.replace(': ', '=')}",)
+    assert rung_of(chosen) == rung
+    assert chosen.rung is not None
+    assert chosen.rung.set == {"analysis.accuracy": rung.removeprefix("accuracy: ")}
 
 
 def test_words_of_the_advice() -> None:
@@ -61,40 +60,40 @@ def test_words_of_the_advice() -> None:
 
 def test_no_finer_advice_than_the_reference_is_good_for() -> None:
     chosen = advice([trade_of(ladder())], 1e-10)
-    assert chosen.rung == ""
+    assert chosen.rung is None
     assert "the reference itself is good to 1.0e-09" in chosen.sentence
 
 
 def test_a_preset_is_preferred_within_the_noise_of_time() -> None:
-    runs = [*ladder(), run_of("solver: mbla", measured(0.50001, 0.76))]
-    assert advice([trade_of(runs)], 1e-4).rung == "accuracy: standard"
-    runs = [*ladder(), run_of("solver: mbla", measured(0.50001, 0.5))]
+    runs = [*ladder(), row("solver: x", 0.50001, 0.76)]
+    assert rung_of(advice([trade_of(runs)], 1e-4)) == "accuracy: standard"
+    runs = [*ladder(), row("solver: x", 0.50001, 0.5)]
     chosen = advice([trade_of(runs)], 1e-4)
-    assert chosen.rung == "solver: mbla"
-    assert "take solver: mbla (0.5 s; accuracy: standard 0.8 s)" in chosen.sentence  # what it gains
+    assert rung_of(chosen) == "solver: x"
+    assert "take solver: x (0.5 s; accuracy: standard 0.8 s)" in chosen.sentence  # what it gains
 
 
 def test_hundredths_of_a_second_are_no_reason_to_leave_the_standard() -> None:
-    times = {"accuracy: standard": 0.06, "accuracy: reference": 0.04, "form: static": 0.035}
-    runs = [run_of(name, measured(0.5, wall)) for name, wall in times.items()]
-    assert advice([trade_of(runs)], 1e-4).rung == "accuracy: standard"
+    times = {"accuracy: standard": 0.06, "accuracy: reference": 0.04, "solver: mbla": 0.035}
+    runs = [row(name, 0.5, wall) for name, wall in times.items()]
+    assert rung_of(advice([trade_of(runs)], 1e-4)) == "accuracy: standard"
 
 
 def test_the_sharpest_verified_takes_the_place_of_a_reference_that_is_not() -> None:
     runs = ladder()
-    runs[1] = run_of("accuracy: reference", measured(0.5, 2.0, status="approximate", verified=False))
-    runs[3] = run_of("form: static", measured(0.50002, 1.5, accuracy=1e-10))
+    runs[1] = row("accuracy: reference", 0.5, 2.0, status="approximate", verified=False)
+    runs[3] = row("solver: mbla", 0.50002, 1.5, accuracy=1e-10)
     trade = trade_of(runs)
     assert trade.reference is not None
-    assert trade.reference.name == "form: static"
+    assert trade.reference.name == "solver: mbla"
     assert trade.verified
 
 
 def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
     runs = [
-        run_of("accuracy: reference", measured(0.5, 2.0, status="approximate", verified=False, accuracy=1e-3)),
-        run_of("accuracy: draft", measured(0.51, 0.2, status="approximate", verified=False, accuracy=1e-2)),
-        run_of("flow_rule: associative", measured(0.6, 0.1), model="flow_rule"),
+        row("accuracy: reference", 0.5, 2.0, status="approximate", verified=False, accuracy=1e-3),
+        row("accuracy: draft", 0.51, 0.2, status="approximate", verified=False, accuracy=1e-2),
+        row("flow_rule: associative", 0.6, 0.1, model="flow_rule"),
     ]
     trade = trade_of(runs)
     assert not trade.verified
@@ -104,71 +103,93 @@ def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
 
 
 def test_a_draft_as_sharp_as_it_asks_for_is_advised_but_is_no_reference() -> None:
-    draft = run_of("accuracy: draft", measured(0.5005, 0.2, status="approximate", accuracy=1e-3))
-    runs = [run_of("accuracy: reference", measured(0.5, 2.0)), draft]
+    draft = row("accuracy: draft", 0.5005, 0.2, status="approximate", accuracy=1e-3)
+    runs = [row("accuracy: reference", 0.5, 2.0), draft]
     assert names_on_front(trade_of(runs)) == {"accuracy: reference", "accuracy: draft"}
-    assert advice([trade_of(runs)], 1e-2).rung == "accuracy: draft"
+    assert rung_of(advice([trade_of(runs)], 1e-2)) == "accuracy: draft"
     alone = trade_of([draft])
     assert not alone.verified
     assert not names_on_front(alone)
-    assert advice([alone], 1e-2).rung == ""
+    assert rung_of(advice([alone], 1e-2)) == ""
 
 
 def test_nothing_to_compare_with() -> None:
-    runs = [RungRun(Rung("accuracy: reference"), (), "stopped", "stopped after 1 s")]
-    trade = trade_of(runs)
+    trade = trade_of([Row(Rung("accuracy: reference"), "failed", "stopped after 1 s")])
     assert trade.reference is None
-    assert advice([trade], 0.1).rung == ""
+    assert advice([trade], 0.1).rung is None
+
+
+NONE = row("accuracy: reference", math.nan, 1.0, status="no_equilibrium", accuracy=math.nan)
+LOCKED = row("accuracy: reference", math.nan, 1.0, accuracy=math.nan)
+"""A structure that stands only by self-stress."""
 
 
 def test_verdicts_without_a_figure() -> None:
-    none = measured(math.nan, 1.0, status="no_equilibrium", verdict="no_equilibrium", accuracy=math.nan)
-    assert distance(none, none) == 0.0
-    assert math.isnan(distance(replace(none, verified=False), none))
-    assert math.isnan(distance(measured(0.5, 1.0), none))
-    assert math.isnan(distance(measured(0.5, 1.0, kind="angle"), measured(0.5, 1.0)))
-    runs = [run_of("accuracy: reference", none), run_of("accuracy: draft", replace(none, wall=0.1))]
+    assert distance(NONE, NONE) == 0.0
+    assert math.isnan(distance(replace(NONE, verified=False), NONE))
+    assert math.isnan(distance(row("solver: mbla", 0.5, 1.0), NONE))
+    runs = [NONE, replace(NONE, rung=Rung("accuracy: draft"), seconds=0.1)]
     assert names_on_front(trade_of(runs)) == {"accuracy: draft"}
     words = advice([trade_of(runs)], 1e-4).sentence
     assert words == "Take accuracy: draft (0.1 s): it comes to the same verdict as the reference."
 
 
 def test_a_load_factor_of_nothing_is_compared_with_the_least_that_counts() -> None:
-    zero = measured(0.0, 1.0, least=1e-3)
-    assert distance(measured(1e-9, 1.0, least=1e-3), zero) == pytest.approx(1e-6)
-
-
-def test_a_travelling_load_counts_as_its_worst_position_and_errs_as_its_farthest() -> None:
-    def positions(factors: tuple[float, ...], wall: float) -> list[Measurement]:
-        return [measured(factor, wall, case=f"axle_{i}", series="axle") for i, factor in enumerate(factors)]
-
-    unbounded = measured(math.nan, 1.0, case="axle_2", series="axle", status="unbounded", verdict="unbounded")
-    runs = [
-        run_of("accuracy: reference", *positions((3.0, 2.0), 1.0), unbounded),
-        run_of("accuracy: draft", *positions((3.3, 2.0), 0.1), unbounded),
-        run_of("form: static", *positions((3.0,), 0.1)),
-    ]
-    trade = trade_of(runs, "axle", 3)
-    first, second, third = trade.rows
-    assert first.measurement is not None
-    assert (first.measurement.answer, first.measurement.wall, first.measurement.positions) == (2.0, 3.0, 3)
-    assert first.measurement.status == "solved"  # a position that nothing brings down is no failure beside others
-    assert second.distance == pytest.approx(0.1)
-    assert third.measurement is None  # it was stopped on the way
-    assert not third.sound
+    zero, near = row("accuracy: reference", 0.0, 1.0), row("accuracy: draft", 1e-9, 1.0)
+    assert trade_of([zero, near], least=1e-3).rows[1].distance == pytest.approx(1e-6)
 
 
 def test_advice_for_several_load_cases_must_hold_in_each() -> None:
-    other = [
-        replace(run, measurements=tuple(replace(m, case="lift", answer=2 * m.answer) for m in run.measurements))
-        for run in ladder()
-    ]
-    other[0] = run_of("accuracy: standard", measured(1.1, 0.8, case="lift"))
-    runs = [
-        replace(one, measurements=one.measurements + two.measurements) for one, two in zip(ladder(), other, strict=True)
-    ]
-    trades = case_trades([("push", 0), ("lift", 0)], runs)
-    assert advice(trades[:1], 1e-4).rung == "accuracy: standard"
+    other = [replace(each, answer=2 * each.answer) for each in ladder()]
+    other[0] = row("accuracy: standard", 1.1, 0.8)
+    trades = [trade_of(ladder()), trade_of(other, "lift")]
+    assert rung_of(advice(trades[:1], 1e-4)) == "accuracy: standard"
     both = advice(trades, 1e-4)
-    assert both.rung == "form: static"
+    assert rung_of(both) == "solver: mbla"
     assert both.seconds == pytest.approx(3.0)
+
+
+# --- words ------------------------------------------------------------------------------------------------------------
+
+
+def test_marks_of_reference_front_and_what_is_not_verified() -> None:
+    lines = trade_lines(trade_of(ladder()))
+    assert [line for line in lines if line.startswith("  * accuracy: draft ")]
+    assert [line for line in lines if line.startswith("    solver: clarabel ") and line.endswith("not verified")]
+    header = lines.index("  other models (flow_rule), whose difference is no error:")
+    assert "ssociative" in lines[header + 2]
+
+
+@pytest.mark.parametrize(
+    ("reference", "words"),
+    [
+        (row("accuracy: reference", 0.5, 2.0), "errors are relative to accuracy: reference, good to 1.0e-09"),
+        (
+            row("accuracy: reference", 0.5, 2.0, ends=(0.4, 0.6)),
+            "errors are relative to accuracy: reference, good to 1.0e-09; admissible load factors for its mechanism: "
+            "0.4 to 0.6",
+        ),
+        (
+            row("accuracy: reference", 0.5, 2.0, verified=False, status="not_verified"),
+            "errors are relative to accuracy: draft, the sharpest that is verified (accuracy: reference is not), good "
+            "to 1.0e-06",
+        ),
+        (LOCKED, "all are held against accuracy: reference: stands only by self-stress"),
+    ],
+)
+def test_what_errors_are_relative_to(reference: Row, words: str) -> None:
+    assert reference_words(trade_of([reference, row("accuracy: draft", 0.5, 0.1, accuracy=1e-6)])) == words
+
+
+@pytest.mark.parametrize(
+    ("other", "error", "mark"),
+    [
+        (row("solver: mbla", 0.5, 1.0), "<1.0e-09", ""),
+        (row("solver: mbla", 0.5, 1.0, verified=False), "<1.0e-09", "not verified"),
+        (row("solver: mbla", math.nan, 1.0, status="unbounded"), "-", "unbounded"),
+        (replace(LOCKED, verified=False), "-", "stands only by self-stress, not verified"),
+    ],
+)
+def test_error_and_mark_of_a_setting(other: Row, error: str, mark: str) -> None:
+    trade = trade_of([row("accuracy: reference", 0.5, 2.0), other])
+    assert (error_words(trade, trade.rows[1]), mark_words(trade.rows[1])) == (error, mark)

@@ -42,12 +42,12 @@ from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.linear_algebra.cholesky import factorization
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 from mbla.solution.settings import SolverSettings
+from mbla.sweeps.engine import child
 from mbla.sweeps.engine.connection import Connection, refuse_missing
-from mbla.sweeps.engine.options import EngineOptions
+from mbla.sweeps.engine.engine import EngineOptions
+from mbla.sweeps.engine.supervised import SupervisedRunner
 from mbla.sweeps.journal import Journal
 from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
-from mbla.sweeps.worker import child
-from mbla.sweeps.worker.supervised import SupervisedRunner
 from tests.deck.decks import BLOCK, changed, write
 from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.plan import DONE, Task
-from mbla.sweeps.worker.runner import PointRunner
 from tests.line import BLOCK
 from tests.sweeps.small_plan import plan_over
 

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.process.sharing import copied, once, shared, sharing
-from mbla.sweeps.worker.memory import Memory, content_hash
+from mbla.sweeps.engine.memory import Memory, content_hash
 
 
 @dataclass(frozen=True)

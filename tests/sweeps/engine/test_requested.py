@@ -16,11 +16,10 @@ from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
 from mbla.run_options import RunOptions
 from mbla.solution import further_results as beside
+from mbla.sweeps.engine.runner import ON_REQUEST, PointRunner, requested_only
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plan, Task, override_texts
-from mbla.sweeps.worker.asked import WITHOUT_THEM, with_what_is_asked
-from mbla.sweeps.worker.runner import PointRunner
-from tests.sweeps.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
+from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
 
 PLANK = "benchmarks/closed_forms/plank_in_clamp.yaml"
 """carries more on the way than at rest"""
@@ -32,14 +31,14 @@ def plan_of(deck: str, *results: str, keep: str = "none", cases: tuple[str, ...]
 
 def record_of(deck: str, settings: Settings, plan: Plan | None) -> dict[str, Any]:
     read = read_deck(DECKS / deck, override_texts(settings))
-    asked = read if plan is None else with_what_is_asked(read, plan)
+    asked = read if plan is None else requested_only(read, plan)
     results = solve_deck(asked, RunOptions(), StatusFile(io.StringIO(), ""), None, 0.0)
     return results_json(results)
 
 
 def shown(record: dict[str, Any]) -> list[str]:
     """Every value that does not ask for range and peak, number by number."""
-    cases = [{key: value for key, value in case.items() if key in WITHOUT_THEM} for case in record["cases"]]
+    cases = [{key: value for key, value in case.items() if key not in ON_REQUEST} for case in record["cases"]]
     return [json.dumps(part) for part in (record["model"], record["exit_code"], *cases)]
 
 
@@ -73,18 +72,17 @@ def test_nothing_else_changes_in_any_deck() -> None:
 )
 def test_they_are_worked_out_where_they_are_shown_or_kept(results: tuple[str, ...], keep: str) -> None:
     deck = read_deck(DECKS / ARCH)
-    assert with_what_is_asked(deck, plan_of(ARCH, *results, keep=keep)) is deck
+    assert requested_only(deck, plan_of(ARCH, *results, keep=keep)) is deck
 
 
 def test_the_default_columns_need_neither() -> None:
     default = SweepContent.model_fields["results"].get_default(call_default_factory=True)
-    assert with_what_is_asked(read_deck(DECKS / ARCH), plan_of(ARCH, *default)).analysis.range is False
+    assert requested_only(read_deck(DECKS / ARCH), plan_of(ARCH, *default)).analysis.range is False
 
 
-def test_every_key_that_needs_neither_is_one_of_the_record() -> None:
-    known = {key.path.removeprefix("cases[].").partition(".")[0] for key in RUN_RECORD}
-    assert known >= WITHOUT_THEM
-    assert not {"range", "peak", "factor_unique", "programs", "iterations", "remarks", "settings"} & WITHOUT_THEM
+def test_every_key_on_request_is_one_of_the_record() -> None:
+    known = {key.path.removeprefix("cases[].").removeprefix("series[].").partition(".")[0] for key in RUN_RECORD}
+    assert known >= ON_REQUEST
 
 
 def test_a_column_of_the_range_shows_it() -> None:

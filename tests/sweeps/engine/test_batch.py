@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 from mbla.errors import UsageError
+from mbla.sweeps.engine import on_worker
+from mbla.sweeps.engine.on_worker import Processes, end_processes, run_batch
+from mbla.sweeps.engine.supervised import StoppedError
 from mbla.sweeps.identity import library_versions
 from mbla.sweeps.plan import DONE, Outcome, Plan, Task, record_of
-from mbla.sweeps.worker import batch
-from mbla.sweeps.worker.batch import Processes, end_processes, expect_processes, run_batch
-from mbla.sweeps.worker.supervised import StoppedError
 from tests.sweeps.small_plan import frictions, plan_over
 
 
@@ -24,9 +24,6 @@ class Runner:
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.stopped, self.ended, self.points = plan, False, False, 0
-
-    def expect(self) -> None:
-        """Nothing to begin."""
 
     def kill(self) -> None:
         """As from another thread."""
@@ -46,8 +43,8 @@ class Runner:
 @pytest.fixture
 def processes(monkeypatch: pytest.MonkeyPatch) -> Processes:
     """Those of a worker, none yet."""
-    monkeypatch.setattr(batch, "SupervisedRunner", Runner)
-    monkeypatch.setattr(batch, "PROCESSES", found := Processes())
+    monkeypatch.setattr(on_worker, "SupervisedRunner", Runner)
+    monkeypatch.setattr(on_worker, "PROCESSES", found := Processes())
     monkeypatch.setattr(Runner, "error", None)
     return found
 
@@ -77,7 +74,7 @@ def test_all_points_of_a_batch(processes: Processes, tmp_path: Path) -> None:
 def test_a_batch_is_handed_back_when_enough_time_is_over(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(batch, "ENOUGH", -1.0)
+    monkeypatch.setattr(on_worker, "ENOUGH", -1.0)
     assert keys(answer(tmp_path)) == ["key1"]
     processes.end()
 
@@ -137,9 +134,9 @@ def test_the_end_stops_what_is_under_way_and_keeps_nothing(processes: Processes,
 def test_processes_that_nobody_asks_for_are_ended(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(batch, "IDLE", 0.01)
+    monkeypatch.setattr(on_worker, "IDLE", 0.01)
     plan = plan_over(tmp_path)
-    expect_processes(plan, 2)
+    processes.give_back(lent(processes, plan))
     assert processes._timer is not None
     processes._timer.join()
     assert processes._free == []

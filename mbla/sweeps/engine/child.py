@@ -1,6 +1,6 @@
 """The process that solves points: imports everything once, then one point after the other.
 
-Started as ``python -P -m mbla.sweeps.worker.child``. Lines of JSON on standard input: the plan, then tasks.
+Started as ``python -P -m mbla.sweeps.engine.child``. Lines of JSON on standard input: the plan, then tasks.
 Lines on standard output: ``program`` once everything is imported; ``base``, bytes held with the base deck, or
 ``refused`` with the words of the error; then for each task its ``outcome``, with the bytes held after it. Standard
 input stays open as long as the parent lives: its end ends this process, in the middle of a point too.
@@ -8,9 +8,12 @@ input stays open as long as the parent lives: its end ends this process, in the 
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import importlib
 import json
 import os
+import pkgutil
 import platform
 import queue
 import signal
@@ -21,14 +24,15 @@ from pathlib import Path
 from typing import IO, Any
 
 from mbla.errors import UsageError
-from mbla.process.memory_limit import can_limit, limited, written
+from mbla.process.memory_limit import STATUS, can_limit, limited, written
 from mbla.results.failures import words_of
+from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.identity import fingerprint_of, program_identity
-from mbla.sweeps.measure.measuring_process import import_everything
-from mbla.sweeps.measure.peak_memory import resident
 from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
-from mbla.sweeps.worker.runner import PointRunner
 
+STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
+LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
+"""libraries that the stages import when they need them; some are optional"""
 PR_SET_PDEATHSIG = 1
 """of linux/prctl.h"""
 
@@ -55,6 +59,26 @@ def main() -> None:
         with limited(most):
             outcome = runner.run(task)
         _tell(answers, {"outcome": record_of(outcome), "held": resident()})
+
+
+def import_everything() -> None:
+    """Load what the stages may need late, so that neither its time nor its memory is charged to a point."""
+    for stage in STAGES:
+        package = importlib.import_module(f"mbla.{stage}")
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            importlib.import_module(module.name)
+    for library in LATE:
+        with contextlib.suppress(ImportError):
+            importlib.import_module(library)
+
+
+def resident() -> float:
+    """Bytes that this process holds (VmRSS, proc(5)); 0 where the system does not tell."""
+    try:
+        lines = STATUS.read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return 0.0
+    return next((1024.0 * float(line.split()[1]) for line in lines if line.startswith("VmRSS:")), 0.0)
 
 
 def prepared(plan: Plan) -> PointRunner:

@@ -14,9 +14,9 @@ from contextlib import suppress
 from typing import Any
 
 from mbla.errors import UsageError
+from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
 from mbla.sweeps.identity import difference, library_versions, program_identity
 from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
-from mbla.sweeps.worker.supervised import StoppedError, SupervisedRunner
 
 IDLE = 60.0
 """seconds without a batch after which the processes are ended: their client is gone"""
@@ -35,16 +35,6 @@ class Processes:
         self._busy: list[SupervisedRunner] = []
         self._plan: Plan | None = None
         self._timer: threading.Timer | None = None
-
-    def expect(self, plan: Plan, count: int) -> None:
-        """Begin so many, which import everything until the first batches come."""
-        with self._lock:
-            self._end_free()
-            self._plan = plan
-            self._free = [SupervisedRunner(plan) for _ in range(count)]
-            for runner in self._free:
-                runner.expect()
-            self._start_timer()
 
     def lend(self, plan: Plan) -> SupervisedRunner:
         """One that no other thread has; those of another plan are ended."""
@@ -134,11 +124,6 @@ def run_batch(
     finally:
         PROCESSES.give_back(runner)
     return {"outcomes": outcomes}
-
-
-def expect_processes(plan: Plan, count: int) -> None:
-    """Begin processes in this one, whose batches of that plan come later; ``end_processes`` ends them in any case."""
-    PROCESSES.expect(plan, count)
 
 
 def end_processes() -> None:

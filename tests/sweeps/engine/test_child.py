@@ -10,18 +10,18 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
+from mbla.sweeps.engine import child
+from mbla.sweeps.engine.child import prepared
 from mbla.sweeps.engine.line_process import PACKAGES
-from mbla.sweeps.worker import child
-from mbla.sweeps.worker.child import prepared
-from tests.sweeps.measure.test_measuring import runs
+from tests.sweeps.engine.test_supervised import wait_for
+from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import plan_over
-from tests.sweeps.worker.test_supervised import wait_for
 
 PARENT = """
 import sys
 from pathlib import Path
 from mbla.sweeps.plan import Task
-from mbla.sweeps.worker.supervised import SupervisedRunner
+from mbla.sweeps.engine.supervised import SupervisedRunner
 from tests.sweeps.small_plan import ROW, plan_over
 runner = SupervisedRunner(plan_over(Path(sys.argv[1]), ROW))
 runner.run(Task("small", 1, {}))

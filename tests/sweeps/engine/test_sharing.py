@@ -10,11 +10,11 @@ import pytest
 from mbla.process.sharing import sharing
 from mbla.results.results import Results
 from mbla.run import solve_deck
+from mbla.sweeps.engine import runner as runner_module
+from mbla.sweeps.engine.memory import Memory
+from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.plan import Plain, Plan, Task
-from mbla.sweeps.worker import runner as runner_module
-from mbla.sweeps.worker.memory import Memory
-from mbla.sweeps.worker.runner import PointRunner
-from tests.sweeps.worker.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
+from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
 
 DIRECTIONS: tuple[list[Plain], ...] = ([1, 0, 0], [0.6, 0.8, 0])
 POINTS = [(deck, settings) for deck, variants in VARIED.items() for settings in variants]

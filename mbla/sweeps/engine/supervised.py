@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import time
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from types import TracebackType
 
@@ -12,9 +11,9 @@ from mbla.errors import LimitError, UsageError
 from mbla.sweeps.engine.line_process import LineProcess
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, outcome_of, record_of
 
-COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.worker.child")
-ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"), "1")
-"""one thread each, whatever the user's own variables say: with more of them the last digits may be others"""
+COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.engine.child")
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS")
+"""variables that are set whatever the user's own say: with more than one thread the last digits may be others"""
 TRIES = 2
 """of a point whose process dies"""
 STARTS = 20
@@ -27,6 +26,8 @@ START = 120.0
 NO_MEMORY = ("memory allocation of", "bad_alloc", "Cannot allocate memory", "MemoryError", "emory allocation")
 """what libraries say last when they end a process because an allocation failed"""
 MEGABYTE = 1e6
+STOPPED = "stopped at the end of the time limit"
+"""reason of a point that was under way when the time for all of them was over"""
 
 
 class StoppedError(Exception):
@@ -53,13 +54,18 @@ class SupervisedRunner:
     stopped : ``kill`` was called
     """
 
-    def __init__(self, plan: Plan, command: tuple[str, ...] = COMMAND) -> None:
-        """The process is started when it is first needed."""
+    def __init__(
+        self, plan: Plan, command: tuple[str, ...] = COMMAND, *, until: float | None = None, threads: int = 1
+    ) -> None:
+        """The process is started when it is first needed.
+
+        until : time.monotonic() at which a point is stopped in any case
+        """
         self.plan = plan
+        self._until = until
         self.started = 0
-        self._process = LineProcess(command, ENVIRONMENT)
+        self._process = LineProcess(command, dict.fromkeys(THREADS, str(threads)))
         self._fresh = True
-        self._expected = False
         self._first = self._held = 0.0
         self.stopped = False
 
@@ -70,15 +76,6 @@ class SupervisedRunner:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         self._process.stop()
-
-    def expect(self) -> None:
-        """Start the process, which takes a second to import everything, while others have something else to do.
-
-        Whether that came to something shows with the first point.
-        """
-        with suppress(OSError):
-            self._process.start()
-            self._expected = True
 
     def kill(self) -> None:
         """End what is under way, from another thread; ``run`` raises StoppedError there, now and later."""
@@ -117,10 +114,12 @@ class SupervisedRunner:
         process.send(record_of(task))
         self._fresh = False
         try:
-            answer = process.next(None if limit is None else started + limit)
+            ends = [] if limit is None else [started + limit]
+            answer = process.next(min([*ends, *([] if self._until is None else [self._until])], default=None))
         except TimeoutError:
             process.stop()
-            words = f"stopped at the limit of {limit:g} s for a point"
+            own = limit is not None and time.monotonic() >= started + limit
+            words = f"stopped at the limit of {limit:g} s for a point" if own else STOPPED
             seconds = time.monotonic() - started
             return Attempt(Outcome(task.key, FAILED, LimitError.exit_status, words, {}, 1, seconds))
         if answer is None:
@@ -152,7 +151,7 @@ class SupervisedRunner:
 
     def _prepare(self) -> None:
         """A process that is ready for a point; one that has grown too much is replaced."""
-        if not self._expected and self._process.runs() and not self._held > GROWTH * self._first:
+        if self._process.runs() and not self._held > GROWTH * self._first:
             return
         words = ""
         for number in range(1, STARTS + 1):
@@ -171,9 +170,7 @@ class SupervisedRunner:
         self._fresh, self._first, self._held = True, 0.0, 0.0
         until = time.monotonic() + START
         try:
-            if not self._expected:
-                process.start()
-            self._expected = False
+            process.start()
             self.started += 1
             if self.stopped:  # ``kill`` may have come before there was anything to kill
                 process.stop()

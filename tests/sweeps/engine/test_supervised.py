@@ -14,10 +14,9 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
+from mbla.sweeps.engine.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task, record_of
-from mbla.sweeps.worker.batch import Processes
-from mbla.sweeps.worker.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
-from tests.sweeps.measure.test_measuring import runs
+from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over
 
 TASK = Task("key", 1, {})
@@ -131,41 +130,6 @@ def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> N
     assert found[0].results == again.results  # to the last bit, in whatever process and after whatever points
 
 
-def test_a_process_that_was_begun_early_is_the_one_that_solves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = set(children())
-    with runner_that(monkeypatch, plan_over(tmp_path), "outcome['results'] = {'process': os.getpid()}") as runner:
-        runner.expect()
-        (child,) = set(children()) - before
-        assert runner.run(TASK).results == {"process": child}
-        assert runner.run(TASK).results == {"process": child}
-        assert runner.started == 1
-    wait_for(lambda: not runs(child))
-
-
-def test_a_process_that_was_begun_early_and_died_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = set(children())
-    with runner_that(monkeypatch, plan_over(tmp_path), "pass") as runner:
-        runner.expect()
-        (child,) = set(children()) - before
-        os.kill(child, signal.SIGKILL)
-        wait_for(lambda: not runs(child))
-        outcome = runner.run(TASK)
-    assert (outcome.state, outcome.tries) == (DONE, 1), "no point is to blame"
-
-
-def test_processes_of_a_worker_that_were_begun_early_are_lent_and_ended(tmp_path: Path) -> None:
-    before, plan = set(children()), plan_over(tmp_path, ROW)
-    processes = Processes()
-    processes.expect(plan, 2)
-    begun = set(children()) - before
-    assert len(begun) == 2
-    runner = processes.lend(plan)
-    processes.give_back(runner)
-    assert set(children()) - before == begun
-    processes.end()
-    wait_for(lambda: not set(children()) & begun)
-
-
 def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with runner_that(monkeypatch, plan_over(tmp_path), "os.kill(os.getpid(), 9)") as runner:
         outcome = runner.run(TASK)
@@ -241,7 +205,7 @@ def test_stopped_before_it_begins(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 
 def test_one_that_is_always_killed_while_it_starts_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.sweeps.worker.supervised.STARTS", 3)
+    monkeypatch.setattr("mbla.sweeps.engine.supervised.STARTS", 3)
     killed = "import os; os.kill(os.getpid(), 9)\n"
     with runner_that(monkeypatch, plan_over(tmp_path), "pass", before=killed) as runner:
         with pytest.raises(UsageError) as caught:

@@ -1,1 +1,0 @@
-"""What solves points: shared structure, a process of its own, limits."""
