@@ -17,7 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
-from mbla.deck.reading import sha256_of
+from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt

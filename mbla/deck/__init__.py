@@ -8,7 +8,6 @@
                                                                    references, units, expressions
 """
 
-from mbla.deck.deck import Deck, Source
-from mbla.deck.reading import read_deck, read_deck_text
+from mbla.deck.deck import Deck, Source, read_deck, read_deck_text
 
 __all__ = ["Deck", "Source", "read_deck", "read_deck_text"]

@@ -13,15 +13,12 @@ from pydantic import BeforeValidator, Field
 
 from mbla.deck.include import MAX_FILES
 from mbla.deck.items import BlockItem
-from mbla.deck.names import Line, Name, ParameterName
-from mbla.deck.quantities import Number
+from mbla.deck.quantities import Line, Name, Number, ParameterName
 from mbla.deck.section import Section, given, rule
-from mbla.deck.sections import analysis_rules  # noqa: F401  registers them
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.sections.loads import LIVE_ONLY, Load
-from mbla.deck.sections.masses import AddedMass
+from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.output import Expectation, OutputSection
 from mbla.deck.sections.supports import Support, SymmetryPlane

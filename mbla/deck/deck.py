@@ -1,17 +1,29 @@
-"""The deck as the later stages get it: checked content, and the place of every value for their own messages."""
+"""The deck as the later stages get it, and the way there from a file: read, include, override, evaluate, validate."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
+import os
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from mbla.deck.content import DeckContent
+from mbla.deck.content import DeckContent, UnitsSection
+from mbla.deck.expressions import Parameters, is_expression
+from mbla.deck.include import Reading, confined, read_files
+from mbla.deck.notices import notices_of
+from mbla.deck.overrides import apply_override
+from mbla.deck.references import check_references, side_files
+from mbla.deck.section import built
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.deck.tree import KeyPath
+from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.units import Units
-from mbla.errors import Fault, Message, Notice
+from mbla.deck.validation import validate
+from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, Notice, first_faults
+from mbla.process.collector import no_collection
+from mbla.process.sharing import copied
 
 
 @dataclass(frozen=True)
@@ -69,3 +81,168 @@ class Deck:
     def contacts(self) -> ContactsSection:
         """How contacts are found."""
         return self.content.contacts
+
+
+def read_deck(path: str | Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:
+    """Read and check a deck.
+
+    path      : the deck file
+    overrides : ``key.path=value`` texts, applied in order before anything is evaluated
+    expected  : whether its expectations are read; they are for the deck as written, and may have no value, or not be
+                defined at all, with what a study sets in it
+
+    Raises
+    ------
+    DeckError
+        with every fault found
+    FileError
+        if the deck file itself cannot be opened
+    """
+    with no_collection():
+        return _read(Path(path), overrides, expected=expected)
+
+
+def read_deck_text(text: str, path: Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:
+    """Read and check a deck that is at hand as text.
+
+    path     : the file it stands for, in messages and for the files that it names; not opened
+    expected : as for ``read_deck``
+
+    Raises
+    ------
+    DeckError
+        with every fault found
+    """
+    with no_collection():
+        return _read(path, overrides, text, expected=expected)
+
+
+def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expected: bool = True) -> Deck:
+    tree, reading = _files(path, text)
+    for number, text in enumerate(overrides, start=1):
+        reading.faults += apply_override(tree, text, number)
+    if not reading.whole:  # what could not be read would be reported as missing
+        raise DeckError(reading.faults)
+    if "mbla_sweep" in tree.data and "mbla" not in tree.data:
+        raise DeckError(
+            [
+                tree.fault(
+                    ("mbla_sweep",),
+                    Message("sweep-file-and-deck", "this is a sweep file, not a deck: mbla sweep runs it"),
+                    at_key=True,
+                )
+            ]
+        )
+    if not expected:
+        tree.data.pop("expected", None)
+    units = _units(tree.data)
+    parameters = Parameters(_mapping(tree.data.get("parameters")))
+    content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)
+    if len(faults) > MOST_FAULTS:  # no more of them are told
+        raise DeckError(_once(faults + reading.faults))
+    faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
+    faults += reading.faults
+    # What is no name at all is not looked up as well.
+    seen = {(fault.place, fault.key) for fault in faults}
+    faults += [fault for fault in first_faults(check_references(tree)) if (fault.place, fault.key) not in seen]
+    if content is None or faults:
+        raise DeckError(_once(faults))
+    return Deck(
+        path=path,
+        sources=tuple(
+            Source(source.path, source.text, _from_main(tree, source.label))
+            for source in tree.sources
+            if source.path is not None
+        ),
+        side_files=tuple(SideFile(at, name, _side_name(tree, at, name)) for at, name in side_files(tree.data)),
+        overrides=tuple(overrides),
+        sha256=sha256_of(source.text for source in tree.sources),
+        content=content,
+        units=units,
+        notices=notices_of(tree, content, units, parameters),
+        fault_at=tree.fault,
+        resolve_file=_resolver(tree, path),
+    )
+
+
+def _files(path: Path, text: str | None) -> tuple[Tree, Reading]:
+    """As ``read_files``; where many decks share what they have in common a file is read once."""
+    if text is not None:
+        return read_files(path, text)
+    return copied("deck", (str(path), str(path.absolute())), lambda: read_files(path))
+
+
+def _units(data: dict[str, Any]) -> Units:
+    """Units of the deck; the defaults where they are at fault, which is reported with everything else."""
+    try:
+        section = built(UnitsSection).model_validate(data.get("units", {}))
+    except ValueError:
+        return Units()
+    return Units(section.length, section.force, section.mass)
+
+
+def _mapping(value: Any) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _converter(parameters: Parameters, units: Units) -> Callable[[str, str], float]:
+    """Function from a text and a dimension to a number in the deck's units, for the validation."""
+
+    def convert(text: str, dimension: str) -> float:
+        return parameters.evaluate(text) if is_expression(text) else units.convert(text, dimension)
+
+    return convert
+
+
+def _once(faults: Iterable[Fault]) -> list[Fault]:
+    return list(dict.fromkeys(faults))
+
+
+def _from_main(tree: Tree, label: str) -> str:
+    """Path of a source from the folder of the main file, with ``/``."""
+    return Path(os.path.relpath(label, Path(tree.sources[0].label).parent)).as_posix()
+
+
+def _side_name(tree: Tree, at: KeyPath, name: str) -> str:
+    """The same of a file that the value at a key path names, relative to the file that names it."""
+    naming = tree.source_of(tree.value_mark(at))
+    label = tree.sources[0].label if naming.path is None else naming.label
+    return _from_main(tree, os.path.normpath(Path(label).parent / name))
+
+
+def sha256_of(texts: Iterable[str]) -> str:
+    """Hash of the texts of a deck and its overrides in the order they were read, each with its length."""
+    digest = hashlib.sha256()
+    for text in texts:
+        content = text.encode()
+        digest.update(f"{len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def _resolver(tree: Tree, deck_path: Path) -> Callable[[KeyPath, str], Path]:
+    """Function from a key path and the file name there to a path."""
+
+    def resolve_file(path: KeyPath, name: str) -> Path:
+        source = tree.source_of(tree.value_mark(path)).path or deck_path.resolve()
+        try:
+            found = confined(source.parent, name)
+            check_regular(found)
+        except FileError as error:
+            raise DeckError([tree.fault(path, error.message)]) from error
+        return found
+
+    return resolve_file
+
+
+def check_regular(path: Path) -> None:
+    """FileError unless a path is a regular file that can be opened."""
+    try:
+        if not path.exists():
+            raise FileError("file-missing", "does not exist")
+        if not path.is_file():
+            raise FileError("not-a-regular-file", "is not a regular file")
+        with path.open("rb"):
+            pass
+    except OSError as error:
+        raise FileError("file-unreadable", f"cannot be opened: {error.strerror or error}") from error

@@ -62,24 +62,7 @@ def section_keys(section: type[BaseModel]) -> list[str]:
 
 
 def _types_at(root: type[BaseModel], path: KeyPath) -> list[Any]:
-    types: list[Any] = [root]
-    for key in path:
-        types = [below for each in types for below in _below(each, key)]
-    return types
-
-
-def _below(annotation: Any, key: str | int) -> Iterator[Any]:
-    """Types that a value may have under a key of a value of a type."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        for name, field in annotation.model_fields.items():
-            if key == (field.alias or name):
-                yield from branches(field.annotation)
-        return
-    origin, arguments = get_origin(annotation), get_args(annotation)
-    if origin is dict and isinstance(key, str):
-        yield from branches(arguments[1])
-    elif origin in (list, tuple) and isinstance(key, int):
-        yield from branches(arguments[min(key, len(arguments) - 1)])
+    return [branch for annotation in annotations_at(root, path) for branch in branches(annotation)]
 
 
 def branches(annotation: Any) -> Iterator[Any]:

@@ -11,9 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.file_kind import DECK, FileKind
 from mbla.deck.reader import Document, read_yaml
-from mbla.deck.sources import SourceText, read_source, source_of_text
+from mbla.deck.sources import DECK, FileKind, SourceText, read_source, source_of_text
 from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
 from mbla.errors import DeckError, Fault, FileError, Message
 

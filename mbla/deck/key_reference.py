@@ -13,8 +13,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from mbla.deck.content import DeckContent
-from mbla.deck.names import NAME_PATTERN, PARAMETER_PATTERN
-from mbla.deck.quantities import Integer, Quantity
+from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, Quantity
 from mbla.deck.units import DIMENSIONS
 
 

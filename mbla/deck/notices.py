@@ -1,4 +1,7 @@
-"""What a valid deck should make its author look twice at."""
+"""What a valid deck should make its author look twice at.
+
+Keys without effect are no faults: ``--flow-rule`` and ``--set`` leave keys unused that the deck has for another run.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,10 @@ from collections.abc import Iterator
 from mbla.deck.content import DeckContent
 from mbla.deck.expressions import Parameters
 from mbla.deck.references import unused_names
+from mbla.deck.sections.analysis import APPLIES
 from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
-from mbla.deck.unused_keys import unused_keys
 from mbla.errors import Message, Notice
 
 GRAVITY_TOLERANCE = 0.02
@@ -56,3 +59,21 @@ def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterato
         path = (section, name)
         identifier = f"{section.removesuffix('s')}-unused"
         yield Notice("notice", identifier, f"{tree.place_at(path)} {key_text(path)} is not used")
+
+
+def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
+    """A warning for each key that is given without effect."""
+    analysis = content.analysis
+    given = tree.data.get("analysis") or {}
+    for key, (applies, where) in APPLIES.items():
+        if key in given and not applies(analysis):
+            yield _notice(tree, ("analysis", key), where)
+    for name, joint in content.joints.items():
+        if joint.dilatancy > 0.0 and analysis.flow_rule != "dilatancy":
+            yield _notice(tree, ("joints", name, "dilatancy"), "flow_rule: dilatancy")
+
+
+def _notice(tree: Tree, path: KeyPath, where: str) -> Notice:
+    return Notice(
+        "warning", "key-idle", str(tree.fault(path, Message("key-idle", f"has no effect: it applies to {where}")))
+    )

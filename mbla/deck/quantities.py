@@ -1,4 +1,6 @@
-"""Number fields of the deck: a plain number in the deck's units, an expression, or a string with a unit.
+"""Fields of the deck: names, lines of text, and numbers.
+
+A number is a plain one in the deck's units, an expression, or a string with a unit.
 
 Numbers are checked by pydantic's compiled code, so that large vertex lists cost nothing; only strings, and what is no
 number at all, come to Python. The validation context must hold ``convert``, a function (text, dimension) -> number in
@@ -15,10 +17,33 @@ from pydantic import AfterValidator, Field, GetCoreSchemaHandler, GetJsonSchemaH
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from mbla.deck.expressions import ParameterFaultError
+from mbla.deck.expressions import CONSTANTS, FUNCTIONS, ParameterFaultError
 from mbla.deck.section import wrong_values
 from mbla.errors import Finding, ValueRefused
 
+NAME_PATTERN = r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$"
+PARAMETER_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*$"
+LINE_PATTERN = r"^.*$"
+PATTERNS = {
+    NAME_PATTERN: "a name has letters, digits and . _ - only, and begins with a letter, digit or _",
+    PARAMETER_PATTERN: "the name of a parameter has letters, digits and _ only, and does not begin with a digit",
+    LINE_PATTERN: "must be on one line",
+}
+"""What each pattern allows, in words."""
+
+
+def _no_reserved_name(name: str) -> str:
+    """A parameter must not hide a function or a constant of expressions."""
+    if name in FUNCTIONS or name in CONSTANTS:
+        raise PydanticCustomError("reserved", "means something else in expressions: choose another name")
+    return name
+
+
+Name: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=64)]
+ParameterName: TypeAlias = Annotated[
+    str, Field(pattern=PARAMETER_PATTERN, max_length=64), AfterValidator(_no_reserved_name)
+]
+Line: TypeAlias = Annotated[str, Field(pattern=LINE_PATTERN, max_length=200)]
 EXPRESSION_PATTERN = "^="
 QUANTITY_PATTERN = r"^(=|\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)? *[A-Za-zµμ°])"
 """What a JSON Schema can see of expressions and of strings with a unit."""
@@ -150,7 +175,6 @@ Position: TypeAlias = Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)]
 Count: TypeAlias = Annotated[int, Integer(ge=1, le=1_000_000)]
 Positions: TypeAlias = Annotated[int, Integer(ge=2, le=1000)]
 Switch: TypeAlias = Annotated[bool, Field(strict=True)]
-
 Point: TypeAlias = tuple[Length, Length, Length]
 PlanePoint: TypeAlias = tuple[Length, Length]
 Vector: TypeAlias = tuple[Number, Number, Number]

@@ -11,9 +11,7 @@ from typing import Any
 
 import yaml
 
-from mbla.deck.file_kind import DECK, FileKind
-from mbla.deck.scalars import plain_scalar
-from mbla.deck.sources import SourceText, has_control_character
+from mbla.deck.sources import DECK, FileKind, SourceText, has_control_character
 from mbla.deck.tree import (
     FILE_SHIFT,
     OFFSET_MASK,
@@ -23,6 +21,7 @@ from mbla.deck.tree import (
     SequenceMarks,
     key_text,
     own_mark,
+    plain_scalar,
     shorten,
 )
 from mbla.errors import MOST_FAULTS, Fault, Message, Place, ValueRefused

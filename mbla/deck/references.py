@@ -2,6 +2,8 @@
 
 They are looked up in the deck as read rather than in its checked types, so that a wrong name is reported beside
 every other fault.
+
+So are the names of files: meshes and tables.
 """
 
 from __future__ import annotations
@@ -31,7 +33,6 @@ class Reference:
 
 LOADS = ("loads.*", "load_cases.*.dead", "load_cases.*.live")
 """Where lists of loads stand."""
-
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.*.joint", "joint law", BUILT_IN),
@@ -137,3 +138,27 @@ def find(data: Any, pattern: list[str], path: KeyPath = ()) -> Iterator[tuple[Ke
 
 def _keys(section: Any) -> list[str]:
     return list(section) if isinstance(section, dict) else []
+
+
+SIDE_FILES = (
+    "blocks.#.mesh.file",
+    "blocks.#.table.vertices",
+    "blocks.#.table.faces",
+    "contacts.table",
+    *(f"{loads}.#.table" for loads in LOADS),
+)
+"""Key paths, in which ``#`` stands for every item and ``*`` for every key."""
+
+
+def side_files(value: Any, at: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
+    """Key paths and names of the files that a value of the deck names; ``at`` is where it stands, () the whole deck."""
+    for pattern in SIDE_FILES:
+        words = pattern.split(".")
+        if len(words) >= len(at) and all(_fits(word, key) for word, key in zip(words, at, strict=False)):
+            for path, name in find(value, words[len(at) :], at):
+                if isinstance(name, str):
+                    yield path, name
+
+
+def _fits(word: str, key: str | int) -> bool:
+    return isinstance(key, int) if word == "#" else isinstance(key, str) and word in ("*", key)

@@ -9,12 +9,39 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mbla.deck.file_kind import DECK, FileKind
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 
+
+@dataclass(frozen=True)
+class FileKind:
+    """One kind of file.
+
+    name     : after ``a``, in a sentence
+    begins   : key and value that such a file has first
+    includes : its key `include` names files that are merged into it
+    large    : what to do with a file that is too large
+    alias    : what to write instead of an alias
+    merge    : what to write instead of a merge key
+    """
+
+    name: str
+    begins: str
+    includes: bool
+    large: str
+    alias: str
+    merge: str
+
+
+DECK = FileKind(
+    name="deck",
+    begins="mbla: 1",
+    includes=True,
+    large="put large geometry in a mesh file (`mesh: {file: ...}`)",
+    alias="write the value out, or use a parameter",
+    merge="use `include` or a parameter",
+)
 MAX_BYTES = 16 * 1024 * 1024
 """Larger decks are refused: geometry of that size belongs in a mesh file."""
-
 # Every control character but tab, line feed and carriage return, and the two characters that Unicode never assigns.
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ufffe\uffff]")
 

@@ -2,6 +2,9 @@
 
 A mark is one integer: number of the source text in the upper bits, offset of the first character in the lower ones.
 Marks stay integers because a deck has hundreds of thousands of values and only faults need their places.
+
+Plain scalars are read by the core schema of YAML 1.2 (https://yaml.org/spec/1.2.2/#103-core-schema). Unlike YAML 1.1:
+``1e3`` is a number, ``017`` is seventeen, ``no``, ``on``, dates and ``12:30:45`` are text.
 """
 
 from __future__ import annotations
@@ -12,10 +15,9 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.sources import SourceText
-from mbla.errors import Fault, Message, Place, printable
+from mbla.errors import Fault, Message, Place, ValueRefused, printable
 
 KeyPath: TypeAlias = tuple[str | int, ...]
-
 FILE_SHIFT = 32
 OFFSET_MASK = (1 << FILE_SHIFT) - 1
 _LONGEST_VALUE = 60
@@ -154,3 +156,53 @@ def key_text(path: Sequence[str | int]) -> str:
     for key in path:
         text += f"[{key}]" if isinstance(key, int) else f".{shorten(key)}" if text else shorten(key)
     return text
+
+
+Scalar: TypeAlias = str | int | float | bool | None
+_NUMBER = re.compile(
+    r"(?P<int>[-+]?[0-9]+)|(?P<float>[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?)"
+    r"|(?P<octal>0o[0-7]+)|(?P<hex>0x[0-9a-fA-F]+)|(?P<nonfinite>[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))"
+)
+_NUMBER_START = frozenset("+-.0123456789")
+_WORDS: dict[str, Scalar] = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+}
+_EXACT = 2**53
+"""Up to here every whole number is a float too; beyond, the deck's numbers are floats."""
+
+
+def plain_scalar(text: str) -> Scalar:
+    """Value of an unquoted scalar.
+
+    Raises
+    ------
+    ValueRefused
+        for infinity, not-a-number, and numbers too large for double precision
+    """
+    if text[:1] not in _NUMBER_START or (match := _NUMBER.fullmatch(text)) is None:
+        return _WORDS.get(text, text)
+    kind = match.lastgroup
+    if kind == "float":
+        return _finite(float(text))
+    if kind == "nonfinite":
+        raise ValueRefused("not-a-number", "must be a finite number")
+    if kind == "int" and len(text) <= 15:
+        return int(text)
+    base = {"int": 10, "octal": 8, "hex": 16}[kind or "int"]
+    if len(text) > 400:  # int() itself refuses more than 4300 digits; nothing finite has as many as 400
+        raise ValueRefused("not-a-number", "is too large for a number")
+    number = int(text, base if base == 10 else 0)
+    if abs(number) <= _EXACT:
+        return number
+    try:
+        return _finite(float(number))
+    except OverflowError:
+        raise ValueRefused("not-a-number", "is too large for a number") from None
+
+
+def _finite(number: float) -> float:
+    if abs(number) == float("inf"):
+        raise ValueRefused("not-a-number", "is too large for a number")
+    return number

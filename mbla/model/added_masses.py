@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.deck.sections.masses import AddedMass
+from mbla.deck.sections.loads import AddedMass
 from mbla.deck.tree import KeyPath
 from mbla.errors import Fault, Message, Notice
 from mbla.model.selectors import Roster, select_blocks

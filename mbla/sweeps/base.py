@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from mbla.deck.deck import Deck
+from mbla.deck.deck import Deck, check_regular, read_deck
 from mbla.deck.include import confined
 from mbla.deck.overrides import LABEL, RefusedError
-from mbla.deck.reading import check_regular, read_deck
-from mbla.deck.side_files import SIDE_FILES, side_files
+from mbla.deck.references import SIDE_FILES, side_files
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place

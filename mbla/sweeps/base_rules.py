@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter, ValidationError
 
 from mbla.deck.content import DeckContent
+from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
 from mbla.deck.overrides import LABEL, RefusedError
-from mbla.deck.reading import read_deck
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Message, Notice, Place

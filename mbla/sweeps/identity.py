@@ -11,11 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.deck.deck import Deck
+from mbla.deck.deck import Deck, read_deck
 from mbla.deck.include import read_files
 from mbla.deck.overrides import apply_override
-from mbla.deck.reading import read_deck
-from mbla.deck.side_files import side_files
+from mbla.deck.references import side_files
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError
 from mbla.model.geometry.companions import companions

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.scalars import plain_scalar
+from mbla.deck.tree import plain_scalar
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,7 @@ from pydantic import BaseModel
 
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
-from mbla.deck.references import find
-from mbla.deck.side_files import SIDE_FILES, side_files
+from mbla.deck.references import SIDE_FILES, find, side_files
 
 DECK = {
     "blocks": [{"mesh": {"file": "a.obj"}}, {"table": {"vertices": "v.csv", "faces": "f.csv"}}, {"box": {}}],

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.sections.analysis import AnalysisSection
-from mbla.deck.unused_keys import APPLIES
+from mbla.deck.sections.analysis import APPLIES, AnalysisSection
 from tests.line import BLOCK, line_of
 
 WITHOUT = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {}")

@@ -11,7 +11,7 @@ import pytest
 
 import mbla
 from mbla.cli import EXIT_STATUS, main
-from mbla.deck.unused_keys import APPLIES
+from mbla.deck.sections.analysis import APPLIES
 from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES

@@ -14,8 +14,7 @@ from mbla.deck.items.stack import StackItem
 from mbla.deck.items.table import TableItem
 from mbla.deck.items.trilithon import TrilithonItem
 from mbla.deck.items.vaults import BarrelVaultItem, CrossVaultItem, PavilionVaultItem
-from mbla.deck.items.wall import WallItem
-from mbla.deck.items.walls import WallsItem
+from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.deck.section import Section, exactly_one_of
 
 

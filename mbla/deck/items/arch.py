@@ -10,8 +10,7 @@ from typing import Literal, TypeAlias
 from pydantic import Field
 
 from mbla.deck.items.item import Item
-from mbla.deck.names import Name
-from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
+from mbla.deck.quantities import Count, EmbraceAngle, Name, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, given, one_of, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding

@@ -6,8 +6,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.names import Name
-from mbla.deck.quantities import Angle, Direction, Integer, Point, PositiveNumber
+from mbla.deck.quantities import Angle, Direction, Integer, Name, Point, PositiveNumber
 from mbla.deck.section import Section, exactly_one_of, shape
 
 

@@ -9,13 +9,13 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mbla.deck.items.item import Item
-from mbla.deck.names import Name
 from mbla.deck.quantities import (
     Count,
     EmbraceAngle,
     Index,
     Integer,
     Length,
+    Name,
     NonNegativeLength,
     PlanePoint,
     PositiveLength,

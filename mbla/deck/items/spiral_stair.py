@@ -8,8 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mbla.deck.items.item import Item
-from mbla.deck.names import Name
-from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength, Quantity
+from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, Quantity
 from mbla.deck.section import rule
 from mbla.errors import Finding
 

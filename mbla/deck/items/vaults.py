@@ -8,8 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field
 
 from mbla.deck.items.item import Item
-from mbla.deck.names import Name
-from mbla.deck.quantities import EmbraceAngle, Integer, PositiveLength
+from mbla.deck.quantities import EmbraceAngle, Integer, Name, PositiveLength
 from mbla.deck.section import ROUNDING, one_of, rule
 from mbla.errors import Finding
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mbla.deck.quantities import Count, Integer, Quantity, Switch, Time
-from mbla.deck.section import Section
+from mbla.deck.section import Section, rule
 from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
+from mbla.deck.suggestions import listed
+from mbla.errors import Finding
 
 
 class PublishedScheme(Section):
@@ -148,3 +151,112 @@ class AnalysisSection(Section):
     )
     max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
     time_limit: Time | None = Field(None, description="seconds for all load cases together")
+
+
+@rule(AnalysisSection)
+def linear_programs(analysis: AnalysisSection) -> Iterator[Finding]:
+    """Polyhedra and HiGHS go with flow rules whose programs are linear."""
+    normality = analysis.flow_rule in ("associative", "livesley")
+    for key, value, special, default in (
+        ("friction_cone", analysis.friction_cone, "polyhedral", "circular"),
+        ("solver", analysis.solver, "highs", "auto"),
+    ):
+        if value != special:
+            continue
+        if not normality:
+            yield Finding(
+                "key-of-another-choice",
+                f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}",
+                key,
+            )
+        elif analysis.contact_model != "concave":
+            yield Finding(
+                "key-of-another-choice",
+                f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}",
+                key,
+            )
+
+
+CONVEX_FLOW_RULES = ("associative", "non_associative")
+
+
+@rule(AnalysisSection)
+def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
+    """Interface resultants are solved in one way."""
+    if analysis.contact_model != "convex":
+        return
+    if analysis.flow_rule not in CONVEX_FLOW_RULES:
+        allowed = listed(CONVEX_FLOW_RULES)
+        yield Finding(
+            "key-of-another-choice",
+            f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)",
+            "flow_rule",
+        )
+    if analysis.flow_rule == "non_associative" and analysis.scheme not in ("auto", "proximal"):
+        yield Finding(
+            "key-of-another-choice",
+            f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)",
+            "scheme",
+        )
+    if analysis.solver == "mbla":
+        yield Finding(
+            "key-of-another-choice",
+            "applies to contact_model: concave only, whose cones have three dimensions: use auto",
+            "solver",
+        )
+    if analysis.force_ranges:
+        yield Finding("key-of-another-choice", "applies to contact_model: concave only: use false", "force_ranges")
+
+
+Applies = Callable[[AnalysisSection], bool]
+
+
+def _concave(analysis: AnalysisSection) -> bool:
+    return analysis.contact_model == "concave"
+
+
+def _no_normality(analysis: AnalysisSection) -> bool:
+    return analysis.flow_rule == "non_associative"
+
+
+def _with_scheme(*schemes: str) -> Applies:
+    return lambda analysis: _no_normality(analysis) and analysis.scheme in schemes
+
+
+def _by_proximal_steps(analysis: AnalysisSection) -> bool:
+    return analysis.flow_rule == "dilatancy" or _with_scheme("auto", "proximal", "lowest")(analysis)
+
+
+def _in_the_interior(analysis: AnalysisSection) -> bool:
+    return _concave(analysis) and _with_scheme("auto", "interior", "lowest")(analysis)
+
+
+def _by_exact_law(analysis: AnalysisSection) -> bool:
+    published = analysis.scheme == "published" and _no_normality(analysis)
+    return analysis.flow_rule in ("non_associative", "dilatancy") and not published
+
+
+APPLIES: Mapping[str, tuple[Applies, str]] = {
+    "sides": (lambda analysis: analysis.friction_cone == "polyhedral", "friction_cone: polyhedral"),
+    "scheme": (_no_normality, "flow_rule: non_associative"),
+    "proximal": (_by_proximal_steps, "scheme: auto, proximal or lowest, and flow_rule: dilatancy"),
+    "interior": (_in_the_interior, "scheme: auto, interior or lowest, and contact_model: concave"),
+    "path": (_with_scheme("path"), "flow_rule: non_associative with scheme: path"),
+    "lowest": (_with_scheme("lowest"), "flow_rule: non_associative with scheme: lowest"),
+    "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
+    "gap": (
+        lambda analysis: _concave(analysis) and analysis.friction_cone == "circular",
+        "contact_model: concave with friction_cone: circular",
+    ),
+    "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with another scheme than published"),
+    "peak": (
+        lambda analysis: _concave(analysis) and _no_normality(analysis),
+        "contact_model: concave with flow_rule: non_associative",
+    ),
+    "range": (
+        lambda analysis: _concave(analysis) and analysis.flow_rule != "associative",
+        "contact_model: concave and another flow_rule than associative",
+    ),
+    "reductions": (_concave, "contact_model: concave"),
+}
+"""Key of the analysis section -> whether it has an effect, and with what it has."""

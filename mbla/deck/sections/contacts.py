@@ -7,8 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.names import Name
-from mbla.deck.quantities import Box, Direction, Integer, PositiveLength, Quantity
+from mbla.deck.quantities import Box, Direction, Integer, Name, PositiveLength, Quantity
 from mbla.deck.section import Section, given, rule, shape
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.suggestions import listed

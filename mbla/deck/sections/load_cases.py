@@ -6,9 +6,7 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
-from mbla.deck.quantities import (
-    Direction,
-)
+from mbla.deck.quantities import Direction
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.sections.selectors import Selector

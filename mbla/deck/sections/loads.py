@@ -1,4 +1,4 @@
-"""Section `loads`, and the loads of `load_cases`."""
+"""Sections `loads` and `masses`, and the loads of `load_cases`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.names import Name
 from mbla.deck.quantities import (
     Acceleration,
     Box,
@@ -18,10 +17,12 @@ from mbla.deck.quantities import (
     ForcePerLength,
     Length,
     Moment,
+    Name,
     Number,
     Point,
     Positions,
     PositiveLength,
+    PositiveMass,
     Stress,
     UnitWeight,
     Vector,
@@ -249,3 +250,11 @@ def load_keys(load: Load) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "applies to acceleration only", "pattern")
     if kind == "tilt" and load.factor != 1.0:
         yield Finding("key-of-another-choice", "does not apply to tilt: gravity turns as it is", "factor")
+
+
+class AddedMass(Section):
+    """A mass that blocks carry along: gravity and accelerations act on it as on the blocks."""
+
+    mass: PositiveMass = Field(description="the mass, all together")
+    on: Selector = Field(description="blocks that share it in proportion to their volumes, at their centroids")
+    at: Point | None = Field(None, description="where it is, for a mass on one block; its centroid unless given")

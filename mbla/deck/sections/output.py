@@ -7,14 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.names import Line
-from mbla.deck.quantities import (
-    Count,
-    Integer,
-    Number,
-    PositiveNumber,
-    Switch,
-)
+from mbla.deck.quantities import Count, Integer, Line, Number, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
 from mbla.errors import Finding
 

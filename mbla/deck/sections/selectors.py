@@ -7,8 +7,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.names import Name
-from mbla.deck.quantities import Box, Index, Position
+from mbla.deck.quantities import Box, Index, Name, Position
 from mbla.deck.section import Section, at_least_one_of, rule, shape
 from mbla.errors import Finding
 

@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.names import Name
-from mbla.deck.quantities import Direction, Length, Point, Switch
+from mbla.deck.quantities import Direction, Length, Name, Point, Switch
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.deck.items.wall import WallItem
-from mbla.deck.items.walls import WallsItem
+from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding, Message
 from mbla.model.generators.amounts import Amount, refuse_too_many

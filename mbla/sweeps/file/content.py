@@ -10,8 +10,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from mbla.deck.content import no_boolean
-from mbla.deck.names import NAME_PATTERN, Line, Name
-from mbla.deck.quantities import Integer, Number, PositiveNumber, Quantity, Switch, Time
+from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, Quantity, Switch, Time
 from mbla.deck.section import Section, shape
 
 MAX_POINTS = 1_000_000

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.deck.expressions import is_expression
-from mbla.deck.file_kind import FileKind
 from mbla.deck.include import read_files
 from mbla.deck.references import find
+from mbla.deck.sources import FileKind
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree
 from mbla.deck.units import Units

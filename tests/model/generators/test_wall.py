@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.deck.items.wall import WallItem
+from mbla.deck.items.walls import WallItem
 from mbla.model.generators.generator import ItemRefused, Site
 from mbla.model.generators.walls import generate_wall
 from mbla.model.solids.polyhedra import Polyhedra

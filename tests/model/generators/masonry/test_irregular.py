@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.deck.items.wall import WallItem
+from mbla.deck.items.walls import WallItem
 from mbla.model.generators.masonry.bonds import random_joints, random_levels, stream
 from tests.model.generators.masonry.built import build, is_sound, least_distance, perpends
 
