@@ -13,22 +13,19 @@ from pathlib import Path
 import pytest
 
 import mbla
-from mbla.deck import read_deck
 from mbla.errors import DeckError
-from mbla.model import build_model
 from mbla.results.explanations import explanations, find_explanations
 from mbla.results.failures import lines_of
-from mbla.run import contacts_of
 from mbla.sweeps.base import read_base
 from mbla.sweeps.file.read import read_sweep
+from tests.faulty_decks import DECKS, SENTENCES, expected_of, refusal_of, sentences
 from tests.trust.counts import record_counts
 from tests.trust.messages.cases import CASES
 from tests.trust.messages.expected import EXPECTED
 from tests.trust.messages.source import NOT_PRINTED, PRINTED_BY, identifiers, sites
 
 TESTS = Path(__file__).parents[2]
-FILES = sorted([*(TESTS / "invalid_decks").glob("*.yaml"), *(TESTS / "invalid_sweeps").glob("sweep_*.yaml")])
-MARK = "# expect: "
+SWEEPS = sorted((TESTS / "invalid_sweeps").glob("sweep_*.yaml"))
 BRACKETED = re.compile(r"  \[([a-z]+(?:-[a-z0-9]+)*)\]$")
 LONG = frozenset(
     {
@@ -46,12 +43,6 @@ LONG = frozenset(
 """cases that solve, draw or open much: in the full form only"""
 
 
-def expected_of(path: Path) -> list[str]:
-    """The lines that a faulty file expects."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
-
-
 def identifier_of(line: str) -> str:
     """What stands in brackets at the end of a line."""
     found = BRACKETED.search(line)
@@ -61,7 +52,7 @@ def identifier_of(line: str) -> str:
 
 def exercised() -> Iterator[str]:
     """Identifiers of all lines that tests expect."""
-    for path in FILES:
+    for path in (*DECKS, *SWEEPS):
         yield from map(identifier_of, expected_of(path))
     for lines in EXPECTED.values():
         yield identifier_of(lines[-1])
@@ -90,17 +81,11 @@ def check_case(
     return lines
 
 
-def refusal_of(path: Path) -> DeckError:
-    """The error of a faulty deck or sweep file."""
-    try:
-        if path.name.startswith("sweep_"):
-            read_base(read_sweep(path))
-        else:
-            deck = read_deck(path)
-            contacts_of(deck, build_model(deck))
-    except DeckError as error:
-        return error
-    raise AssertionError(f"{path.name} is not refused")
+def refusal_of_sweep(path: Path) -> DeckError:
+    """The error of a faulty sweep file."""
+    with pytest.raises(DeckError) as caught:
+        read_base(read_sweep(path))
+    return caught.value
 
 
 def test_no_error_is_made_without_an_identifier() -> None:
@@ -145,8 +130,10 @@ def test_every_error_as_it_is_printed(
         folder = tmp_path / name
         folder.mkdir()
         lines.append("\n".join(check_case(name, folder, monkeypatch, capsys)))
-    for path in FILES:
-        found = [fault.line() for fault in refusal_of(path).faults]
+    assert sentences() == SENTENCES.read_text(encoding="utf-8")
+    lines += [fault.line() for path in DECKS for fault in refusal_of(path)[1].faults]
+    for path in SWEEPS:
+        found = [fault.line() for fault in refusal_of_sweep(path).faults]
         assert [line.removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for line in found] == expected_of(path), (
             path.name
         )
