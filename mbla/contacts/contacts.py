@@ -34,7 +34,7 @@ class Contacts:
     solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
                    in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
 
-    Interfaces inside of rigid bodies, and those whose joint law is open, are none of these.
+    Internal interfaces (glued), and those whose joint law is open, are none of these.
     """
 
     bodies: IntArray
@@ -91,8 +91,7 @@ class ContactReport:
                      contact included)
     fixed_contacts : contacts between bodies that are both fixed; they are left out of ``Contacts``, like the next two
     open_interfaces : interfaces whose joint law is open
-    glued          : (n, 2) bodies of interfaces inside of rigid bodies: glued ones, and others between blocks that glue
-                     joins anyway
+    glued          : (n, 2) bodies of internal interfaces: glued ones, and others between blocks that glue joins anyway
     held           : blocks that do not move because they are glued to a support
     notices        : the above in words
     """

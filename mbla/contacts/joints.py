@@ -64,7 +64,7 @@ class Laws:
 
     @property
     def glued(self) -> BoolArray:
-        """Interfaces inside of a rigid body, (n,)."""
+        """Internal interfaces, inside of a rigid body, (n,)."""
         return self.are(GLUED)
 
     def in_use(self, chosen: IntArray) -> tuple[IntArray, tuple[str, ...]]:

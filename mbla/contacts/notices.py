@@ -51,7 +51,7 @@ def _glue(report: ContactReport, glue: Glue) -> list[Notice]:
         text = f"{_count(report.open_interfaces, 'interface')} with open joints left out: no contact"
         found.append(Notice("notice", "open-interfaces-left-out", text))
     if len(report.glued):
-        text = f"{_count(len(report.glued), 'interface')} glued, and left out: {glue_words(report, glue.sizes)}"
+        text = f"{_count(len(report.glued), 'internal interface')} (glued) left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
     return found
 
@@ -136,8 +136,8 @@ def _near_misses(model: Model, section: ContactsSection, report: ContactReport) 
         for row in order[:_NAMED]
     )
     text = (
-        f"{_count(len(gaps), 'pair')} of bodies nearly touch, with opposite faces that miss each other by more than "
-        f"the tolerance of {section.tolerance:g}: {named}{_more(len(gaps))}; they are no contacts"
+        f"{_count(len(gaps), 'near miss', 'near misses')}, opposite faces that miss each other by more than the "
+        f"tolerance of {section.tolerance:g}: {named}{_more(len(gaps))}; they are no contacts"
         f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
     )
     return [Notice("warning", "near-misses", text)]
@@ -161,7 +161,7 @@ def _joined(model: Model, report: ContactReport, bodies: IntArray) -> str:
     enough = joining_gap(held_blocks(model), bodies, report.near_misses, gaps) if report.unsupported else None
     if enough is None:
         return ""
-    every = _by_tolerance(float(gaps.max()), "; with contacts.tolerance {:.2g} all faces touch that nearly do")
+    every = _by_tolerance(float(gaps.max()), "; with contacts.tolerance {:.2g} all near misses are contacts")
     return every + _by_tolerance(enough, ", from {:.2g} on every block reaches a support")
 
 

@@ -28,7 +28,7 @@ class Findings:
     """What the search found: all contacts, those between fixed bodies included, and what is not a contact.
 
     open_bodies      : (n, 2) bodies of the contacts whose joint law is open
-    glued_bodies     : (n, 2) bodies of the contacts inside of rigid bodies
+    glued_bodies     : (n, 2) bodies of internal interfaces (glued)
     """
 
     contacts: Patches

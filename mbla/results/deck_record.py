@@ -9,7 +9,7 @@ from pathlib import Path
 from mbla.deck import Deck, read_deck
 from mbla.deck.include import confined
 from mbla.errors import FileError
-from mbla.model.geometry.companions import companions
+from mbla.model.geometry.geometry import companions
 from mbla.results.results import DeckRecord
 
 

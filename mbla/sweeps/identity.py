@@ -17,7 +17,7 @@ from mbla.deck.overrides import apply_override
 from mbla.deck.references import side_files
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError
-from mbla.model.geometry.companions import companions
+from mbla.model.geometry.geometry import companions
 
 WITHOUT_EFFECT = ("title", "output", "expected", "include")
 """keys that do not change what a deck gives; what `include` names is merged in"""

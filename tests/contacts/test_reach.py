@@ -26,7 +26,7 @@ def told(report: ContactReport, identifier: str) -> str:
 def test_the_tolerance_that_closes_all_gaps_is_told_whatever_the_present_one_is(tolerance: float) -> None:
     report = report_of(tolerance)
     loose = told(report, "isolated-blocks") or told(report, "unsupported-parts")
-    words = re.search(r"contacts.tolerance ([0-9.]+) all faces touch that nearly do, from ([0-9.]+) on every", loose)
+    words = re.search(r"contacts.tolerance ([0-9.]+) all near misses are contacts, from ([0-9.]+) on every", loose)
     assert words is not None
     every, enough = (float(figure) for figure in words.groups())
     assert (every, enough) == (0.053, 0.013)

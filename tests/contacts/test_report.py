@@ -36,7 +36,7 @@ def test_near_miss_between_blocks() -> None:
     assert report.near_misses.tolist() == [[0, 1]]
     assert report.near_miss_gaps == pytest.approx([0.004])
     assert words(report)["near-misses"] == (
-        "1 pair of bodies nearly touch, with opposite faces that miss each other by more than the tolerance of 0.001: "
+        "1 near miss, opposite faces that miss each other by more than the tolerance of 0.001: "
         "block[0] and block[1] (0.004 m, 0.004 of the block size); they are no contacts, with contacts.tolerance above "
         "0.0042 all of them are"
     )

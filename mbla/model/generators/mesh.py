@@ -15,9 +15,8 @@ from mbla.deck.units import METRES
 from mbla.errors import Message, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
-from mbla.model.geometry.cell_sets import join_cells
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.member_names import member_name
+from mbla.model.geometry.cells import join_cells
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, member_name
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import take_polyhedra
 

@@ -9,7 +9,7 @@ from mbla.deck.items.table import TableItem
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
-from mbla.model.geometry.member_names import member_name
+from mbla.model.geometry.geometry import member_name
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.tables import Table, TableRefused, read_table
 

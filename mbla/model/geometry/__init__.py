@@ -13,8 +13,9 @@ from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.gltf import read_gltf
 from mbla.model.geometry.inp import read_inp
-from mbla.model.geometry.meshio_files import read_msh, read_ply, read_vtu
+from mbla.model.geometry.meshio_files import read_msh, read_vtu
 from mbla.model.geometry.obj import read_obj
+from mbla.model.geometry.ply import read_ply
 from mbla.model.geometry.stl import read_stl
 from mbla.process.memory_limit import can_limit, limited, written
 

@@ -1,12 +1,23 @@
-"""What a reader of geometry files gives."""
+"""The contract of readers of geometry files, and what several of them need: remarks on leftovers, JSON, names."""
 
 from __future__ import annotations
 
+import json
+import re
+import unicodedata
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
+from urllib.parse import unquote
 
+import numpy as np
+
+from mbla.arrays import IntArray
+from mbla.deck.suggestions import listed
 from mbla.errors import Notice, Refusal
 from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.wording import counted, was
 
 LONGEST_LINE = 1_000_000
 """characters of a line of text, with those that continue it: a face of some hundred thousand corners"""
@@ -49,3 +60,78 @@ class Geometry:
     def name(self, row: int) -> str:
         """Name of a polyhedron; empty where it has none."""
         return self.names[row] if self.names else ""
+
+
+def parse_json(content: bytes) -> Any:
+    """The document; of a key that an object has twice neither value is taken.
+
+    Raises
+    ------
+    ValueError
+        for text that is no JSON in UTF-8, and for keys that are there twice
+    RecursionError
+        for text that is nested too deeply
+    """
+    return json.loads(content.decode("utf-8-sig"), object_pairs_hook=_without_twins)
+
+
+def _without_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    entries = dict(pairs)
+    if len(entries) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"an object has the key {twice[:40]!r} twice")
+    return entries
+
+
+def empty_objects(names: Sequence[str]) -> tuple[Notice, ...]:
+    """A warning of objects without faces, by their names; nothing where there are none."""
+    if not names:
+        return ()
+    called = listed([name or "without a name" for name in names], "and")
+    words = f"{counted(len(names), 'object')} {was(len(names))} left out, without faces: {called}"
+    return (Notice("warning", "objects-empty", words),)
+
+
+def unused_points(count: int, used: IntArray) -> tuple[Notice, ...]:
+    """A warning of points of a file that nothing in it uses; nothing where there are none.
+
+    count : number of points of the file
+    used  : (n,) rows of points that faces, cells or elements name, in any order
+    """
+    unused = count - len(np.unique(used))
+    if unused <= 0:
+        return ()
+    words = f"{unused} of the {counted(count, 'vertex')} of the file {'is' if unused == 1 else 'are'} used by no face"
+    return (Notice("warning", "file-vertices-unused", f"{words}: is the file whole?"),)
+
+
+LONGEST = 64
+
+
+def member_name(text: str) -> str:
+    """A name with letters, digits and ``. _ -`` only; empty for an empty one.
+
+    >>> member_name("Gewölbe 1"), member_name("Mesh1 Group1 Model"), member_name(".x")
+    ('Gewolbe_1', 'Mesh1_Group1_Model', '_.x')
+    """
+    # letters with marks become plain ones; those of other alphabets go
+    plain = unicodedata.normalize("NFKD", text.strip()).encode("ascii", "ignore").decode("ascii")
+    name = re.sub(r"[^A-Za-z0-9_.-]+", "_", plain)
+    if not name and text.strip():
+        name = "_"
+    return ("_" + name if name[:1] in (".", "-") else name)[:LONGEST]
+
+
+def companions(path: Path) -> list[Path]:
+    """Files that are read with a geometry file, in its order; none where it cannot be read, which its reader tells."""
+    if path.suffix.lower() != ".gltf":
+        return []
+    try:
+        document = json.loads(path.read_bytes())
+        names = [
+            unquote(each["uri"]) for each in document["buffers"] if not each.get("uri", "data:").startswith("data:")
+        ]
+        return [file for name in names if (file := (path.parent / name).resolve()).is_file()]
+    except (OSError, RecursionError, ValueError, TypeError, KeyError, AttributeError):
+        return []

@@ -16,10 +16,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json
 from mbla.model.geometry.gltf_accessors import Buffers, entry_of, read_accessor
-from mbla.model.geometry.json_text import parse_json
-from mbla.model.geometry.leftovers import empty_objects
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was

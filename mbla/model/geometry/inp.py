@@ -18,8 +18,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
-from mbla.model.geometry.leftovers import unused_points
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 

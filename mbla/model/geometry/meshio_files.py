@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
-import re
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, partial
@@ -22,50 +21,29 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.leftovers import unused_points
-from mbla.model.geometry.mesh_counts import (
-    announced_in_ply,
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, unused_points
+from mbla.model.geometry.meshio_guards import (
+    CELLS,
+    VARIABLE,
     announced_in_vtu,
+    checked_cells,
     counts_of,
     refuse_other_counts,
-    refuse_other_length,
-    refuse_other_lines,
+    refuse_other_faces,
     refuse_other_sections,
-    refuse_too_short,
 )
-from mbla.model.geometry.ply_header import readable_header
-from mbla.model.geometry.vtu_cells import CELLS, VARIABLE, checked_cells, refuse_other_faces
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""
-WORDS = {"ply": "PLY", "vtu": "VTU", "gmsh": "Gmsh .msh"}
+WORDS = {"vtu": "VTU", "gmsh": "Gmsh .msh"}
 WITHOUT_DIMENSION = {"wedge12": 3, "wedge15": 3, "pyramid13": 3, "hexahedron24": 3, "penta_prism": 3, "hexa_prism": 3}
 WITHOUT_DIMENSION |= {"quad6": 2, "triangle7": 2}
 """cells that meshio's readers know and its mesh does not, for want of a number of dimensions"""
 COMPRESSION = 1
 """level of zlib in VTU files, which meshio cannot be told: coordinates and forces hardly get smaller by a higher one
 (0.4 % of an animation frame of 10,000 blocks), and writing takes twice as long at its 6"""
-
-
-def read_ply(path: Path) -> Geometry:
-    """Closed parts of a PLY surface."""
-    header, end, body = path.read_bytes().partition(b"end_header")
-    if not end:  # meshio would look for it for ever
-        raise GeometryFileError("geometry-file", "is not a well-formed PLY file: its header has no end")
-    as_text = re.search(rb"\sformat\s+ascii\b", header) is not None
-    header = readable_header(header, as_text)
-    if as_text:
-        refuse_other_lines(header, body)
-    else:
-        refuse_too_short(header, body)
-    geometry, mesh = _read(io.BytesIO(header + end + body), "ply")
-    refuse_other_counts(WORDS["ply"], announced_in_ply(header), counts_of(mesh))
-    if not as_text:
-        refuse_other_length(header, body, mesh)
-    return geometry
 
 
 BYTES_OF_A_POINT, MOST_PACKED = 24, 50
@@ -92,9 +70,9 @@ def read_msh(path: Path) -> Geometry:
     return geometry
 
 
-def _read(source: str | io.BytesIO, file_format: str) -> tuple[Geometry, Any]:
+def _read(path: str, file_format: str) -> tuple[Geometry, Any]:
     """What the file holds, and the same as meshio gives it."""
-    mesh, remarks = _mesh(source, file_format)
+    mesh, remarks = _mesh(path, file_format)
     points = _points(mesh)
     volumes = [
         block for block in mesh.cells if _shape(block.type) in VOLUME_CELLS or block.type.startswith("polyhedron")
@@ -144,14 +122,14 @@ def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _mesh(source: str | io.BytesIO, file_format: str) -> tuple[Any, list[Notice]]:
+def _mesh(path: str, file_format: str) -> tuple[Any, list[Notice]]:
     """The file as meshio gives it, and what meshio would have printed."""
     printed = io.StringIO()
     try:
         meshio = _meshio()
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
             # the reader itself: meshio.read prints, and ends the program, where a file is malformed
-            mesh = getattr(meshio, file_format).read(source)
+            mesh = getattr(meshio, file_format).read(path)
     except (GeometryFileError, MemoryError, OSError):
         raise
     except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through

@@ -15,8 +15,7 @@ import numpy as np
 
 from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line
-from mbla.model.geometry.leftovers import empty_objects, unused_points
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, refuse_long_line, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.wording import counted, was

@@ -17,12 +17,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.geometry.duplicate_faces import face_codes, repeated_faces
-from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
-from mbla.model.geometry.flat_faces import flat_faces
+from mbla.model.geometry.gaps import flat_faces, insert_t_junctions, lone_edge_corners, shortest_edges
 from mbla.model.geometry.geometry import Geometry
-from mbla.model.geometry.surfaces import split_surfaces
-from mbla.model.geometry.t_junctions import insert_t_junctions
+from mbla.model.geometry.surfaces import face_codes, repeated_faces, split_surfaces
 from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, welding_notices, with_faces
 from mbla.model.solids.defects import coordinate_defects, mark
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra

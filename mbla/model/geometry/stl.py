@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.leftovers import empty_objects
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 HEADER, TRIANGLE = 84, 50

@@ -3,7 +3,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from mbla.model.geometry.companions import companions
+from mbla.model.geometry.geometry import companions
 
 
 def test_buffers_of_a_gltf(tmp_path: Path) -> None:

@@ -7,9 +7,8 @@ import ezdxf
 import numpy as np
 import pytest
 
-from mbla.model.geometry.dxf import DEEPEST, read_dxf
+from mbla.model.geometry.dxf import DEEPEST, enclosed_fields, read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.line_networks import enclosed_fields
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import build_raw
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.model.geometry.edge_lengths import lone_edge_corners, shortest_edges
+from mbla.model.geometry.gaps import lone_edge_corners, shortest_edges
 from tests.model.shapes import box, raw
 
 TRIANGLE = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0], [9.0, 9.0, 9.0]]

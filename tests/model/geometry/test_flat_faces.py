@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.model.geometry.flat_faces import FLAT, flat_faces
+from mbla.model.geometry.gaps import FLAT, flat_faces
 from tests.model.shapes import raw
 
 

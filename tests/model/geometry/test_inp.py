@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model.geometry.cell_sets import join_cells
+from mbla.model.geometry.cells import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.repair import repair

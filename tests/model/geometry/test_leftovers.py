@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.model.geometry import read_geometry
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.json_text import parse_json
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, parse_json
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.model.shapes import box, build_raw, raw

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.model.geometry import line_networks
+from mbla.model.geometry import dxf as line_networks
+from mbla.model.geometry.dxf import enclosed_fields
 from mbla.model.geometry.geometry import GeometryFileError
-from mbla.model.geometry.line_networks import enclosed_fields
 
 
 def lines(*places: list[tuple[float, float]]) -> list[FloatArray]:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.model.geometry.member_names import LONGEST, member_name
+from mbla.model.geometry.geometry import LONGEST, member_name
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.geometry.t_junctions import insert_t_junctions
+from mbla.model.geometry.gaps import insert_t_junctions
 from tests.model.shapes import Shape, raw
 
 

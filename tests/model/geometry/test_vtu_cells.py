@@ -12,8 +12,8 @@ import pytest
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.geometry.meshio_guards import BY_AXES, CELLS, VARIABLE
 from mbla.model.geometry.repair import repair
-from mbla.model.geometry.vtu_cells import BY_AXES, CELLS, VARIABLE
 from tests.model.shapes import box, build_raw
 
 CUBE = [list(map(float, corner)) for corner in box()[0]]

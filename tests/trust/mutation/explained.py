@@ -144,7 +144,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "np.zeros -> np.ones",
     ): "every entry is overwritten",
     (
-        "mbla/model/geometry/duplicate_faces.py",
+        "mbla/model/geometry/surfaces.py",
         "codes = np.zeros(len(counts), dtype=np.int64)",
         "np.zeros -> np.ones",
     ): "every entry is overwritten",
@@ -159,17 +159,17 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "np.zeros -> np.ones",
     ): "has no entries",
     (
-        "mbla/model/geometry/duplicate_faces.py",
+        "mbla/model/geometry/surfaces.py",
         "codes[rows] = used + inverse.reshape(-1)",
         "1 -> 2",
     ): "of a shape, any negative number is the length that is left",
     (
-        "mbla/model/geometry/edge_lengths.py",
+        "mbla/model/geometry/gaps.py",
         "return np.flatnonzero(counts[inverse.reshape(-1)] == 1)",
         "1 -> 2",
     ): "of a shape, any negative number is the length that is left",
     (
-        "mbla/model/geometry/line_networks.py",
+        "mbla/model/geometry/dxf.py",
         "labels = connected_labels(pairs.reshape(-1, 2).astype(np.int64), len(points))",
         "1 -> 2",
     ): "of a shape, any negative number is the length that is left",
@@ -194,7 +194,7 @@ EXPLAINED: dict[tuple[str, str, str], str] = {
         "1 -> 2",
     ): "a truth value: 2 is true, too",
     (
-        "mbla/model/geometry/edge_lengths.py",
+        "mbla/model/geometry/gaps.py",
         "keys = np.minimum(tails, heads) * len(polyhedra.vertices) + np.maximum(tails, heads)",
         "np.minimum(tails, heads) * len(polyhedra.vertices) -> np.minimum(tails, heads) / len(polyhedra.vertices)",
     ): "the lesser vertex as a fraction below one: as good a number for an edge",

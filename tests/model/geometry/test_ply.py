@@ -1,4 +1,4 @@
-"""Headers of PLY files: what is not read, or would be taken for something else, is named."""
+"""PLY files: properties in any order, what cannot be read is named."""
 
 from __future__ import annotations
 
@@ -38,81 +38,56 @@ def text(points: str = "{} {} {}", faces: str = "3 {} {} {}") -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
+def binary() -> bytes:
+    points = b"".join(struct.pack("<3f", *point) for point in POINTS)
+    return points + b"".join(struct.pack("<B3i", 3, *face) for face in FACES)
+
+
 @pytest.mark.parametrize(
     ("as_text", "of_vertex", "of_face", "message"),
     [
-        (True, PLACE, ("uchar red", CORNERS), "property 'red' of its faces {} it stands before vertex_indices"),
-        (
-            True,
-            PLACE,
-            (CORNERS, "list uchar float texcoord"),
-            "property 'texcoord' of its faces {} it is a list other than vertex_indices",
-        ),
-        (
-            True,
-            PLACE,
-            ("list uchar int corners",),
-            "property 'corners' of its faces {} it is a list other than vertex_indices",
-        ),
-        (True, (*PLACE, "list uchar uchar marks"), (CORNERS,), "property 'marks' of its vertices {} it is a list"),
-        (True, (*PLACE, "half grün"), (CORNERS,), "property 'grün' of its vertices {} type half is not known"),
-        (False, (*PLACE, "list uchar uchar marks"), (CORNERS,), "property 'marks' of its vertices {} it is a list"),
-        (
-            False,
-            (*PLACE, "short a"),
-            (CORNERS,),
-            "property 'a' of its vertices {} type short is not known in binary files",
-        ),
-        (
-            False,
-            PLACE,
-            (CORNERS, "int id"),
-            "property 'id' of its faces {} faces of binary files may have nothing but vertex_indices",
-        ),
-        (
-            False,
-            PLACE,
-            (CORNERS, CORNERS),
-            "property 'vertex_indices' of its faces {} it is a list other than vertex_indices",
-        ),
+        (True, PLACE, ("list uchar int corners",), "no list of vertex_indices is among the properties of its faces"),
+        (True, (*PLACE, "half grün"), (CORNERS,), "property 'grün' is of the type half, which is not known"),
+        (False, ("float x", "float y", "float w"), (CORNERS,), "x, y or z is not among the properties of its vertices"),
+        (True, (*PLACE, "uchar red"), (CORNERS,), "line 11 cannot be read: list index out of range"),
+        (False, PLACE, (CORNERS, "int id"), "it ends before all that its header announces"),
     ],
 )
-def test_properties_that_are_not_read(
+def test_what_cannot_be_read(
     tmp_path: Path, as_text: bool, of_vertex: Sequence[str], of_face: Sequence[str], message: str
 ) -> None:
     with pytest.raises(GeometryFileError) as caught:
-        tetrahedron(tmp_path / "x.ply", header(as_text, of_vertex, of_face), text())
-    assert str(caught.value) == message.format("cannot be read:") + "; export the mesh without it"
-
-
-@pytest.mark.parametrize(
-    ("as_text", "of_vertex", "message"),
-    [
-        (True, ("float x", "float y", "float a", "float z"), "their first properties are not x, y and z"),
-        (True, ("float a", *PLACE), "their first properties are not x, y and z"),
-        (True, ("float x", "float y"), "their first properties are not x, y and z"),
-        (False, ("float x", "float y"), "x, y or z is not among their properties"),
-    ],
-)
-def test_vertices_without_a_place(tmp_path: Path, as_text: bool, of_vertex: Sequence[str], message: str) -> None:
-    """With something between y and z, a mesh of text was flat."""
-    with pytest.raises(GeometryFileError) as caught:
-        tetrahedron(tmp_path / "x.ply", header(as_text, of_vertex, [CORNERS]))
-    assert str(caught.value) == f"its vertices cannot be read: {message}"
+        tetrahedron(tmp_path / "x.ply", header(as_text, of_vertex, of_face), binary() if not as_text else text())
+    assert str(caught.value) == f"is not a well-formed PLY file: {message}"
 
 
 def test_faces_before_vertices(tmp_path: Path) -> None:
     lines = header(True, PLACE, [CORNERS])
-    with pytest.raises(GeometryFileError) as caught:
-        tetrahedron(tmp_path / "x.ply", [*lines[:2], *lines[6:8], *lines[2:6], lines[-1]])
-    words = "its faces cannot be read: they stand before its vertices; export the mesh with vertices first"
-    assert str(caught.value) == words
+    points, faces = text().splitlines(keepends=True)[:4], text().splitlines(keepends=True)[4:]
+    assert tetrahedron(tmp_path / "x.ply", [*lines[:2], *lines[6:8], *lines[2:6], lines[-1]], b"".join(faces + points))
 
 
-def test_properties_after_the_place_and_after_the_corners(tmp_path: Path) -> None:
-    of_vertex, of_face = (*PLACE, "int16 a", "char b"), (CORNERS, "uchar red", "float64 weight")
-    body = text("{} {} {} 7 8", "3 {} {} {} 255 0.5")
+def test_other_properties_are_passed_over(tmp_path: Path) -> None:
+    of_vertex = ("int16 a", *PLACE, "list uchar int marks", "char b")
+    of_face = ("uchar red", CORNERS, "list uchar float texcoord", "float64 weight")
+    body = text("7 {} {} {} 2 5 6 8", "255 3 {} {} {} 1 0.5 0.5")
     assert tetrahedron(tmp_path / "x.ply", header(True, of_vertex, of_face), body) == POINTS
+    body = b"".join(struct.pack("<h3fB2ib", 7, *point, 2, 5, 6, 8) for point in POINTS)
+    body += b"".join(struct.pack("<BB3iBfd", 255, 3, *face, 1, 0.5, 0.5) for face in FACES)
+    assert tetrahedron(tmp_path / "x.ply", header(False, of_vertex, of_face), body) == POINTS
+
+
+def test_faces_with_different_numbers_of_corners(tmp_path: Path) -> None:
+    """A pyramid over a square, in the other order of bytes."""
+    faces = [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1)]
+    lines = [line.replace("4", "5") for line in header(False, PLACE, [CORNERS])]
+    lines[1] = "format binary_big_endian 1.0"
+    body = b"".join(struct.pack(">3f", *point) for point in points)
+    body += b"".join(struct.pack(f">B{len(face)}i", len(face), *face) for face in faces)
+    assert len(tetrahedron(tmp_path / "x.ply", lines, body)) == 5
+    with pytest.raises(GeometryFileError, match=r"what its header announces takes 129 bytes, it has 130$"):
+        tetrahedron(tmp_path / "x.ply", lines, body + b"0")
 
 
 def test_comments_are_no_properties(tmp_path: Path) -> None:

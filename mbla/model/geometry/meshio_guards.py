@@ -1,13 +1,18 @@
-"""Cells of a VTU file held against their types, before meshio sees them.
+"""Guards before and behind meshio, which believes what VTU and Gmsh files announce: blocks would be missing or wrong.
 
-A cell takes the points of the list between the offset before it and its own. meshio takes as many as its type needs,
-counted back from its own offset: one too few, and the cell begins with a point of its neighbour or with the last of
-the list.
+The numbers that a file announces are held against what it has and what was read. A cell takes the points of the list
+between the offset before it and its own; meshio takes as many as its type needs, counted back from its own offset: one
+too few, and the cell begins with a point of its neighbour or with the last of the list.
 
 Source: VTK file formats, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 """
 
 from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -86,3 +91,67 @@ def refuse_other_faces(faces: IntArray, ends: IntArray) -> None:
             words = f"the faces of polyhedron {row} (from 0) have more or fewer points than they announce"
             raise GeometryFileError("geometry-file", f"is not a well-formed VTU file: {words}")
         begin = end
+
+
+SECTIONS = {b"Nodes": "node", b"Elements": "element"}
+"""sections of a Gmsh file of version 2 that begin with their number of lines"""
+DIGITS = 18
+"""most of a number that is looked at: Python itself reads none of more than 4,300"""
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Numbers of points and cells."""
+
+    points: int
+    cells: int
+
+
+def counts_of(mesh: Any) -> Counts:
+    """What meshio has read."""
+    return Counts(len(mesh.points), sum(len(block.data) for block in mesh.cells))
+
+
+def announced_in_vtu(path: Path) -> Counts:
+    """What all pieces of a VTU file announce."""
+    pieces = re.findall(rb"<Piece\b[^>]*>", path.read_bytes())
+    points, cells = (
+        sum(_number(text, "VTU") for piece in pieces for text in re.findall(name + rb"\s*=\s*[\"'](-?\d+)", piece))
+        for name in (b"NumberOfPoints", b"NumberOfCells")
+    )
+    return Counts(points, cells)
+
+
+def _number(text: bytes, words: str) -> int:
+    """What a file announces; GeometryFileError where that has more digits than anything in a file could need."""
+    if len(text) > DIGITS:
+        raise GeometryFileError(
+            "geometry-file", f"is not a well-formed {words} file: it announces a number of {len(text)} digits"
+        )
+    return int(text)
+
+
+def refuse_other_counts(words: str, announced: Counts, read: Counts) -> None:
+    """GeometryFileError where not all was read that is announced."""
+    for noun, one, other in (("point", announced.points, read.points), ("cell", announced.cells, read.cells)):
+        if one != other:
+            raise GeometryFileError(
+                "geometry-file",
+                f"is not a well-formed {words} file: it announces {counted(one, noun)}, {other} can be read",
+            )
+
+
+def refuse_other_sections(path: Path) -> None:
+    """GeometryFileError where a section of a Gmsh file of text, version 2, has other lines than it announces."""
+    content = path.read_bytes()
+    if not re.match(rb"\s*\$MeshFormat\s+2\S*\s+0\s", content):
+        return
+    for name, noun in SECTIONS.items():
+        for section in re.findall(rb"^\$" + name + rb"\s*$(.*?)(?=^\$|\Z)", content, re.DOTALL | re.MULTILINE):
+            number, *lines = [line for line in section.splitlines() if line.strip()] or [b""]
+            if number.strip() != str(len(lines)).encode():
+                raise GeometryFileError(
+                    "geometry-file",
+                    f"is not a well-formed Gmsh .msh file: it announces {number.strip().decode(errors='replace')[:20]} "
+                    f"{noun}s and has {counted(len(lines), noun)}",
+                )
