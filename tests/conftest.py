@@ -17,6 +17,11 @@ settings.register_profile("untimed", deadline=None, suppress_health_check=[Healt
 settings.load_profile("untimed")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """``--update`` writes texts that tests compare with anew."""
+    parser.addoption("--update", action="store_true", help="write texts that tests compare with anew")
+
+
 @pytest.fixture(scope="session", autouse=True)
 def interruptible() -> Iterator[None]:
     """SIGINT interrupts, here and in processes that tests start: a shell begins jobs in the background without it."""

@@ -97,7 +97,7 @@ def _forces_of_unit_reaction(settlement: Settlement) -> FloatArray:
 
 
 def _motion(section: SettlementSection, chosen: IntArray, blocks: Blocks) -> tuple[FloatArray, str]:
-    subject = f"settlement of {counted(len(chosen), 'block')}"
+    subject = f"prescribed settlement of {counted(len(chosen), 'block')}"
     if section.direction is not None:
         return slide(unit(section.direction), len(chosen)), f"{subject} along {vector(section.direction)}"
     assert section.turn is not None  # a rule of the deck: a direction, or a line to turn about

@@ -177,17 +177,15 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
         what = (
             "; its load factor is no collapse load" if locked_in(case) and case.solution.mechanics is not None else ""
         )
-        text = (
-            f"{name}: the structure stands only by self-stress, that is by forces locked in before it is loaded{what}"
-        )
+        text = f"{name}: the structure stands only in a self-stressed state{what}"
         notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}", name))
     if standing is not None and standing.verdict is Standing.DOUBTFUL:
-        text = f"{name}: whether the structure stands without forces locked in could not be decided"
+        text = f"{name}: whether the structure stands without self-stress could not be decided"
         notices.append(Notice("warning", "standing-doubtful", f"{text}: {standing.reason}", name))
     residual = law_residual(case.checks)
     if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
-        text = f"{name}: forces and velocities miss the joint law by {residual:.1e}, more than {CLEAN_RESIDUAL:g}"
-        text = f"{text}; the load factor is good to about that share"
+        text = f"{name}: forces and velocities violate the joint law: residual {residual:.1e}, more than"
+        text = f"{text} {CLEAN_RESIDUAL:g}; the load factor is good to about that share"
         notices.append(Notice("warning", "law-residual", text, name))
     return tuple(notices)
 

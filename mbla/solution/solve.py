@@ -44,9 +44,7 @@ LOCK_NOT_PROVED = (
     "were found to prove that"
 )
 
-ONLY_BY_SELF_STRESS = (
-    "it stands only by forces locked in between the blocks beforehand: without knowing these there is no collapse load"
-)
+ONLY_BY_SELF_STRESS = "it stands only in a self-stressed state: without knowing that state there is no collapse load"
 
 
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"

@@ -111,4 +111,4 @@ def spaced(lines: list[str]) -> list[str]:
 
 
 def _mechanism_label(case: CaseResult) -> str:
-    return "" if result_of(case) is not None else "; its mechanism, for what it is worth"
+    return "" if result_of(case) is not None else "; its mechanism, not verified"

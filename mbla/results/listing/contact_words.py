@@ -28,7 +28,7 @@ def finding_lines(model: Model, report: ContactReport) -> list[str]:
     """What the search saw besides contacts, pair by pair and part by part; nothing where there is nothing."""
     closest = np.argsort(np.abs(report.near_miss_gaps), kind="stable")
     misses, gaps = report.near_misses[closest], report.near_miss_gaps[closest]
-    near = _pair_table(model, "Nearly touching, no contact", "gap", misses, gaps)
+    near = _pair_table(model, "Near misses", "gap", misses, gaps)
     widest = np.argsort(-report.sliver_widths, kind="stable")
     slivers = _pair_table(model, "Slivers dropped", "width", report.slivers[widest], report.sliver_widths[widest])
     unchecked = _pair_table(model, "Not checked for overlap", "", report.unchecked, None)
@@ -36,7 +36,7 @@ def finding_lines(model: Model, report: ContactReport) -> list[str]:
     if len(report.isolated):
         lines += sentence(f"Blocks without any contact: {_names(model, report.isolated, MOST_ROWS)}.")
     for part in report.unsupported[:MOST_ROWS]:
-        lines += sentence(f"Held by no support: {counted(len(part), 'block')}, {_names(model, part, MOST_NAMED)}.")
+        lines += sentence(f"Unsupported: {counted(len(part), 'block')}, {_names(model, part, MOST_NAMED)}.")
     return [*heading("Found by the search"), *lines] if lines else []
 
 
@@ -67,15 +67,15 @@ def _counts(model: Model, contacts: Contacts) -> list[str]:
     parts = f", {counted(len(report.unsupported), 'part')}" if unsupported else ""
     glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if len(report.glued) else ""
     for name, count, rest in (
-        ("nearly touching, no contact", len(report.near_misses), ""),
+        ("near misses", len(report.near_misses), ""),
         ("slivers dropped", len(report.slivers), ""),
         ("overlapping blocks", len(report.overlaps), ""),
         ("not checked for overlap", len(report.unchecked), ""),
         ("blocks without contact", len(report.isolated), ""),
-        ("blocks held by no support", unsupported, parts),
-        ("between fixed bodies, left out", report.fixed_contacts, ""),
-        ("open, left out", report.open_interfaces, ""),
-        ("inside of rigid bodies, left out", len(report.glued), glued),
+        ("unsupported blocks", unsupported, parts),
+        ("between fixed bodies (ignored)", report.fixed_contacts, ""),
+        ("open joints (ignored)", report.open_interfaces, ""),
+        ("internal interfaces (glued)", len(report.glued), glued),
     ):
         lines += entry(name, f"{count or 'none'}{rest}")
     return lines

@@ -82,17 +82,17 @@ def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
         return f"{text} {'as one rigid part' if parts == 1 else f'in {parts} rigid parts'}."
     if failure.spreads:
         return (
-            f"{text}. It spreads over many joints; told as {as_parts(len(failure.main.motions))}, each block as part "
-            f"of the motion that its own comes nearest to, which explains {100 * failure.main.explained:.3g} % of the "
-            "motion (of its square over the volume)."
+            f"{text}. Distributed mechanism over many joints, approximated by {as_parts(len(failure.main.motions))}: "
+            f"each block belongs to the part whose motion is nearest to its own, which reproduces "
+            f"{100 * failure.main.explained:.3g} % of the motion (of its square over the volume)."
         )
     text = (
-        f"{text}, told as {counted(parts, 'part')}: what moves by less than {100 * failure.merged:g} % of the fastest "
-        "contact counts as at rest, or as one with its neighbour."
+        f"{text}: {counted(parts, 'rigid part')}, neglecting relative motion below {100 * failure.merged:g} % of the "
+        "largest contact velocity."
     )
     if len(failure.motions) < SPREADS:
         return text
-    return f"{text} It spreads through what moves and has no few parts; the {MOST_PARTS} heaviest:"
+    return f"{text} Distributed mechanism; the {MOST_PARTS} heaviest parts:"
 
 
 def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failure: Failure, part: PartMotion) -> str:
@@ -120,14 +120,16 @@ def _part_sentence(model: Model, contacts: Contacts, load_case: LoadCase, failur
 
 
 def as_parts(count: int) -> str:
-    """``one part``, ``3 parts``."""
-    return "one part" if count == 1 else f"{count} parts"
+    """``one rigid part``, ``3 rigid parts``."""
+    return "one rigid part" if count == 1 else f"{count} rigid parts"
 
 
 def _breaks_off(model: Model, failure: Failure, part: PartMotion) -> str:
     """`` and breaks off along a line from (7.6, 0.3, 0) to (0.4, 0.3, 5.4), 40 degrees to the horizontal``."""
     own = [line for line in failure.yield_lines if part.number in line.parts]
-    line = min(own, key=lambda line: 0 not in line.parts, default=None)  # that on what rests, else the longest
+    line = min(
+        own, key=lambda line: 0 not in line.parts, default=None
+    )  # that on the stationary blocks, else the longest
     if line is None:
         return ""
     other = sum(line.parts) - part.number

@@ -122,7 +122,7 @@ def _standing(model: Model, case: CaseResult) -> list[str]:
     lines = entry("stands under dead load", f"{standing.verdict.value}{block}")
     lines += sentence(standing.reason, "    ")
     if locked_in(case) and case.solution.mechanics is not None:
-        lines += sentence("WARNING: the load factor presumes forces locked in before; it is no collapse load", "    ")
+        lines += sentence("WARNING: the load factor presumes a self-stressed state; it is no collapse load", "    ")
     return lines
 
 
@@ -134,7 +134,7 @@ def size_words(size: ModelSize) -> str:
     if size.mirror_planes:
         words.append(f"{counted(size.mirror_planes, 'mirror plane')} used")
     if size.parts > 1:
-        words.append(f"{size.parts} parts solved apart")
+        words.append(f"{size.parts} independent parts")
     return ", ".join(words)
 
 

@@ -117,17 +117,17 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
     if result_of(case) is None or not resting or not len(enough.moving):
         return []
     what = (
-        f"Enough for this result: the {counted(len(enough.moving), 'block')} that move and the "
-        f"{counted(len(enough.interfaces), 'interface')} on them."
-    ).replace("1 block that move ", "1 block that moves ")
+        f"Relevant to this result: the {counted(len(enough.moving), 'moving block')} and their "
+        f"{counted(len(enough.interfaces), 'interface')}."
+    )
     out = len(enough.left_out)
     if out == resting:
         touches = "touches" if out == 1 else "touch"
-        fixed = f"Without the {counted(resting, 'free block')} at rest, which {touches} nothing that moves,"
+        fixed = f"Without the {counted(resting, 'stationary free block')}, which {touches} none of these,"
     else:
-        fixed = f"With the {counted(resting, 'free block')} at rest fixed"
+        fixed = f"With the {counted(resting, 'stationary free block')} fixed"
         touch = "touches" if out == 1 else "touch"
-        fixed += f", of which {out} {touch} nothing that moves and can be left out," if out else ","
+        fixed += f" ({out} of them {touch} no moving block and can be removed)" if out else ""
     if case.solution.flow_rule == "associative":
         return sentence(f"{what} {fixed} the load factor is the same.")
     return sentence(
@@ -141,7 +141,7 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
     if result_of(case) is None or not len(contacts):
         return []
     ranges = case.solution.force_ranges is None and case.solution.contact_model == "concave"
-    ask = " Their ranges are found with analysis.force_ranges: true." if ranges else ""
+    ask = " For their ranges: analysis.force_ranges: true." if ranges else ""
     if freedom is None:
         return sentence(f"How far the contact forces are unique was not determined, as {why}.{ask}")
     whose = "" if case.solution.flow_rule == "associative" else " in this mechanism"
@@ -149,9 +149,9 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
         return sentence(f"The resultant of every interface is unique at this load factor{whose}.")
     known = int(freedom.determined.sum())
     return sentence(
-        f"The contact forces are not unique: at this load factor{whose} equilibrium lets them vary in up "
-        f"to {counted(freedom.degree, 'way')}, as far as the strength of the joints allows; the resultants of {known} "
-        f"of {counted(len(contacts), 'interface')} are the same in all.{ask}"
+        f"The contact forces are not unique: degree of static indeterminacy at this load factor{whose}: at most "
+        f"{freedom.degree}. Statically determinate: the resultants of {known} of "
+        f"{counted(len(contacts), 'interface')}.{ask}"
     )
 
 
@@ -163,38 +163,33 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     if work.given <= 0:
         return []
     settles = load_case.settlement is not None  # whose dead load holds the reaction at rest
-    dead = "the reaction at rest less what the weights give" if settles else "the dead load"
+    against = "the reaction at rest less the work of the weights" if settles else "work against the dead load"
+    normal = float(work.normal.sum())
     sinks = (
-        (dead, -work.dead, work.dead <= 0),
-        ("the live load", -work.live, False),
+        (against, max(-work.dead, 0.0), work.dead <= 0),
+        ("work against the live load", max(-work.live, 0.0), False),
         ("friction", float(work.friction.sum()), True),
         ("cohesion", float(work.cohesion.sum()), False),
-        ("the joints' normal forces", max(float(work.normal.sum()), 0.0), False),
+        ("normal forces of the joints", max(normal, 0.0), False),
+        ("dilatancy of the sliding joints", min(normal, 0.0), False),
     )
-    shares = [
-        (name, power_share(power, work), always)
-        for name, power, always in sinks
-        if not (name in (dead, "the live load") and power < 0)
-    ]
-    into = ", ".join(f"{share} % into {name}" for name, share, always in shares if always or float(share) != 0.0)
-    into = into.replace(" % into", " % goes into", 1)
-    back = power_share(-float(work.normal.sum()), work)
-    back = f"; joints lift as they slide, and their normal forces give {back} % back" if float(back) > 0 else ""
-    lines = sentence(f"{_source(load_case, work)}{into}{back}.")
+    shares = [(name, power_share(power, work), always) for name, power, always in sinks]
+    balance = ", ".join(f"{share} % {name}" for name, share, always in shares if always or float(share) != 0.0)
+    lines = sentence(f"Energy balance, {_source(load_case, work)}: {balance}.")
     groups = [] if settles else _group_table(model, load_case, mechanics, work)
     return lines + _joint_table(contacts, work) + groups
 
 
 def _source(load_case: LoadCase, work: Work) -> str:
-    """Where the power comes from."""
+    """What does the work."""
     if load_case.settlement is not None and work.dead <= 0:
-        return "Of the power of the reaction that the support loses "
+        return "of the work of the reaction that the support loses"
     if work.dead <= 0:
-        return "Of the power of the live load "
+        return "of the work of the live load"
     if work.live <= 0:
-        return "The dead load drives the mechanism. Of its power "
+        return "of the work of the dead load, which drives the mechanism"
     live, dead = power_share(work.live, work), power_share(work.dead, work)
-    return f"The live load gives {live} % of the power, the dead load {dead} %. Of both "
+    return f"of the work of the live load ({live} %) and the dead load ({dead} %)"
 
 
 def power_share(power: float, work: Work) -> str:
@@ -219,4 +214,4 @@ def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: 
     if len(rows) < 2:
         return []
     more = sentence(f"and {counted(len(rows) - MOST_ROWS, 'more group')}") if len(rows) > MOST_ROWS else []
-    return table(["group", "live load [%]", "into its dead load [%]"], rows[:MOST_ROWS]) + more
+    return table(["group", "live load [%]", "against its dead load [%]"], rows[:MOST_ROWS]) + more

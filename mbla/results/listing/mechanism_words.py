@@ -102,8 +102,8 @@ def _told_parts(failure: Failure) -> str:
     """How many parts; where small motions within them are left out, that the blocks move as so many."""
     count = len(failure.motions)
     if failure.merged:
-        return f" as {counted(count, 'part')}"
-    return f" in {count} parts" if count > 1 else ""
+        return f" as {counted(count, 'rigid part')}"
+    return f" in {count} rigid parts" if count > 1 else ""
 
 
 def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:
@@ -204,7 +204,7 @@ def _interfaces(model: Model, contacts: Contacts, interfaces: IntArray) -> str:
 
 
 LIFTS = (
-    "The motion is one of associative flow, in which joints lift as they slide: it proves that nothing holds the "
+    "The motion is one of associative flow, in which joints dilate as they slide: it proves that nothing holds the "
     "structure, and need not be the way in which it falls."
 )
 """what the motion is worth as a picture of the fall, where anything slides in it"""

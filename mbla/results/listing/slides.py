@@ -21,9 +21,9 @@ LONGEST = 30
 
 
 def part_name(model: Model, failure: Failure, number: int) -> str:
-    """``part 2``; ``it`` where everything moves as one, ``what rests`` for 0."""
+    """``part 2``; ``it`` where everything moves as one, ``the stationary blocks`` for 0."""
     if number == 0:
-        return "what rests"
+        return "the stationary blocks"
     return "it" if moves_whole(model, failure.motions[0]) else f"part {number}"
 
 
@@ -33,7 +33,7 @@ def moves_whole(model: Model, part: PartMotion) -> bool:
 
 
 def other_name(model: Model, contacts: Contacts, failure: Failure, number: int, interfaces: IntArray) -> str:
-    """The same; what rests by its name where it is one body: ``ground z = 0``, ``base[0]``."""
+    """The same; the stationary by their name where it is one body: ``ground z = 0``, ``base[0]``."""
     if number:
         return part_name(model, failure, number)
     rests = np.append(failure.clusters, np.zeros(len(model.grounds), dtype=np.int64)) == 0
@@ -44,7 +44,7 @@ def other_name(model: Model, contacts: Contacts, failure: Failure, number: int, 
         if len(name) <= LONGEST:
             return name
     supports = np.append(model.fixed, np.ones(len(model.grounds), dtype=bool))
-    return "the supports" if len(found) and supports[found].all() else "what rests"
+    return "the supports" if len(found) and supports[found].all() else "the stationary blocks"
 
 
 # --- Sliding in plain sentences -------------------------------------------------------------------------------------
@@ -68,17 +68,17 @@ def slide_sentences(model: Model, contacts: Contacts, failure: Failure, work: Wo
     if len(working) > MOST_SLIDES:
         left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
         more = counted(len(working) - MOST_SLIDES, "more movement")
-        takes = "" if np.isnan(left) else f", taking {percent(left)} % of the power"
+        takes = "" if np.isnan(left) else f", {percent(left)} % of the work"
         texts.append(f"{more} of this kind in the table below{takes}.")
     in_hinges = sum(line.shear for line in sliding)
     if in_hinges >= UNDER_FORCE:
         slide = "slides" if len(sliding) == 1 else "slide"
-        texts.append(f"{counted(len(sliding), 'hinge')} {slide} as well, taking {percent(in_hinges)} % of the power.")
+        texts.append(f"{counted(len(sliding), 'hinge')} {slide} as well, {percent(in_hinges)} % of the work.")
     else:
         idle += len(sliding)
     if not texts:
         verb = "slides" if idle == 1 else "slide"
-        how = "" if np.isnan(work.given) else " without taking work"
+        how = "" if np.isnan(work.given) else " without doing work"
         texts.append(f"{counted(idle, 'joint')} {verb}{how}." if idle else "Nothing slides.")
     return texts + _balance(failure, work)
 
@@ -110,7 +110,7 @@ def _slide_sentence(model: Model, contacts: Contacts, failure: Failure, planes: 
     area = sum(plane.area for plane in planes)
     where = counted(joints, "joint") + (f" in {len(planes)} planes" if len(planes) > 1 else "")
     shear = sum(plane.shear for plane in planes)
-    share = "" if np.isnan(shear) else f", taking {percent(shear)} % of the power"
+    share = "" if np.isnan(shear) else f", {percent(shear)} % of the work"
     does = "twists on" if first.twists else "slides over"
     way = "" if first.twists else f" along {direction_words(first.direction)}"
     at = ("at " if len(planes) == 1 else "mostly at ") + point_words(model, first.centroid)
@@ -128,8 +128,8 @@ def _balance(failure: Failure, work: Work) -> list[str]:
         return []
     told = sum(plane.shear for plane in failure.sliding_planes) + sum(line.shear for line in failure.hinge_lines)
     within = float(work.friction.sum() + work.cohesion.sum()) / given - told
-    texts = [f"Small movements within the parts take {percent(within)} % of it."] if within >= UNDER_FORCE else []
+    texts = [f"Sliding within the parts: {percent(within)} % of the work."] if within >= UNDER_FORCE else []
     back = -float(work.normal.sum()) / given
     if back >= UNDER_FORCE:
-        texts.append(f"Joints lift as they slide: their normal forces give {percent(back)} % of the power back.")
+        texts.append(f"Dilatancy of the sliding joints: their normal forces do {percent(-back)} % of the work.")
     return texts

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from mbla.model.model import LoadCase, Model
@@ -92,7 +94,7 @@ def _with_extent(model: Model, case: CaseResult, known: str) -> str:
         settles = case.load_case.settlement is not None
         found = f"from {greatest} (greatest found) down" if settles else f"from {least} (least found) up"
         found += " without limit"
-    return f"{found}; the state told here at {known}"
+    return f"{found}; the state shown here at {known}"
 
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
@@ -118,7 +120,9 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
     value = load_factor_words(model, case.load_case, best.load_factor)
     label = "NOT VERIFIED" if case.status is Status.NOT_VERIFIED else f"NOT SOLVED ({_stopped(case)})"
     residual = law_residual(case.checks)
-    misses = f"misses the law by {small(residual)}" if residual > SOLVED_RESIDUAL else "is not confirmed"
+    misses = (
+        f"violates the joint law (residual {small(residual)})" if residual > SOLVED_RESIDUAL else "is not confirmed"
+    )
     return f"{label}: no load factor; the best iterate, {value}, {misses}"
 
 
@@ -167,8 +171,8 @@ def bound_words(model: Model, case: CaseResult) -> str:
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
     if case.load_case.settlement is not None:
-        return f"certain all the same: its support gives way at no less than {value} (valid for every flow rule)"
-    return f"certain all the same: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
+        return f"certain: its support gives way at no less than {value} (valid for every flow rule)"
+    return f"certain: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
 
 
 def uniqueness_words(model: Model, case: CaseResult) -> str:
@@ -182,7 +186,7 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 
     settles = case.load_case.settlement is not None  # the greater the factor, the less the reaction
     what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
-    noun, above = what.split()[-1], ""
+    above = ""
     if associative:
         wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
         limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
@@ -190,18 +194,25 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
         above = f"; {of}the associative factor, {limit}, is an upper limit to all"
         if settles:
             above = f"; {limit}, {of}that of associative flow, is a lower limit to all"
-    if ends is None or not np.isfinite(ends).all():
+    if ends is None or np.isnan(ends).any():
         known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
-        return f"The {what} without normality need not be unique, and its range is not known{known}{above}."
+        return f"The {what} without normality need not be unique; its range is not known{known}{above}."
     if range_is_a_point(ends, rounding_of(model, case)):
         return (
             f"For this mechanism every distribution of forces has the same {what}; without normality another "
             f"mechanism may have another{above}."
         )
     return (
-        f"The {what} is not unique: for this mechanism alone there are forces that fit the law at every {noun} "
-        f"from {value(ends[0])} to {value(ends[1])}, and other mechanisms may reach {lower}{above}."
+        f"The {what} is not unique; admissible {what}s for this mechanism: {_range(value, ends, settles)}; other "
+        f"mechanisms may reach {lower}{above}."
     )
+
+
+def _range(value: Callable[[float], str], ends: tuple[float, float], settles: bool) -> str:
+    """From the least to the greatest load factor; of a support that gives way from the greatest reaction down."""
+    if np.isinf(ends[1]):
+        return f"{value(ends[0])} and {'less' if settles else 'more'}, without limit"
+    return f"{value(ends[0])} to {value(ends[1])}"
 
 
 def _ends(ends: tuple[float, float]) -> str:
@@ -213,7 +224,7 @@ def spread_words(model: Model, case: CaseResult) -> str:
     if case.solution.spread is None:
         return ""
     least, greatest = (load_factor_words(model, case.load_case, end) for end in case.solution.spread)
-    return f"Several tries did not agree: they ended between {least} and {greatest}."
+    return f"Several tries ended at different load factors, between {least} and {greatest}."
 
 
 def known_words(model: Model, case: CaseResult) -> list[str]:

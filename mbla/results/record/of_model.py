@@ -105,16 +105,14 @@ OF_MODEL: tuple[Quantity, ...] = (
         "contacts/report",
         whole("slivers", "bodies of surfaces left out", "sliver pair", index_of="body"),
         real("sliver_widths", "their width relative to block size", "1", "sliver"),
-        whole("near_misses", "bodies that nearly touch", "near_miss pair", index_of="body"),
+        whole("near_misses", "bodies of near misses", "near_miss pair", index_of="body"),
         real("near_miss_gaps", "their distance relative to block size", "1", "near_miss"),
         whole("overlaps", "blocks that overlap", "overlap pair", index_of="body"),
         real("overlap_depths", "the depth relative to block size", "1", "overlap"),
         whole("unchecked", "overlaps not judged", "unchecked_pair pair", index_of="body"),
         whole("fixed_contacts", "contacts between fixed bodies, left out"),
         whole("open_interfaces", "interfaces whose joint law is open, left out"),
-        whole(
-            "glued", "bodies of interfaces inside of rigid bodies, left out", "glued_interface pair", index_of="body"
-        ),
+        whole("glued", "bodies of internal interfaces of glued bodies", "glued_interface pair", index_of="body"),
         whole("held", "blocks that do not move because they are glued to a support", "held_block", index_of="block"),
         whole("isolated", "blocks without contact", "isolated_block", index_of="block"),
         whole(

@@ -269,7 +269,7 @@ MODEL = (
     Key("model.contact_points", "integer", "contact points"),
     Key("model.contact_area", "number", "area of all interfaces", "area"),
     Key("model.open_interfaces", "integer", "interfaces left out as their joint law is open"),
-    Key("model.glued_interfaces", "integer", "interfaces inside of rigid bodies, left out"),
+    Key("model.glued_interfaces", "integer", "internal interfaces of glued bodies"),
     Key("model.glued_blocks", "integer", "blocks glued to others"),
     Key("model.rigid_bodies", "integer", "bodies that they form"),
     Key("model.held_blocks", "integer", "blocks that do not move because they are glued to a support"),
@@ -338,8 +338,8 @@ MECHANISM_KEYS = (
     Key(
         f"{MECHANISM}.class",
         "string",
-        "in a word: sliding, twisting, overturning (parts turn on what rests), hinging (they hinge on each other), "
-        "sliding and hinging, opening",
+        "in a word: sliding, twisting, overturning (parts turn on the stationary blocks), hinging (they "
+        "hinge on each other), sliding and hinging, opening",
     ),
     Key(f"{MECHANISM}.open", "integer", "contact points that open"),
     Key(f"{MECHANISM}.slide", "integer", "contact points that slide"),
@@ -387,7 +387,7 @@ CHECK = (
     Key("model.joints.*.interfaces", "integer", "its interfaces"),
     Key("model.joints.*.area", "number", "their area", "area"),
     Key("model.slivers", "integer", "`mbla check`: common surfaces dropped as thinner than the tolerance"),
-    Key("model.near_misses", "integer", "`mbla check`: pairs of bodies that nearly touch"),
+    Key("model.near_misses", "integer", "`mbla check`: near misses: pairs of bodies that nearly touch"),
     Key("model.overlaps", "integer", "`mbla check`: pairs of blocks that overlap"),
     Key("model.isolated_blocks", "list", "`mbla check`: blocks without contact"),
     Key("model.isolated_blocks[]", "string", "a block"),

@@ -97,7 +97,7 @@ def _hinge_lines(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -
 def _hinge_words(model: Model, line: HingeLine) -> str:
     """``hinge line of part 1 on what rests: 8 interfaces, 3.2 m``."""
     one, other = line.clusters
-    beside = f"part {other}" if other else "what rests"
+    beside = f"part {other}" if other else "the stationary blocks"
     count = counted(len(line.interfaces), "interface")
     return f"hinge line of part {one} on {beside}: {count}, {number(line.length)} {model.units.length}"
 

@@ -25,12 +25,10 @@ from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, 
 
 YES = "the dead load is carried from the stress-free assembly"
 NO_DEAD_LOAD = "there is no dead load to carry"
-SELF_STRESS = (
-    "from the stress-free assembly it falls: it stands only if forces are locked in between the blocks beforehand"
-)
+SELF_STRESS = "from the stress-free assembly it falls: it stands only in a self-stressed state"
 DOUBTFUL = "whether it stands from the stress-free assembly is doubtful"
 NO = "no contact forces carry the dead load"
-UNKNOWN = "from the stress-free assembly it falls; whether it could stand with forces locked in was not decided"
+UNKNOWN = "from the stress-free assembly it falls; whether it could stand in a self-stressed state was not decided"
 
 GRAVEST_FIRST = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.YES)
 

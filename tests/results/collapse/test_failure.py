@@ -128,7 +128,7 @@ def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
     assert not plane.twists
     assert failure.hinge_lines == () == failure.cracks
     text = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
-    assert text[-1] == "It slides over table[0] along +x: 1 joint, 3 m2, at (1.5, 0.5, 1), taking 100.0 % of the power."
+    assert text[-1] == "It slides over table[0] along +x: 1 joint, 3 m2, at (1.5, 0.5, 1), 100.0 % of the work."
 
 
 def test_parts_that_plainly_differ_stay_apart() -> None:

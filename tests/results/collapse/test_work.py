@@ -97,13 +97,12 @@ def words(model: Any, contacts: Any, mechanics: Mechanics) -> str:
 
 
 def test_work_in_words() -> None:
-    assert words(MODEL, CONTACTS, sliding()) == (
-        "Of the power of the live load 0.0 % goes into the dead load, 100.0 % into friction."
-    )
+    text = words(MODEL, CONTACTS, sliding())
+    assert "live load: 0.0 % work against the dead load, 100.0 % friction." in text
     contacts = replace(CONTACTS, joints=np.array([0, 1]), joint_names=("dry", "strong"))
     assert "strong 83.3 16.7 0.0" in words(MODEL, contacts, sliding())  # that law has cohesion
     model = replace(MODEL, joints={**MODEL.joints, "dry": Joint("dry", 0.65, cohesion=3.0)})
-    assert "68.4 % into friction, 31.6 % into cohesion" in words(model, CONTACTS, sliding(3.0))
+    assert "68.4 % friction, 31.6 % cohesion" in words(model, CONTACTS, sliding(3.0))
 
 
 def test_no_shares_where_no_load_does_work() -> None:
@@ -111,14 +110,14 @@ def test_no_shares_where_no_load_does_work() -> None:
 
 
 @pytest.mark.parametrize(
-    ("factor", "start"),
+    ("factor", "shares"),
     [
-        (0.5, "The live load gives 33.3 % of the power, the dead load 66.7 %. Of both 0.0 % goes into friction"),
-        (1e-9, "The live load gives 0.0 % of the power, the dead load 100.0 %. Of both 0.0 % goes into friction"),
-        (-0.5, "The dead load drives the mechanism. Of its power 50.0 % goes into the live load, 0.0 % into friction"),
+        (0.5, "live load (33.3 %) and the dead load (66.7 %): 0.0 % friction"),
+        (1e-9, "live load (0.0 %) and the dead load (100.0 %): 0.0 % friction"),
+        (-0.5, "work of the dead load, which drives the mechanism: 50.0 % work against the live load, 0.0 % friction"),
     ],
 )
-def test_a_dead_load_that_drives_is_a_source_too(factor: float, start: str) -> None:
+def test_a_dead_load_that_drives_is_a_source_too(factor: float, shares: str) -> None:
     """The brick falls while it is pushed: its weight gives W 0.1 = 1, whatever the load factor is."""
     mechanics = sliding()
     mechanism = mechanics.mechanism.copy()
@@ -126,7 +125,7 @@ def test_a_dead_load_that_drives_is_a_source_too(factor: float, start: str) -> N
     falling = replace(
         mechanics, load_factor=factor, mechanism=mechanism, contact_velocities=np.zeros_like(mechanics.contact_forces)
     )
-    assert words(MODEL, CONTACTS, falling).startswith(start)
+    assert shares in words(MODEL, CONTACTS, falling)
 
 
 def test_groups_that_move_have_their_share() -> None:

@@ -127,7 +127,7 @@ def test_a_facade_says_what_falls_and_along_which_line(tmp_path: Path) -> None:
     results = run(
         Path("decks/regressions/facade_yield_line.yaml"), RunOptions(folder=tmp_path, overrides=("output.vtu=false",))
     )
-    words = "mainly as one part; 107 hinges, "
+    words = "mainly as one rigid part; 107 hinges, "
     where = "and breaks off along a broken line from (4.33, 0.3, 0) over (0.31, 0.31, 1.14) to (0.3, 1.2, 2.98)."
     for text in (" ".join(" ".join(summary_lines(results)).split()), " ".join(listing(results).split())):
         assert words in text

@@ -38,14 +38,14 @@ def test_the_wall_of_the_tutorial_in_its_plane() -> None:
     assert "turns about +y, its centroid moving with the load and upwards, over wall[7], on a" in text
     assert "a hinge from (3.2, 0, 0.2) to (3.2, 0.25, 0.2)" in text
     assert "A stepped crack of " in text
-    assert "to (2.2, 0.125, 1.3) separates part 1 from what rests." in text
+    assert "to (2.2, 0.125, 1.3) separates part 1 from " in text
 
 
 def test_by_associative_flow_the_corner_of_the_wall_lifts_as_it_slides_and_turns_about_no_hinge() -> None:
     text = " ".join(sentences(0, "analysis.flow_rule=associative"))
     broken = "breaks off along a line from (3.09, 0.12, 0.2) to (2.2, 0.13, 1.24), 49 degrees to the horizontal."
     assert broken in text
-    assert "2 hinges slide as well, taking " in text
+    assert "2 hinges slide as well" in text
 
 
 def test_the_wall_of_the_tutorial_out_of_its_plane() -> None:
@@ -111,4 +111,4 @@ def test_parts_by_their_numbers() -> None:
     """One of two free blocks moves."""
     contacts, mechanics = tower_contacts(), tower_mechanics()
     failure = failure_of(MODEL, contacts, collapse_of(MODEL, contacts, CASE, mechanics), mechanics)
-    assert [part_name(MODEL, failure, number) for number in (0, 1)] == ["what rests", "part 1"]
+    assert [part_name(MODEL, failure, number) for number in (0, 1)] == ["the stationary blocks", "part 1"]

@@ -94,4 +94,4 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
     assert table[0].split()[0] == f"stack[{n - 2}]/[{n - 1}]"
     assert "more that move less; the result files hold them all" in table[MOST_ROWS]
     text = mechanism_summary(model, collapse, failure)
-    assert text == "59 of 59 free blocks move, mainly as one part; sliding at 59 interfaces"
+    assert text == "59 of 59 free blocks move, mainly as one rigid part; sliding at 59 interfaces"

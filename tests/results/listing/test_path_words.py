@@ -1,6 +1,7 @@
 from dataclasses import replace
 
-from mbla.results.listing.solving import MOST_ROWS, path_lines
+from mbla.results.listing.solving import path_lines
+from mbla.results.listing.text import MOST_ROWS
 from mbla.solution.solution import PathPoint
 from tests.results.synthetic import tower_model, tower_results
 
@@ -14,19 +15,6 @@ def lines_of(*path: PathPoint) -> list[str]:
 
 def test_no_path_no_lines() -> None:
     assert lines_of() == []
-
-
-def test_a_peak_is_a_limit_point() -> None:
-    lines = lines_of(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, 1e-7))
-    text = " ".join(" ".join(lines).split())
-    assert "its peak, 0.6 g at step 1, is a limit point; it ended below, at 0.5 g" in text
-    assert [line.split()[0] for line in lines[-3:]] == ["0", "1", "2"]
-
-
-def test_a_path_that_rises_to_its_end_has_no_peak() -> None:
-    text = " ".join(lines_of(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8)))
-    assert "it rose to 0.6 g, without a peak" in text
-    assert "limit point" not in text
 
 
 def test_a_long_path_shows_where_modes_change_and_says_what_it_leaves_out() -> None:

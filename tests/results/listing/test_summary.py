@@ -25,22 +25,6 @@ def summary(results: Results) -> str:
     return " ".join(" ".join(lines).split())
 
 
-def test_model_and_cases_at_a_glance(results: Results) -> None:
-    lines = summary_lines(results)
-    assert lines[0] == "tower.yaml: 3 blocks, 2 interfaces, 8 contact points, weight 65 N"
-    assert lines[1].split() == ["load", "case", "status", "load", "factor", "associative"]
-    assert lines[2].split() == ["push_x", "solved", "0.5", "0.5"]
-    assert lines[3].split() == ["fall", "NO", "EQUILIBRIUM", "-", "-"]
-
-
-def test_cases_in_words(results: Results) -> None:
-    text = summary(results)
-    assert "push_x: collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves" in text
-    assert "fall: no equilibrium: the structure cannot carry its dead load The mechanism is" in text
-    assert "moves downwards, along -z, without turning." in text
-    assert "turns about +y, its centroid moving" in text
-
-
 def test_warnings_but_no_notices(results: Results) -> None:
     text = summary(results)
     assert "near-miss" in text

@@ -70,7 +70,7 @@ def test_tower_turns_about_its_hinge() -> None:
     line = found["hinge lines"]
     assert read(line["points"], 3).tolist() in ([[1, 0, 1], [1, 1, 1]], [[1, 1, 1], [1, 0, 1]])
     assert line["width"] > found["hinges"]["width"]
-    assert line["texts"] == ["hinge line of part 1 on what rests: 1 interface, 1 m"]
+    assert line["texts"] == ["hinge line of part 1 on the stationary blocks: 1 interface, 1 m"]
     opened = read(found["opening"]["points"], 3)
     assert opened[:, 0].tolist() == [0, 0, 0, 0]
     assert read(found["opening"]["bodies"], 2).tolist() == [[0, 0], [1, 1]] * 2  # as part of the base, of the tower

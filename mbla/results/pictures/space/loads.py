@@ -57,7 +57,7 @@ def _of_case(scene: Scene, load_case: LoadCase, label: str, colour: str, row: in
     settlement = load_case.settlement
     if settlement is not None:
         shapes = _settlement(scene, load_case)
-        return shapes, [(_wrapped(f"settlement: {settlement.words}"), SETTLEMENT)] * bool(shapes)
+        return shapes, [(_wrapped(settlement.words), SETTLEMENT)] * bool(shapes)
     marks = load_marks(scene.model, load_case.live_load, load_case.live_words, load_case.travel)
     shapes = _force_arrows(scene, marks, colour) + _moment_rings(scene, marks, colour)
     if marks.uniform and marks.acceleration.any():

@@ -97,7 +97,7 @@ def test_a_settlement_is_an_arrow_from_what_gives_way() -> None:
     """Down from the middle of the brick."""
     sinks = case(settlement=settlement([0, 0, -2, 0, 0, 0]))
     shapes, entries = live_load_arrows(scene(sinks))
-    assert entries == [("settlement: settlement of 1 block", SETTLEMENT)]
+    assert entries == [("settlement of 1 block", SETTLEMENT)]
     points = only(shapes, SETTLEMENT)
     assert points[:, 2].max() == pytest.approx(0.25)
     assert points[:, 2].min() == pytest.approx(0.25 - LONGEST * scene(sinks).size)

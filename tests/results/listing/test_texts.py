@@ -1,0 +1,133 @@
+"""Every text of listings and summaries in one file, ``texts.txt``; ``pytest --update`` writes it anew.
+
+Sentences stand there and in no other test, so that one who mends the English reads all of them, and changes one file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.errors import Message
+from mbla.model.model import Settlement, Tilt
+from mbla.results.listing.case_words import case_sections
+from mbla.results.listing.listing import check_listing, listing, verification_lines
+from mbla.results.listing.summary import summary_lines
+from mbla.results.listing.text import WIDTH
+from mbla.results.needs import CaseNeeds
+from mbla.results.results import CaseResult, Results
+from mbla.solution.solution import PathPoint, Standing, StandingResult, Status
+from tests.results.synthetic import full_results, tower_mechanics, tower_results
+
+TEXTS = Path(__file__).with_name("texts.txt")
+NAN = float("nan")
+RESULTS, ASSOCIATIVE = tower_results(), tower_results("associative")
+MODEL = RESULTS.model
+SETTLEMENT = Settlement(np.array([0]), np.array([[0.0, 0, -1, 0, 0, 0]]), False, "settlement of base[0]", 30.0, 20.0)
+TILT = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 6)), NAN, True, np.inf)
+BY_ITSELF = StandingResult(Standing.SELF_STRESS, 1, "the tower hangs between two walls")
+FAILED = {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),), "kinematic_bound": 0.4}
+PATH = (PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, 1e-7))
+NONE = {"mechanics": None}
+
+
+def case(
+    status: Status = Status.SOLVED,
+    *,
+    of: Results = RESULTS,
+    load: dict[str, Any] | None = None,
+    checks: dict[str, Any] | None = None,
+    **solution: Any,
+) -> CaseResult:
+    """The pushed tower with other values."""
+    first = of.cases[0]
+    return replace(
+        first,
+        status=status,
+        load_case=replace(first.load_case, **(load or {})),
+        solution=replace(first.solution, **solution),
+        checks=replace(first.checks, **(checks or {})),
+    )
+
+
+CASES = {
+    "range": case(associative=tower_mechanics(0.625), checks={"lower": 0.45, "upper": 0.52}, scheme="proximal"),
+    "range of one figure": case(associative=tower_mechanics(0.625), checks={"lower": 0.5, "upper": 0.5}),
+    "lower end only": case(associative=tower_mechanics(0.625), checks={"lower": 0.45}),
+    "upper end only": case(associative=tower_mechanics(0.625), checks={"upper": 0.52}),
+    "range without end": case(checks={"lower": 0.45, "upper": np.inf}),
+    "range not verified": case(lower=tower_mechanics(0.45), upper=tower_mechanics(0.52)),
+    "spread": case(Status.APPROXIMATE, spread=(0.49, 0.51)),
+    "spread within the residual": case(spread=(0.499, 0.501), checks={"slip_residual": 5e-3}),
+    "peak": case(checks={"lower": 0.45, "upper": 0.52, "peak_load_factor": 0.6}),
+    "published": case(scheme="published"),
+    "lowest": case(scheme="lowest"),
+    "path": case(scheme="path", path=PATH),
+    "path without peak": case(scheme="path", path=PATH[:2]),
+    "remark": case(remarks=(Message("peak-on-path", "The factor is the peak of the path"),)),
+    "self-stress": case(standing=BY_ITSELF),
+    "self-stress, associative": case(of=ASSOCIATIVE, standing=BY_ITSELF),
+    "bracket": case(of=ASSOCIATIVE, outer=tower_mechanics(0.55), sides=8),
+    "bracket, approximate": case(Status.APPROXIMATE, of=ASSOCIATIVE, outer=tower_mechanics(0.55), sides=8),
+    "bracket of one figure": case(of=ASSOCIATIVE, outer=tower_mechanics(0.5 + 1e-8), sides=8),
+    "settlement": case(load={"settlement": SETTLEMENT}, checks={"lower": 0.45, "upper": 0.52}),
+    "settlement without end": case(load={"settlement": SETTLEMENT}, checks={"lower": 0.45, "upper": np.inf}),
+    "settlement, unbounded": case(Status.UNBOUNDED, load={"settlement": SETTLEMENT}, **NONE),
+    "tilt": case(load={"tilt": TILT}, associative=None),
+    "tilt, unbounded": case(Status.UNBOUNDED, load={"tilt": TILT}, **NONE),
+    "tilt, unbounded, associative": case(Status.UNBOUNDED, of=ASSOCIATIVE, load={"tilt": TILT}, **NONE),
+    "force": case(load={"live_words": ("force (1, 0, 0) N on tower[0]",)}),
+    "approximate": case(Status.APPROXIMATE, reason="did not settle"),
+    "failed": case(Status.NOT_VERIFIED, checks=FAILED),
+    "large residual": case(Status.NOT_VERIFIED, checks={"slip_residual": 0.1}),
+    "no answer": case(Status.NOT_VERIFIED, **NONE),
+    "lock not confirmed": case(Status.NOT_VERIFIED, lock=np.ones((8, 3)), **NONE),
+    "fall not confirmed": case(Status.NOT_VERIFIED, certificate=np.ones((3, 6)), **NONE),
+    "unbounded": case(Status.UNBOUNDED, **NONE),
+    "unbounded, locked": case(Status.UNBOUNDED, of=ASSOCIATIVE, lock=np.ones((8, 3)), reason="locked", **NONE),
+    "unbounded, dilatancy": case(Status.UNBOUNDED, flow_rule="dilatancy", **NONE),
+    "time limit": case(Status.TIME_LIMIT),
+    "time limit, no answer": case(Status.TIME_LIMIT, **NONE),
+    "iteration limit": case(Status.ITERATION_LIMIT, **NONE),
+    "numerical error": case(Status.NUMERICAL_ERROR, **NONE),
+}
+"""what a case may be, by what is special to it"""
+SHOWN = ("Verdict", "Load factor and bounds", "Load path", "Locking forces")
+"""sections that say something else for it; what they share with the plain case is left out"""
+NEEDS = {"push": CaseNeeds({"unknown_velocities": 12, "cones": 8})}
+DIFFERS = ("push_x: static bound is 1 recomputed, the file says 2",)
+
+
+def texts() -> Iterator[tuple[str, list[str]]]:
+    """Titles and lines."""
+    for name, results in (("tower", RESULTS), ("tower, associative", ASSOCIATIVE), ("everything", full_results())):
+        yield f"listing: {name}", listing(results).splitlines()
+        yield f"summary: {name}", summary_lines(results)
+    yield "listing before a run", check_listing(replace(RESULTS, cases=()), NEEDS).splitlines()
+    yield "verification agrees", verification_lines(RESULTS, ())
+    yield "verification differs", verification_lines(RESULTS, DIFFERS)
+    plain = set(case_text(case()))
+    for name, made in CASES.items():
+        yield f"case: {name}", [line for line in case_text(made) if line not in plain]
+
+
+def case_text(made: CaseResult) -> list[str]:
+    """Sections of a case that say something else for it, and its summary."""
+    sections = case_sections(MODEL, RESULTS.contacts, made)
+    lines = [line for each in sections if each.title in SHOWN for line in each.lines]
+    return [*lines, "summary:", *summary_lines(replace(RESULTS, cases=(made,)))[2:]]
+
+
+def test_texts(pytestconfig: pytest.Config) -> None:
+    made = list(texts())
+    assert all(len(line) <= WIDTH for _, lines in made for line in lines)
+    assert not [line for _, lines in made for line in lines if " nan" in line or "None" in line]
+    text = "".join(f"=== {title}\n{chr(10).join(lines)}\n\n" for title, lines in made)
+    if pytestconfig.getoption("--update"):
+        TEXTS.write_text(text, encoding="utf-8")
+    assert text == TEXTS.read_text(encoding="utf-8"), "pytest --update writes texts.txt anew; read what changed"
