@@ -20,10 +20,7 @@ from mbla.sweeps.engine.engine import EngineOptions, engine_for
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import Fragility, fragility_json, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
-from mbla.sweeps.journal.header import JournalHeader
-from mbla.sweeps.journal.journal import Journal
-from mbla.sweeps.journal.reading import merged
-from mbla.sweeps.journal.shards import WHOLE, journal_name, journals_in, shard_of
+from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, shard_of
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 from mbla.sweeps.reasons import shown_folders
 from mbla.sweeps.results import result_columns
@@ -143,7 +140,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     header = JournalHeader(
         program=prepared.plan.program,
         fingerprint=prepared.base.fingerprint,
-        columns=tuple(column.name for column in prepared.columns),
+        columns={column.name: column.kind for column in prepared.columns},
         title=prepared.sweep.content.title,
         cases=prepared.plan.cases,
         libraries=library_versions(),

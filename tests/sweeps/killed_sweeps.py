@@ -19,7 +19,7 @@ from mbla.sweeps.command import Prepared, SweepOptions, prepare, run_sweep
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.engine.line_process import PACKAGES
 from mbla.sweeps.file.read import read_sweep
-from mbla.sweeps.journal.shards import journals_in
+from mbla.sweeps.journal import journals_in
 from tests.line import BLOCK
 from tests.sweeps.journal.forked import Forked, forked
 

@@ -13,7 +13,7 @@ from random import Random
 import pytest
 
 from mbla.cli import main
-from mbla.sweeps.journal.shards import journal_name
+from mbla.sweeps.journal import journal_name
 from tests.sweeps.commands import Command, check_clean, rows_in, run
 from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.journal.forked import forked

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 
 from mbla.sweeps.journal import JournalHeader
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 
 HEADER = JournalHeader(
-    "0.1.0+abc", "f00d", ("status", "load_factor", 'a,"b"#'), "Arch, #1", ("push",), {"numpy": "2.3.0"}
+    "0.1.0+abc",
+    "f00d",
+    {"status": "text", "load_factor": "float", 'a,"b"#': "int", "verified": "bool"},
+    "Arch, #1",
+    ("push",),
+    {"numpy": "2.3.0"},
 )
 
 LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
@@ -19,10 +25,15 @@ def point(number: int) -> tuple[Task, Outcome]:
     """Point of this number, always the same one."""
     draw = Random(number)
     key = f"{draw.getrandbits(128):032x}"
-    text = "".join(draw.choice('aö",#\n\0\\[{ ') for _ in range(draw.choice(LENGTHS)))
-    values: list[Plain] = [None, True, 7, draw.gauss(0, 1), 1e300 * draw.random(), text, [1, 2.5, None], {"a": [text]}]
+    text = "".join(draw.choice('aö",#\n\\[{ ') for _ in range(draw.choice(LENGTHS)))
+    values: dict[str, list[Plain]] = {
+        "text": [None, text],
+        "float": [None, draw.gauss(0, 1), 1e300 * draw.random(), 0.1],
+        "int": [None, 7, -1],
+        "bool": [None, True, False],
+    }
     failed = draw.random() < 0.2
-    results = {} if failed else {name: draw.choice(values) for name in HEADER.columns}
+    results = {} if failed else {name: draw.choice(values[kind]) for name, kind in HEADER.columns.items()}
     task = Task(key, number, {"parameters.mu": draw.random(), "title": text})
     return task, Outcome(
         key, FAILED if failed else DONE, 4 if failed else 0, text if failed else "", results, 1, draw.random()
@@ -30,6 +41,10 @@ def point(number: int) -> tuple[Task, Outcome]:
 
 
 def as_read(outcome: Outcome) -> Outcome:
-    """The outcome as a journal gives it back: with every column."""
-    results = {name: outcome.results.get(name) for name in HEADER.columns}
-    return Outcome(**{**vars(outcome), "results": results})
+    """The outcome as a journal gives it back: with every column, texts in one line."""
+
+    def plain(value: Plain) -> Plain:
+        return (" ".join(value.split()) or None) if isinstance(value, str) else value
+
+    results = {name: plain(outcome.results.get(name)) for name in HEADER.columns}
+    return replace(outcome, results=results, reason=" ".join(outcome.reason.split()))

@@ -8,8 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
-from mbla.sweeps.journal import Journal
-from mbla.sweeps.journal.reading import read_journal
+from mbla.sweeps.journal import Journal, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, as_read, point
 

@@ -15,9 +15,7 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.lock import holder, lock_path, locked
-from mbla.sweeps.journal import Journal
-from mbla.sweeps.journal.reading import read_journal
-from mbla.sweeps.journal.shards import journal_name
+from mbla.sweeps.journal import Journal, journal_name, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, point
 

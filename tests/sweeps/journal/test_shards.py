@@ -8,9 +8,7 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.lock import lock_path
-from mbla.sweeps.journal import Journal
-from mbla.sweeps.journal.reading import merged
-from mbla.sweeps.journal.shards import WHOLE, journal_name, journals_in, shard_of
+from mbla.sweeps.journal import WHOLE, Journal, journal_name, journals_in, merged, shard_of
 from mbla.sweeps.plan import Task
 from tests.sweeps.journal.points import HEADER, as_read, point
 

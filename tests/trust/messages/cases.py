@@ -52,7 +52,7 @@ from tests.deck.decks import BLOCK, changed, write
 from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results
 from tests.solution.cone_solvers.test_highs_adapter import ignored, linear_program
-from tests.sweeps.journal.points import HEADER, point
+from tests.sweeps.journal.points import HEADER
 from tests.sweeps.pictures.hand_made import grid
 from tests.sweeps.small_plan import plan_over
 
@@ -391,15 +391,6 @@ def journal_of_another_deck(folder: Path, patch: Patch) -> object:
     with Journal(folder / "journal.csv", replace(HEADER, fingerprint="beef"), resume=False, force=False):
         pass
     return journal(folder, resume=True).__enter__()
-
-
-@brings("journal-changed")
-def journal_that_was_edited(folder: Path, patch: Patch) -> object:
-    with journal(folder) as opened:
-        with (folder / "journal.csv").open("a") as file:
-            file.write("1\n")
-        opened.add(*point(1))
-    return None
 
 
 @brings("locks-missing")

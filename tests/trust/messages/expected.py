@@ -144,9 +144,6 @@ EXPECTED: dict[str, tuple[str, ...]] = {
         "gone on with; --force begins anew and drops what it holds, -o FOLDER writes elsewhere  "
         "[journal-of-another-sweep]",
     ),
-    "journal_that_was_edited": (
-        "{folder}/journal.csv: was changed by another program while this one was writing it  [journal-changed]",
-    ),
     "file_system_without_locks": (
         "{folder}/sweep: its file system has no locks to keep two runs apart; -o FOLDER writes elsewhere "
         " [locks-missing]",

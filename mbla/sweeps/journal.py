@@ -1,0 +1,404 @@
+"""The journal of a sweep: CSV, one row for each finished point, on the disk before anybody is told that it is finished.
+
+The file is read by ``pandas.read_csv(path, comment="#")``. It appears whole with its header; each row is one write,
+synced when ``add`` returns. Only the last row can be torn, by a kill or a loss of power, and nobody was told of that
+one: it is cut off when the journal is gone on with. A whole run is alone in its folder; shards, parts of a sweep that
+jobs of an array solve on their own, have a journal each and share it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+import json
+import os
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from mbla.errors import FileError, Notice, UsageError
+from mbla.process.signals import held_signals
+from mbla.results.disk import file_errors, flush_to_disk, missing_folders
+from mbla.results.leftovers import temporary_path
+from mbla.results.lock import AT_WORK, holder, lock_path, locked
+from mbla.sweeps.identity import difference as other_versions
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
+
+FORMAT = 2
+"""of journals; a program with another one does not go on with them"""
+FIRST = ("key", "number", "state", "exit_code", "reason", "tries", "seconds")
+"""columns before those of results"""
+SETTINGS = "settings"
+"""column after them: values by key path as JSON"""
+WHOLE = "journal.csv"
+"""name of the journal of a run that is no shard"""
+BEGIN_ANEW = "--force begins anew and drops what it holds, -o FOLDER writes elsewhere"
+_SHARD = re.compile(r"journal\.(?P<part>[1-9][0-9]*)-of-(?P<parts>[1-9][0-9]*)\.csv")
+_SWEEP = "sweep"
+"""what is locked in the folder: alone by a whole run, together by shards"""
+_READ: Mapping[str, Callable[[str], Plain]] = {
+    "float": float,
+    "int": int,
+    "bool": {"True": True, "False": False}.__getitem__,
+    "text": str,
+}
+"""from a cell that is not empty to its value, by the kind of its column"""
+
+
+@dataclass(frozen=True)
+class JournalHeader:
+    """What all rows of a journal have in common.
+
+    program     : version and hash of the mbla that solves the points
+    fingerprint : hash of the base deck's content
+    columns     : kind of each result column by its name, in order
+    title       : of the sweep, for human readers
+    cases       : load cases that are solved; all if empty
+    libraries   : versions of those on which the digits of answers depend, by name
+    """
+
+    program: str
+    fingerprint: str
+    columns: Mapping[str, str]
+    title: str = ""
+    cases: tuple[str, ...] = ()
+    libraries: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def all_columns(self) -> tuple[str, ...]:
+        """Names of all columns of the file."""
+        return (*FIRST, *self.columns, SETTINGS)
+
+
+# --- rows -------------------------------------------------------------------------------------------------------------
+
+
+def header_bytes(header: JournalHeader) -> bytes:
+    """The first two lines: the header as a comment of JSON, and the names of the columns."""
+    return f"# {json.dumps({'mbla_sweep_journal': FORMAT, **asdict(header)})}\n".encode() + _line(header.all_columns)
+
+
+def row_bytes(header: JournalHeader, task: Task, outcome: Outcome) -> bytes:
+    """The line of a point with its end."""
+    first: list[Plain] = [outcome.key, task.number, outcome.state, outcome.exit_code, outcome.reason]
+    results = [outcome.results.get(name) for name in header.columns]
+    return _line([*first, outcome.tries, outcome.seconds, *results, json.dumps(dict(task.settings))])
+
+
+def _line(cells: Sequence[Plain]) -> bytes:
+    """Cells as one line: white space in texts, also a line break, is a space."""
+    stream = io.StringIO(newline="")
+    plain = [" ".join(cell.split()) if isinstance(cell, str) else cell for cell in cells]
+    csv.writer(stream, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC).writerow(plain)
+    return stream.getvalue().encode("utf-8", "backslashreplace")
+
+
+def read_row(header: JournalHeader, line: bytes) -> Outcome:
+    """The point of a line; results that it has not are None. ValueError says what is wrong with a line that is none."""
+    text = line.decode("utf-8").removesuffix("\n")
+    if "\0" in text:
+        raise ValueError("has NUL bytes")
+    (cells,) = csv.reader([text], strict=True) if text else ([],)
+    if len(cells) != len(header.all_columns):
+        raise ValueError("has another number of columns than the journal")
+    key, _, state, code, reason, tries, seconds = cells[: len(FIRST)]
+    if state not in (DONE, FAILED):
+        raise ValueError(f"is no row of a journal: state {state[:20]!r}")
+    try:
+        results = {
+            name: _READ[kind](cell) if cell else None
+            for (name, kind), cell in zip(header.columns.items(), cells[len(FIRST) : -1], strict=True)
+        }
+    except KeyError as error:
+        raise ValueError(f"is no row of a journal: {error}") from None
+    return Outcome(key, state, int(code), reason, results, int(tries), float(seconds))
+
+
+@dataclass(frozen=True)
+class JournalRows:
+    """What a journal holds.
+
+    finished : by key; of several rows of a point the last, but a failed one never in place of one that is done
+    whole    : bytes up to the end of the last whole row
+    torn     : bytes after that
+    """
+
+    finished: dict[str, Outcome]
+    whole: int
+    torn: int
+
+
+def read_journal(path: Path, header: JournalHeader) -> JournalRows:
+    """Every whole row of a journal.
+
+    Raises
+    ------
+    FileError
+        it cannot be read, belongs to another sweep than ``header`` says, or has a broken row before the last
+    """
+    finished: dict[str, Outcome] = {}
+    faults: list[str] = []
+    with file_errors(path), path.open("rb") as stream:
+        whole = _check_header(path, header, stream.readline(), stream.readline())
+        for number, line in enumerate(stream, start=3):
+            try:
+                outcome = read_row(header, line)
+                if not line.endswith(b"\n"):
+                    break
+                keep(finished, outcome)
+            except (ValueError, csv.Error) as error:
+                if not stream.peek(1):
+                    break
+                faults.append(f"{path}:{number}: this row {error}")
+            whole += len(line)
+        size = os.fstat(stream.fileno()).st_size
+    if faults:
+        more = f"\nand {len(faults) - 1} more rows like this" if len(faults) > 1 else ""
+        remedy = "put back the file as it was, or delete the line, so that its point is solved again"
+        raise FileError("journal-damaged", f"{faults[0]}; {remedy}{more}")
+    return JournalRows(finished, whole, size - whole)
+
+
+def keep(finished: dict[str, Outcome], outcome: Outcome) -> None:
+    """The outcome in its place: the last one of a point counts, but none that failed after one that is done."""
+    earlier = finished.get(outcome.key)
+    if earlier is None or outcome.state != FAILED or earlier.state == FAILED:
+        finished[outcome.key] = outcome
+
+
+def merged(paths: Iterable[Path], header: JournalHeader) -> dict[str, Outcome]:
+    """Finished points of several journals, each once; they are left as they are. Raises as ``read_journal``."""
+    finished: dict[str, Outcome] = {}
+    for path in paths:
+        for outcome in read_journal(path, header).finished.values():
+            keep(finished, outcome)
+    return finished
+
+
+def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes) -> int:
+    """Bytes of the header. Raises FileError where it is not the wanted one."""
+    try:
+        record: Any = json.loads(first.decode("utf-8").removeprefix("# "))
+        version = record["mbla_sweep_journal"]
+        if version != FORMAT:
+            raise FileError(
+                "journal-damaged",
+                f"{path}: is a journal of format {version}; this mbla has format {FORMAT}; {BEGIN_ANEW}",
+            )
+        del record["mbla_sweep_journal"]
+        found = JournalHeader(**{**record, "cases": tuple(record["cases"])})
+    except (ValueError, KeyError, TypeError) as error:
+        raise FileError("journal-damaged", f"{path}: is no journal of a sweep; {BEGIN_ANEW}") from error
+    if words := _difference(found, header):
+        raise FileError("journal-of-another-sweep", f"{path}: {words}: it cannot be gone on with; {BEGIN_ANEW}")
+    if second != _line(found.all_columns):
+        raise FileError("journal-damaged", f"{path}:2: the names of the columns were changed; {BEGIN_ANEW}")
+    return len(first) + len(second)
+
+
+def _difference(found: JournalHeader, wanted: JournalHeader) -> str:
+    """What keeps a sweep from going on with a journal, in words; empty where nothing does."""
+    words: list[str] = []
+    if found.program != wanted.program:
+        words.append(f"was written by mbla {found.program}, this is {wanted.program}")
+    if other := other_versions(wanted.libraries, found.libraries):
+        words.append(f"was written with other libraries ({other})")
+    if found.fingerprint != wanted.fingerprint:
+        words.append("is of another base deck, or of one that has changed since")
+    if found.cases != wanted.cases:
+        words.append(f"is of load cases {', '.join(found.cases)}, not of {', '.join(wanted.cases)}")
+    if list(found.columns.items()) != list(wanted.columns.items()):
+        words.append(f"has the results {', '.join(found.columns)}, not {', '.join(wanted.columns)}")
+    return "; ".join(words)
+
+
+# --- shards -----------------------------------------------------------------------------------------------------------
+
+
+def shard_of(tasks: Sequence[Task], part: int, parts: int) -> tuple[Task, ...]:
+    """Every ``parts``-th task from the ``part``-th on, counted from 1; of tasks with one key the first counts.
+
+    Neighbours in a design take about as long as each other, so that shards made like this take about equally long.
+    """
+    different = list({task.key: task for task in reversed(tasks)}.values())[::-1]
+    return tuple(different[part - 1 :: parts])
+
+
+def journal_name(part: int | str, parts: int | str) -> str:
+    """Name of the journal of a shard; with ``*`` for both a pattern of all such names."""
+    return f"journal.{part}-of-{parts}.csv"
+
+
+def journals_in(folder: Path) -> tuple[Path, ...]:
+    """Every journal in a folder, that of whole runs first, then those of shards by number of parts and part."""
+    try:
+        names = [path.name for path in folder.iterdir()]
+    except (FileNotFoundError, NotADirectoryError):
+        return ()
+    shards = sorted(
+        (int(match["parts"]), int(match["part"]), match[0]) for name in names if (match := _SHARD.fullmatch(name))
+    )
+    return tuple(folder / name for name in (*([WHOLE] if WHOLE in names else []), *(name for *_, name in shards)))
+
+
+# --- writing ----------------------------------------------------------------------------------------------------------
+
+
+class Journal:
+    """Context manager; inside it nobody else writes this journal, and a whole run is alone in its folder.
+
+    finished : the outcome of every finished point by its key: what the journals of the folder held on entry, where they
+               are gone on with, and what was added since; results without a value are None
+    notices  : what was repaired
+
+    Parameters
+    ----------
+    path
+        ``journal.csv`` of a whole run, or as ``journal_name`` for a shard; its folder is made if missing.
+    resume
+        Go on with this journal, and take the finished points of every other one in the folder as finished, whatever
+        shards they are of. Where there is none, it begins.
+    force
+        Begin anew: the earlier journal is replaced by the new one, and a whole run removes those of shards as well.
+    retry_failed
+        Points that failed are not finished; their rows stay, and the last one of a point counts.
+
+    Raises
+    ------
+    UsageError
+        Both ``resume`` and ``force``: one keeps what the other drops.
+    FileError
+        On entry: another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of
+        another sweep or program, or has a broken row; it cannot be written.
+    """
+
+    def __init__(
+        self, path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
+    ) -> None:
+        if resume and force:
+            raise UsageError("sweep-option", "--resume goes on with the journal and --force begins anew: one of them")
+        self.path = path
+        self.header = header
+        self.finished: dict[str, Outcome] = {}
+        self.notices: tuple[Notice, ...] = ()
+        self._resume, self._force, self._retry = resume, force, retry_failed
+        self._is_shard = _SHARD.fullmatch(path.name) is not None
+        self._open = contextlib.ExitStack()
+        self._descriptor = -1
+        self._end = 0
+
+    def __enter__(self) -> Journal:
+        with contextlib.ExitStack() as stack:
+            _make_folder(self.path.parent)
+            with held_signals():
+                self._take_locks(stack)
+            self._begin()
+            with file_errors(self.path):
+                self._descriptor = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
+                stack.callback(os.close, self._descriptor)
+                if self._end:
+                    os.ftruncate(self._descriptor, self._end)
+                    os.fsync(self._descriptor)
+                self._end = os.fstat(self._descriptor).st_size
+            self._open = stack.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._open.close()
+
+    def add(self, task: Task, outcome: Outcome) -> None:
+        """Write the row of a finished point; it is on the disk when this returns.
+
+        Raises
+        ------
+        FileError
+            it could not be written; the journal ends with its last whole row then, or will when it is gone on with
+        """
+        row = row_bytes(self.header, task, outcome)
+        kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
+        try:
+            with file_errors(self.path):
+                left = memoryview(row)
+                while left:  # a full disk takes a part first, and refuses the rest
+                    left = left[os.write(self._descriptor, left) :]
+                os.fsync(self._descriptor)
+        except BaseException:
+            with contextlib.suppress(OSError):  # what is left of the row is cut off when the journal is gone on with
+                os.ftruncate(self._descriptor, self._end)
+            raise
+        self._end += len(row)
+        self.finished[outcome.key] = kept
+
+    def _take_locks(self, stack: contextlib.ExitStack) -> None:
+        folder = self.path.parent
+        stack.enter_context(locked(folder / _SWEEP, shared=self._is_shard, busy=lambda: _who_is_in(folder)))
+        stack.enter_context(locked(self.path))
+        if not self._is_shard:  # nobody holds one of a shard while a whole run is alone in the folder
+            for path in folder.glob(lock_path(folder / journal_name("*", "*")).name):
+                with contextlib.suppress(OSError):  # an empty file that stays does no harm
+                    path.unlink()
+
+    def _begin(self) -> None:
+        """The file in place with a whole header, and what is finished already."""
+        others = [path for path in journals_in(self.path.parent) if path != self.path]
+        replaced = [self.path] if self._is_shard else [self.path, *others]  # by a run that begins anew
+        earlier = [path for path in replaced if os.path.lexists(path)]
+        if self._resume:
+            return self._go_on(others)
+        if earlier and not self._force:
+            raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
+        self._create()
+        for path in earlier:
+            if path != self.path:
+                with file_errors(path):
+                    path.unlink()
+
+    def _go_on(self, others: Iterable[Path]) -> None:
+        finished: dict[str, Outcome] = {}
+        if os.path.lexists(self.path):
+            rows = read_journal(self.path, self.header)
+            finished, self._end = rows.finished, rows.whole
+            if rows.torn:
+                words = f"its last row was not whole and was cut off ({rows.torn} bytes); the point is solved again"
+                self.notices = (Notice("notice", "journal-repaired", f"{self.path}: {words}"),)
+        for outcome in merged(others, self.header).values():
+            keep(finished, outcome)
+        retried = {FAILED} if self._retry else set()
+        self.finished = {key: outcome for key, outcome in finished.items() if outcome.state not in retried}
+        if not self._end:
+            self._create()
+
+    def _create(self) -> None:
+        """A journal with nothing but its header, in place of an earlier one only once it is whole."""
+        temporary = temporary_path(self.path)
+        try:
+            with file_errors(self.path):
+                temporary.write_bytes(header_bytes(self.header))
+                flush_to_disk(temporary)
+                temporary.replace(self.path)
+                flush_to_disk(self.path.parent)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
+            raise
+
+
+def _make_folder(folder: Path) -> None:
+    """The folder, with names that outlast a loss of power."""
+    with file_errors(folder):
+        missing = missing_folders(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        for path in missing:
+            flush_to_disk(path.parent)
+
+
+def _who_is_in(folder: Path) -> str:
+    holders = [(path, holder(path)) for path in journals_in(folder)]
+    told = [f"{path}: {who} {AT_WORK}" for path, who in holders if who]
+    return "\n".join(told) or f"{folder}: another sweep {AT_WORK}"
