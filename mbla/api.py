@@ -13,14 +13,14 @@ from typing import Any
 from mbla.deck import read_deck, read_deck_text
 from mbla.deck.deck import Deck
 from mbla.errors import FileError, LimitError, UsageError
+from mbla.process.run_options import RunOptions
 from mbla.process.threads import limit_threads
 from mbla.results.failures import StoppedRun
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
-from mbla.run import Progress, run_and_write, solve_deck, title_of
-from mbla.run_options import RunOptions
+from mbla.run import Progress, run_and_write, solve_deck
 
 TEXT_NAME = "deck.yaml"
 """name of a deck that is given as text"""
@@ -106,7 +106,7 @@ def _read(deck: str | os.PathLike[str], overrides: Sequence[str]) -> Deck:
 def _solved(deck: Deck, options: RunOptions, progress: Progress | None, started: float) -> Results:
     if options.folder is not None:
         return run_and_write(deck, options, progress, started)
-    return solve_deck(deck, options, StatusFile(io.StringIO(), title_of(deck)), progress, started)
+    return solve_deck(deck, options, StatusFile(io.StringIO(), deck.title), progress, started)
 
 
 def overrides_of(values: Mapping[str, object] | Sequence[str]) -> tuple[str, ...]:

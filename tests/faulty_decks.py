@@ -10,10 +10,10 @@ import sys
 from functools import cache
 from pathlib import Path
 
+from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck
 from mbla.errors import DeckError, Fault
 from mbla.model import build_model
-from mbla.run import contacts_of
 
 FOLDER = Path(__file__).parent / "invalid_decks"
 DECKS = sorted(FOLDER.glob("*.yaml"))

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mbla.contacts import Contacts, find_contacts
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
@@ -15,9 +16,10 @@ from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.results.results import CaseResult
+from mbla.results.run_record import with_loads_found
 from mbla.results.sta import StatusFile
-from mbla.run import contacts_of, solve_case, with_settlements
-from mbla.solution import Checks, Solution, solve, verified_status, verify
+from mbla.run import solve_case
+from mbla.solution import Checks, Solution, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 
@@ -93,7 +95,7 @@ def solution_of(line: Line) -> Solution:
     reduced = reduce_program(
         line.model, line.contacts, line.program, allowed_reductions(analysis), associative=associative
     )
-    return solve(reduced, analysis, solver_settings(analysis))
+    return solve_parts(reduced, analysis, solver_settings(analysis))
 
 
 def verified(line: Line) -> tuple[Solution, Checks, Status]:
@@ -121,8 +123,8 @@ def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResul
         contacts = contacts_of(deck, model)
         model = held_model(model, contacts)
         settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "test")
-        model, (load_case,) = with_settlements(model, contacts, (model.load_cases[case],), settings)
-        return model, solve_case(deck, model, contacts, load_case, settings, status_file, None)
+        solved = solve_case(deck, model, contacts, model.load_cases[case], settings, status_file, None)
+        return with_loads_found(model, [solved]), solved
 
 
 def factor_of(text: str, *overrides: str, case: int = 0) -> float:

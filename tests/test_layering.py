@@ -14,7 +14,7 @@ import mbla
 
 PACKAGE = Path(mbla.__file__).parent
 STAGES = ("deck", "model", "contacts", "program", "solution", "results", "sweeps")
-WHOLE_LINE = ("api", "run", "run_options")
+WHOLE_LINE = ("api", "run")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")
 DOORS = {

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError
+from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.reading import MOST
 from mbla.results.record.quantity import WORDS
+from mbla.results.verify.verify_file import verify_file
 from mbla.run import run
-from mbla.run_options import RunOptions
-from mbla.verify_file import verify_file
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import change, changing, with_case, written

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
+from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.listing import verification_lines
@@ -17,11 +18,10 @@ from mbla.results.outcome import unproved_words
 from mbla.results.record.quantity import STANDING
 from mbla.results.records.json_record import verification_json
 from mbla.results.results import Results
+from mbla.results.verify.verify_file import verify_file
 from mbla.run import run
-from mbla.run_options import RunOptions
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.verification.verify import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN
-from mbla.verify_file import verify_file
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import with_case, written

@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import time
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import numpy as np
 
 from mbla.contacts import Contacts
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import Deck
 from mbla.model import Model, build_model
-from mbla.model.model import LoadCase
-from mbla.program import assemble
-from mbla.program.choice import has_conditions_on_interfaces
+from mbla.model.model import LoadCase, select_cases
+from mbla.process.run_options import RunOptions
+from mbla.program.build import build_program
 from mbla.program.kinematic import ConeProgram, kinematic_form
-from mbla.program.reductions.steps import glued_step
-from mbla.results.deck_record import deck_record
+from mbla.program.resultants import convex_form
 from mbla.results.files import OutputFolder
 from mbla.results.needs import CaseNeeds
-from mbla.results.provenance import collect_provenance
 from mbla.results.results import Results
-from mbla.results.settings_words import settings_in_words
+from mbla.results.run_record import results_before
 from mbla.results.vtu.mesh_files import write_model_vtu
-from mbla.run import contacts_of, notices_of, reduced_program, select_cases
-from mbla.run_options import RunOptions
 from mbla.solution.cone_solvers.choice import interior_point_method
 from mbla.solution.settings import solver_settings
 
@@ -47,17 +44,8 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
     read = time.perf_counter()
     contacts = contacts_of(deck, model)
     model = held_model(model, contacts)
-    results = Results(
-        deck=deck_record(deck),
-        model=model,
-        contacts=contacts,
-        cases=(),
-        notices=notices_of(deck, model, contacts),
-        provenance=collect_provenance(),
-        settings=settings_in_words(deck, solver_settings(deck.analysis)),
-        time={"read": read - started, "contacts": time.perf_counter() - read},
-        exit_code=0,
-    )
+    settings, seconds = solver_settings(deck.analysis), {"read": read - started, "contacts": time.perf_counter() - read}
+    results = results_before(deck, model, contacts, settings, seconds)
     if vtu:
         with OutputFolder(options.folder_for(deck.path), f"{deck.path.stem}_check", options.force) as out:
             write_model_vtu(results, out)
@@ -66,17 +54,9 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    model = model.of_case(load_case)
-    solids = solids_of(model, contacts)
-    on_solids = (solids.model, solids.contacts, solids.load_case(load_case))
-    reduced = reduced_program(deck, solids, assemble(*on_solids))
-    conditions = has_conditions_on_interfaces(deck.analysis, solids.model, solids.contacts)
-    if conditions:
-        from mbla.program.resultants import assemble_convex, convex_form
-        from mbla.program.resultants.assemble import size_of_convex
-
-        convex = assemble_convex(*on_solids, deck.analysis.contact_model)
-        reduced = replace(reduced, steps=(glued_step(solids, size_of_convex(convex)),))
+    built = build_program(solids_of(model.of_case(load_case), contacts), load_case, deck.analysis)
+    reduced, convex = built.reduced, built.convex
+    if convex is not None:
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]
     else:
         unknowns = sum(len(part.dead_load) for part in reduced.parts)
@@ -87,7 +67,7 @@ def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) 
         "cones": sum(program.n_cones for program in programs) + sum(size > 1 for size in further),
         "half_lines": sum(program.n_half_lines for program in programs) + further.count(1),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
-        "solver": ", ".join(dict.fromkeys(_solver(deck, program, conditions) for program in programs)),
+        "solver": ", ".join(dict.fromkeys(_solver(deck, program, convex is not None) for program in programs)),
     }
     return CaseNeeds(counts, reduced.steps)
 

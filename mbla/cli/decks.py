@@ -13,8 +13,8 @@ from mbla.cli.options import add_analysis_options, add_deck_options, seconds, th
 from mbla.cli.terminal import clear_line, failed, rewrite_line, say
 from mbla.errors import FileError, UsageError
 from mbla.process.collector import loading
+from mbla.process.run_options import RunOptions
 from mbla.results.failures import ENDINGS, StoppedRun, failure_record
-from mbla.run_options import RunOptions
 
 if TYPE_CHECKING:
     from mbla.deck import Deck

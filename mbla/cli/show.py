@@ -48,7 +48,7 @@ def verify(options: argparse.Namespace) -> int:
     with loading():
         from mbla.results.listing.listing import verification_lines
         from mbla.results.records.json_record import json_line, verification_json
-        from mbla.verify_file import verify_file
+        from mbla.results.verify.verify_file import verify_file
 
     results, agreed = verify_file(options.result)
     if options.json:

@@ -27,7 +27,7 @@ from mbla.cli.terminal import clear_line, rewrite_line, say
 from mbla.process.collector import loading
 
 if TYPE_CHECKING:
-    from mbla.run_options import RunOptions
+    from mbla.process.run_options import RunOptions
 
 
 def add_interact(commands: Any) -> None:

@@ -11,11 +11,16 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.broad_phase import PairsRefused
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, guides_at_odds, held_model, solids_of
+from mbla.contacts.held_twice import SupportsAtOdds
+from mbla.contacts.notices import overlap_messages
+from mbla.contacts.points import PointsRefused
+from mbla.contacts.search import find_contacts
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import DeckError, Fault, Message, first_faults
 from mbla.model.items import defects_in_words
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.defects import planarity_defects
@@ -166,3 +171,24 @@ def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, rea
     inside = np.min(shares, axis=0) >= -_OUTSIDE if len(points) else np.zeros(0, dtype=bool)
     near = np.abs(np.einsum("ki,ki->k", points - a, unit)) <= reach
     return np.asarray(inside & near & (np.einsum("ki,ki->k", normals, unit) > _FACING))
+
+
+def contacts_of(deck: Deck, model: Model) -> Contacts:
+    """Contacts of a model; blocks that overlap, bent faces in contact, glue that leaves nothing to move are faults."""
+    try:
+        contacts = find_contacts(model, deck.contacts)
+    except PairsRefused as refused:
+        raise DeckError([deck.fault_at(("blocks",), refused.message)]) from refused
+    except SupportsAtOdds as refused:
+        raise DeckError([deck.fault_at(("supports",), refused.message)]) from refused
+    except PointsRefused as refused:
+        raise DeckError([deck.fault_at(("contacts", "points", "spacing"), refused.message)]) from refused
+    faults = [
+        deck.fault_at(("blocks",), Message("blocks-overlap", message))
+        for message in overlap_messages(model, contacts.report)
+    ]
+    faults += bent_faults(deck, model, contacts)
+    faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
+    if faults:
+        raise DeckError(first_faults(faults))
+    return contacts

@@ -68,6 +68,11 @@ class Deck:
     tree. DeckError if missing, not a regular file, or outside."""
 
     @property
+    def title(self) -> str:
+        """Its title; the name of its file where it has none."""
+        return self.content.title or self.path.name
+
+    @property
     def folder(self) -> Path:
         """Folder of the main file."""
         return self.path.parent

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.units import Units
-from mbla.errors import Notice
+from mbla.errors import Notice, UsageError
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.supports.guides import NO_GUIDES, Guides, joined
@@ -242,3 +243,15 @@ class Model:
         """Name of a block, or label of a ground plane."""
         n_blocks = len(self.blocks)
         return self.blocks.name(body) if body < n_blocks else self.grounds[body - n_blocks].label
+
+
+def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
+    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one.
+
+    The name of a load that travels stands for all its positions.
+    """
+    known = dict.fromkeys(case.deck_name for case in model.load_cases)
+    for name in names:
+        if name not in known and name not in [case.name for case in model.load_cases]:
+            raise UsageError("unknown-load-case", f"no load case {name} in the deck; it has {', '.join(known)}")
+    return tuple(case for case in model.load_cases if not names or case.name in names or case.deck_name in names)

@@ -12,8 +12,18 @@ behind its adapter. Records of programs say who solved them.
 """
 
 from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution, Status
-from mbla.solution.solve import solve
+from mbla.solution.solve import solve, solve_parts
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
 
-__all__ = ["Checks", "ContactMode", "Mechanics", "Solution", "Status", "solve", "verified_status", "verify"]
+__all__ = [
+    "Checks",
+    "ContactMode",
+    "Mechanics",
+    "Solution",
+    "Status",
+    "solve",
+    "solve_parts",
+    "verified_status",
+    "verify",
+]

@@ -1,4 +1,4 @@
-"""One load case through the solver stage: its parts one after the other, then the whole structure."""
+"""One load case through the solver stage: by contact points, part after part, or by resultants of interfaces."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
+from mbla.program.build import CaseProgram
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.further_results import Questions, with_answers
+from mbla.solution.glued import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.locking import locking_forces
@@ -73,8 +75,26 @@ class _Stage:
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
-def solve(reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None) -> Solution:
-    """Load factor of one load case by the flow rule of ``analysis``, and what is asked for beside it.
+def solve(
+    program: CaseProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
+) -> Solution:
+    """Load factor of one load case by the flow rule of ``analysis``, and what is asked for beside it, on all blocks.
+
+    log : called once per iteration of a cone program, as it goes
+    """
+    if program.convex is None:
+        solution = solve_parts(program.reduced, analysis, settings, log)
+    else:
+        from mbla.solution.resultants.solve_convex import solve_convex  # late: interfaces are asked for rarely
+
+        solution = solve_convex(program.convex, analysis, settings, log)
+    return solution_on_blocks(solution, program.solids)
+
+
+def solve_parts(
+    reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
+) -> Solution:
+    """The same of the contact points of solids: their parts one after the other, then the whole structure.
 
     log : called once per iteration of a cone program, as it goes
     """

@@ -16,7 +16,7 @@ the level table bears tan(t/2) times the load across: the tangents of the circle
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -28,8 +28,8 @@ from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
 from mbla.solution.verification.further_claims import only_direction_counts
 from mbla.solution.verification.verify import level_bound
 
-Ask: TypeAlias = Callable[[LoadCase], tuple[Solution, Checks]]
-"""Solve and verify a load case."""
+Angles: TypeAlias = Generator[LoadCase, "Answer", "Answer"]
+"""Load cases to be solved and verified one after the other; each comes back as an answer, and the last is returned."""
 
 ENDED = 1e-9
 """distance of the load factor from 1 at which the angle is that of collapse: below what the bounds resolve"""
@@ -83,21 +83,23 @@ class Answer:
         return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= BY_LINE
 
 
-def solve_tilt(model: Model, contacts: Contacts, load_case: LoadCase, ask: Ask) -> Answer:
+def tilt_angles(model: Model, contacts: Contacts, load_case: LoadCase) -> Angles:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
     tilt = load_case.tilt
     assert tilt is not None  # that is why it is asked for
     tangent = only_direction_counts(model, contacts, tilt)
-    level = Answer(replace(load_case, tilt=replace(tilt, tangent=tangent)), *ask(load_case))
+    level = yield load_case
+    level = replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=tangent)))
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
         return level
     start = level.next_angle(tilt)
     if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
         return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
     upright = level_bound(model, contacts, load_case, with_level(level.solution, level.solution))
-    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), level.solution, ask)
-    found = search.from_angle(start) if start < math.pi else search.from_probes()
-    return search.with_words(search.before(found))
+    search = _Search(load_case, replace(tilt, tangent=False, upright=upright), level.solution)
+    found = yield from search.from_angle(start) if start < math.pi else search.from_probes()
+    found = yield from search.before(found)
+    return search.with_words(found)
 
 
 def never_collapses(tilt: Tilt, found: Answer) -> Solution:
@@ -119,37 +121,39 @@ def with_level(solution: Solution, level: Solution) -> Solution:
 class _Search:
     """Answers at one angle after the other."""
 
-    def __init__(self, load_case: LoadCase, tilt: Tilt, level: Solution, ask: Ask) -> None:
-        self.load_case, self.tilt, self.level, self.ask = load_case, tilt, level, ask
+    def __init__(self, load_case: LoadCase, tilt: Tilt, level: Solution) -> None:
+        self.load_case, self.tilt, self.level = load_case, tilt, level
         self.angles: list[float] = []
         self.seconds = 0.0
 
-    def at(self, angle: float) -> Answer:
+    def at(self, angle: float) -> Angles:
         """The answer of the line from the level loads to those at an angle."""
         tilt = replace(self.tilt, angle=math.degrees(angle))
         case = replace(self.load_case, live_load=chord(tilt, angle), tilt=tilt)
-        answer = Answer(case, *self.ask(case))
+        answer = yield case
         self.angles.append(angle)
         self.seconds += answer.solution.seconds
         return answer
 
-    def from_probes(self) -> Answer:
+    def from_probes(self) -> Angles:
         """From the first of some angles that is too large; the last of them where none is."""
         for angle in PROBES:
-            answer = self.at(angle)
+            answer = yield from self.at(angle)
             if answer.falls_at_once(self.tilt):
                 return answer
             if not answer.load_factor > 1.0:
                 start = answer.next_angle(self.tilt)
-                return self.from_angle(min(start, angle)) if math.isfinite(answer.load_factor) else answer
+                if not math.isfinite(answer.load_factor):
+                    return answer
+                return (yield from self.from_angle(min(start, angle)))
         return answer
 
-    def from_angle(self, angle: float) -> Answer:
+    def from_angle(self, angle: float) -> Angles:
         """Down to the angle whose load factor is 1, from one that is too large."""
         steps: list[tuple[float, float]] = []
         angle = max(angle, AT_ONCE)  # of no turn at all the loads would not change
         for _ in range(MOST_STEPS):
-            answer = self.at(angle)
+            answer = yield from self.at(angle)
             factor = answer.load_factor
             if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED or answer.falls_at_once(self.tilt):
                 return answer
@@ -170,7 +174,7 @@ class _Search:
         own = answer.solution.mechanics
         return math.inf if own is None else line_of(self.tilt, own, factor).first_crossing()
 
-    def before(self, found: Answer) -> Answer:
+    def before(self, found: Answer) -> Angles:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""
         angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
         if (
@@ -180,11 +184,11 @@ class _Search:
         ):
             return found
         for step in range(1, BETWEEN):
-            answer = self.at(angle * step / BETWEEN)
+            answer = yield from self.at(angle * step / BETWEEN)
             if answer.falls_at_once(self.tilt):
                 return answer
             if answer.load_factor < 1.0 - GOOD:
-                return self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN))
+                return (yield from self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN)))
         return found
 
     def with_words(self, found: Answer) -> Answer:

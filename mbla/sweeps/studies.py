@@ -22,7 +22,6 @@ from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.provenance import collect_provenance
 from mbla.results.record.column import Values
 from mbla.results.results import now
-from mbla.run import title_of
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
 from mbla.sweeps.engine.engine import Engine
 from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
@@ -64,7 +63,7 @@ class About:
 
 def about(deck: Deck, overrides: Sequence[str]) -> About:
     """What is said of a deck that was read with these overrides."""
-    return About(deck.path.name, title_of(deck), tuple(overrides), deck.units, deck.analysis.flow_rule)
+    return About(deck.path.name, deck.title, tuple(overrides), deck.units, deck.analysis.flow_rule)
 
 
 def plan_of(deck: Deck, fixed: Sequence[str], cases: Sequence[str], results: Sequence[str]) -> Plan:

@@ -11,7 +11,7 @@ from mbla.deck.sections.output import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
-from mbla.solution import Checks, Solution, Status, solve, verified_status, verify
+from mbla.solution import Checks, Solution, Status, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
 from tests.decks.folder import BENCHMARKS
 
@@ -48,7 +48,7 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     model = build_model(read)
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:
-        solution = solve(
+        solution = solve_parts(
             unreduced(assemble(model, contacts, load_case), contacts), read.analysis, solver_settings(read.analysis)
         )
         checks = verify(model, contacts, load_case, solution)

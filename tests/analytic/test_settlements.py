@@ -20,7 +20,7 @@ EXACT = 1e-7
 
 def solved(tmp_path: Path, deck: str, *overrides: str, cases: tuple[str, ...] = ()) -> Results:
     options = RunOptions(folder=tmp_path / "out", overrides=(*overrides, "output.vtu=false"), cases=cases, force=True)
-    return run(BENCHMARKS / f"{deck}.yaml", options)
+    return run(BENCHMARKS[deck], options)
 
 
 def reaction(case: CaseResult) -> float:

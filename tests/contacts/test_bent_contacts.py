@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from mbla.contacts.findings import contacts_of
 from mbla.errors import DeckError
-from mbla.run import contacts_of
 from tests.line import line_of_file
 
 BOTTOM = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]

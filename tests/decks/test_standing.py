@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.run import contacts_of, with_settlements
 from mbla.solution.settings import SolverSettings
+from mbla.solution.settlement import posed
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load, worst_standing
 from tests.decks.folder import deck_of, every_deck, name_of
@@ -26,8 +27,8 @@ def test_decks_stand_unless_they_say_that_they_do_not(path: Path) -> None:
     solids = solids_of(held_model(model, contacts), contacts)
     model, contacts = solids.model, solids.contacts
     settings = SolverSettings(tolerance=1e-8)
-    model, load_cases = with_settlements(model, contacts, model.load_cases, settings)
-    for load_case in load_cases:
+    for case in model.load_cases:
+        load_case = posed(model, contacts, case, settings)
         moving = model.of_case(load_case)
         program = assemble(moving, contacts, load_case)
         reduced = reduce_program(moving, contacts, program, ReductionSwitches(), associative=False)

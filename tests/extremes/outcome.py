@@ -31,6 +31,7 @@ from types import FrameType
 
 from mbla.deck import read_deck
 from mbla.errors import MblaError
+from mbla.process.run_options import RunOptions
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.magnitudes import rounding_of
@@ -39,7 +40,6 @@ from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.run_options import RunOptions
 
 GREEN = ("right", "diagnosed")
 LIMIT, LONG_LIMIT = 20.0, 300.0

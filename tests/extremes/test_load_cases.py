@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
+from mbla.process.run_options import RunOptions
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.run_options import RunOptions
 
 HEAD = """\
 mbla: 1

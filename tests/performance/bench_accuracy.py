@@ -15,12 +15,14 @@ import io
 import sys
 import time
 
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import read_deck
 from mbla.model import build_model
+from mbla.model.model import select_cases
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
-from mbla.run import contacts_of, select_cases, solve_case
+from mbla.run import solve_case
 from mbla.solution.settings import solver_settings
 from tests.performance.recording import record
 from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure

@@ -29,11 +29,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.program import assemble
-from mbla.run import contacts_of, reduced_program, select_cases
+from mbla.model.model import select_cases
+from mbla.program.build import build_program
 from mbla.solution import solve, verified_status, verify
 from mbla.solution.settings import solver_settings
 from tests.performance.child import answer_as_child, in_child
@@ -73,9 +74,9 @@ def measured(family: str, flow_rule: str, side: int | str) -> dict[str, object]:
     model = build_model(deck)
     contacts = contacts_of(deck, model)
     (load_case,) = select_cases(model, ["in_plane"])
-    reduced = reduced_program(deck, solids_of(model, contacts), assemble(model, contacts, load_case))
+    program = build_program(solids_of(model, contacts), load_case, deck.analysis)
     before = time.process_time()
-    solution = solve(reduced, deck.analysis, solver_settings(deck.analysis))
+    solution = solve(program, deck.analysis, solver_settings(deck.analysis))
     solver = time.process_time() - before
     checks = verify(model, contacts, load_case, solution)
     return {

@@ -23,14 +23,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
+from mbla.program.build import build_program
 from mbla.program.reductions import StepState, allowed_reductions, reduce_program
-from mbla.run import contacts_of, reduced_program
 from mbla.solution import Solution, solve, verified_status, verify
-from mbla.solution.glued import solution_on_blocks
 from mbla.solution.settings import solver_settings
 from tests.performance.recording import record
 from tests.performance.standard_set import DECKS, FLOW_RULES, STANDARD_SET, Structure
@@ -116,16 +116,17 @@ class Measured:
         """The solver stage with all reductions, or without one; verified on the whole model."""
         analysis = self.deck.analysis
         solids = solids_of(self.model, self.contacts)
-        program = assemble(solids.model, solids.contacts, solids.load_case(self.load_case))
         started = time.process_time()
-        reduced = reduced_program(self.deck, solids, program)
+        program = build_program(solids, self.load_case, analysis)
         if without is not None:
             allowed = replace(allowed_reductions(analysis), **{without: False})
             associative = analysis.flow_rule == "associative"
-            reduced = reduce_program(solids.model, solids.contacts, program, allowed, associative=associative)
-        solution = solve(reduced, analysis, solver_settings(analysis))
+            model, contacts = solids.model, solids.contacts
+            whole = assemble(model, contacts, solids.load_case(self.load_case))
+            reduced = reduce_program(model, contacts, whole, allowed, associative=associative)
+            program = replace(program, reduced=reduced)
+        solution = solve(program, analysis, solver_settings(analysis))
         seconds = time.process_time() - started
-        solution = solution_on_blocks(solution, solids)
         checks = verify(self.model, self.contacts, self.load_case, solution)
         return Run(solution, str(verified_status(solution, checks)), seconds)
 

@@ -14,12 +14,14 @@ from typing import Any
 import numpy as np
 
 from mbla.contacts import Contacts
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.results.results import CaseResult
+from mbla.results.run_record import with_loads_found
 from mbla.results.sta import StatusFile
-from mbla.run import contacts_of, solve_case, with_settlements
+from mbla.run import solve_case
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.properties.random_decks import random_deck
@@ -106,9 +108,8 @@ def solve_scene(scene: Scene) -> Solved:
     deck = scene.deck
     model, contacts = scene.contacts()
     settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "metamorphic")
-    model, load_cases = with_settlements(model, contacts, model.load_cases, settings)
-    cases = tuple(solve_case(deck, model, contacts, case, settings, status_file, None) for case in load_cases)
-    return Solved(model, contacts, cases)
+    cases = tuple(solve_case(deck, model, contacts, case, settings, status_file, None) for case in model.load_cases)
+    return Solved(with_loads_found(model, cases), contacts, cases)
 
 
 def value_of(case: CaseResult) -> float:

@@ -27,7 +27,7 @@ from mbla.results.series import told_cases
 from mbla.results.tables.csv_file import table_csv
 from mbla.results.tables.export import Formats, export_results
 from mbla.results.tables.tables import tables_of
-from mbla.verify_file import verify_file
+from mbla.results.verify.verify_file import verify_file
 from tests.results.odd_decks import DECKS
 
 NO_WORD = re.compile(r"(?<!\w)(nan|NaN|None|-?inf|Infinity)(?!\w)")

@@ -24,9 +24,9 @@ from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import factor_of, series_of, told_cases
 from mbla.results.tilt_angle import angle_bounds, angle_of
+from mbla.results.verify.verify_file import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
-from mbla.verify_file import verify_file
 from tests.results.synthetic import standing_at, tower_results
 
 DECK = """mbla: 1

@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.errors import FileError
 from mbla.model import build_model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.run import RunOptions, contacts_of, run
+from mbla.results.verify.verify_file import verify_file
+from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
-from mbla.verify_file import verify_file
 from tests.line import case_of, factor_of
 from tests.results.changed_files import changing
 

@@ -13,9 +13,10 @@ from mbla.model.model import LoadCase
 from mbla.program import assemble
 from mbla.solution import Status, tilt, verified_status, verify
 from mbla.solution.solution import Checks, Solution
-from mbla.solution.tilt import Answer, never_collapses, solve_tilt
+from mbla.solution.tilt import Answer, never_collapses, tilt_angles
+from mbla.solution.trials import Trials
 from mbla.solution.verification.further_claims import never_failures, tilt_failures
-from tests.line import line_of, solution_of
+from tests.line import Line, line_of, solution_of
 from tests.solution.by_hand import claim, found, state
 
 BLOCK = """mbla: 1
@@ -45,6 +46,14 @@ analysis: {flow_rule: associative}
 """
 
 
+def answered(line: Line, ask: Callable[[LoadCase], tuple[Solution, Checks]]) -> Answer:
+    """The search for the angle, each load case answered by ``ask``."""
+    trials = Trials(tilt_angles(line.model, line.contacts, line.load_case))
+    for case in trials:
+        trials.answer = Answer(case, *ask(case))
+    return trials.answer
+
+
 def turned(text: str, *overrides: str) -> Answer:
     line = line_of(text, *overrides)
 
@@ -53,7 +62,7 @@ def turned(text: str, *overrides: str) -> Answer:
         solution = solution_of(replace(line, load_case=case, program=program))
         return solution, verify(line.model, line.contacts, case, solution)
 
-    answer = solve_tilt(line.model, line.contacts, line.load_case, ask)
+    answer = answered(line, ask)
     checks = verify(line.model, line.contacts, answer.load_case, answer.solution)
     return Answer(answer.load_case, answer.solution, checks)
 
@@ -298,7 +307,7 @@ def searched(factors: Callable[[float], tuple[float, float]]) -> Answer:
         assert case.tilt is not None
         return made(*factors(case.tilt.angle))
 
-    return solve_tilt(line.model, line.contacts, line.load_case, ask)
+    return answered(line, ask)
 
 
 def test_a_line_made_up_is_left_where_it_says() -> None:
@@ -355,7 +364,7 @@ def test_a_probe_without_an_answer_ends_the_search() -> None:
         level = math.isnan(case.tilt.angle)
         return claim(None, Status.UNBOUNDED if level else Status.NUMERICAL_ERROR, reason="broke down"), found()
 
-    answer = solve_tilt(line.model, line.contacts, line.load_case, ask)
+    answer = answered(line, ask)
     assert answer.solution.status is Status.NUMERICAL_ERROR
     assert answer.solution.reason == "broke down"
     assert tried(answer) == "90"

@@ -10,6 +10,7 @@ from pathlib import Path
 from mbla.deck import read_deck
 from mbla.deck.deck import Deck
 from mbla.deck.sections.output import OutputSection
+from mbla.process.run_options import RunOptions
 from mbla.process.sharing import sharing
 from mbla.results.failures import words_of
 from mbla.results.files import OutputFolder
@@ -17,8 +18,7 @@ from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
-from mbla.run import solve_deck, title_of
-from mbla.run_options import RunOptions
+from mbla.run import solve_deck
 from mbla.sweeps.engine.memory import Memory
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_texts
 from mbla.sweeps.results import reason_of, result_places, values_of
@@ -115,7 +115,7 @@ class PointRunner:
         deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
         deck = requested_only(deck, plan)
         status = io.StringIO()
-        results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, title_of(deck)), None, started)
+        results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, deck.title), None, started)
         if wanted(plan, state_of(results.exit_code)):
             keep_files(plan, task, results, status.getvalue(), deck.content.output)
         record = results_json(results, on_demand=True)

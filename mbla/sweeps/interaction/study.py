@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck
 from mbla.errors import UsageError
 from mbla.model import build_model
+from mbla.process.run_options import RunOptions
 from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
 from mbla.results.records.numbers import number
-from mbla.run import contacts_of
-from mbla.run_options import RunOptions
 from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.engine.engine import Engine, EngineOptions, engine_for

@@ -10,18 +10,18 @@ from typing import Any
 
 import numpy as np
 
+from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck
 from mbla.errors import LimitError, SolverError, UsageError
 from mbla.model import build_model
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase, Model, select_cases
+from mbla.process.run_options import RunOptions
 from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
 from mbla.results.listing.answers import reaction_unit
 from mbla.results.record.column import Values
 from mbla.results.records.numbers import number
-from mbla.run import contacts_of, select_cases
-from mbla.run_options import RunOptions
 from mbla.solution.solution import Status
 from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.engine.engine import NOT_BEGUN, SerialEngine

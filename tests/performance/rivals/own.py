@@ -7,7 +7,7 @@ from functools import partial
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
-from mbla.solution import solve, verified_status, verify
+from mbla.solution import solve_parts, verified_status, verify
 from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
@@ -53,7 +53,7 @@ def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
 
 
 def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
-    solution = solve(_reduced(structure, analysis), analysis, solver_settings(analysis))
+    solution = solve_parts(_reduced(structure, analysis), analysis, solver_settings(analysis))
     return solution, verify(structure.model, structure.contacts, structure.load_case, solution)
 
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mbla.contacts import Contacts
+from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
-from mbla.model.model import LoadCase
-from mbla.run import contacts_of, select_cases
+from mbla.model.model import LoadCase, select_cases
 from tests.performance.standard_set import SPATIAL, STANDARD_SET
 from tests.performance.standard_set import Structure as Standard
 

@@ -14,7 +14,7 @@ from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.program.reductions.guided import _projector
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution import Status, solve, verified_status, verify
+from mbla.solution import Status, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
 
 DECK = """
@@ -47,7 +47,7 @@ def answer(tmp_path: Path, support: str, push: str, reduce: bool = True) -> tupl
     reduced = unreduced(program, contacts)
     if reduce:
         reduced = reduce_program(model, contacts, program, ReductionSwitches(), associative=True)
-    solution = solve(reduced, deck.analysis, solver_settings(deck.analysis))
+    solution = solve_parts(reduced, deck.analysis, solver_settings(deck.analysis))
     checks = verify(model, contacts, case, solution)
     assert verified_status(solution, checks) is Status.SOLVED, checks.failures
     assert solution.mechanics is not None

@@ -13,10 +13,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.deck import read_deck
+from mbla.process.run_options import RunOptions
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.run_options import RunOptions
 from mbla.sweeps.plan import Plain, override_texts
 
 DECKS = Path(__file__).parents[3] / "decks"

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from mbla.deck import read_deck
+from mbla.process.run_options import RunOptions
 from mbla.results.records.description import RUN_RECORD
 from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.run_options import RunOptions
 from mbla.solution import further_results as beside
 from mbla.sweeps.engine.runner import ON_REQUEST, PointRunner, requested_only
 from mbla.sweeps.file.content import SweepContent

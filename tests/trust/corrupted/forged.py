@@ -12,10 +12,10 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.comparing import AGREEMENT, LINKS
 from mbla.results.record.stored import STORED
 from mbla.run import run
-from mbla.run_options import RunOptions
 from tests.decks.folder import BENCHMARKS
 from tests.results.changed_files import changing
 

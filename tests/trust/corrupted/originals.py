@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from mbla.process.run_options import RunOptions
 from mbla.run import run
-from mbla.run_options import RunOptions
 
 HEAD = """\
 mbla: 1

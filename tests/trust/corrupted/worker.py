@@ -20,7 +20,6 @@ MOST_BYTES = 4 << 30
 
 def _imported(drawing: bool) -> None:
     """What commands import late, once for all of them; of those that draw only where they are asked for."""
-    import mbla.rebuilt
     import mbla.results.diff.comparison
     import mbla.results.diff.records
     import mbla.results.diff.words
@@ -29,7 +28,8 @@ def _imported(drawing: bool) -> None:
     import mbla.results.listing.listing
     import mbla.results.records.json_record
     import mbla.results.tables.export
-    import mbla.verify_file
+    import mbla.results.verify.rebuilt
+    import mbla.results.verify.verify_file
 
     if drawing:
         import matplotlib

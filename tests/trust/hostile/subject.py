@@ -14,7 +14,7 @@ from mbla.cli.check import check
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model.generators import amounts
-from mbla.run_options import RunOptions
+from mbla.process.run_options import RunOptions
 from mbla.sweeps.command import SweepOptions, prepare
 from mbla.sweeps.file.read import read_sweep
 from tests.line import WALL

@@ -21,6 +21,7 @@ import pytest
 from mbla import api
 from mbla.cli import main
 from mbla.cli.decks import refuse_unfit_name
+from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck, reader, sources, validation
 from mbla.deck.content import DeckContent
 from mbla.deck.include import confined
@@ -35,7 +36,6 @@ from mbla.results.pictures import animation
 from mbla.results.pictures.space import renderer
 from mbla.results.series import Series
 from mbla.results.tables.tables import tables_of
-from mbla.run import contacts_of
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram

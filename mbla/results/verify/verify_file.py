@@ -18,11 +18,11 @@ from mbla.deck import Deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.model.model import Model
 from mbla.program.choice import crushable_interfaces, takes_stress_blocks
-from mbla.rebuilt import rebuilt
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.results import CaseResult, Results
+from mbla.results.verify.rebuilt import rebuilt
 from mbla.solution.derived import with_derived
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Solution, Standing, Status

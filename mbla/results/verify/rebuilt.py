@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
@@ -25,8 +26,8 @@ from mbla.model.settlement import with_reference
 from mbla.results.deck_record import deck_of
 from mbla.results.hdf5.content import Content, Value, content_of
 from mbla.results.results import Results
+from mbla.results.run_record import as_expected, notices_of
 from mbla.results.settings_words import settings_in_words
-from mbla.run import as_expected, contacts_of, notices_of
 from mbla.solution.settings import solver_settings
 from mbla.solution.tilt_circle import chord
 
