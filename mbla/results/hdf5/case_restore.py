@@ -14,8 +14,7 @@ from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.listing.solving import METHODS
-from mbla.results.record.of_case import ANSWERS
-from mbla.results.record.stored import stored
+from mbla.results.record.stored import ANSWERS, stored
 from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,

@@ -18,8 +18,7 @@ from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, fields_of
 from mbla.results.outcome import least_and_greatest
-from mbla.results.record.of_case import ANSWERS
-from mbla.results.record.stored import stored
+from mbla.results.record.stored import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
     Checks,

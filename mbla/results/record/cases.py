@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.rigid_parts import moving_share
 from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
 from mbla.results.record.column import FIGURES_TOLD, Column, Values, as_text, column
-from mbla.results.record.quantity import Quantity, at, flag, real, text, whole
+from mbla.results.record.quantity import Quantity, flag, real, text, whole
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.results import CaseResult
 from mbla.results.tilt_angle import angle_bounds, angle_of
@@ -36,7 +37,7 @@ def _of_scene(
 
 
 def _placed(quantity: Quantity | str) -> Quantity | str:
-    return quantity if isinstance(quantity, str) or quantity.place else at("cases/*", quantity)[0]
+    return quantity if isinstance(quantity, str) or quantity.place else replace(quantity, place="cases/*")
 
 
 def _texts(name: str, words: str, of: Callable[[CaseResult], tuple[str, ...]]) -> Column:
@@ -92,7 +93,7 @@ def _moving(scene: Scene) -> int | None:
 
 
 def _in_mechanism(quantity: Quantity, of: Callable[[Scene], Any]) -> Column:
-    return _of_scene(at("cases/*/mechanism", quantity)[0], of, "table")
+    return _of_scene(replace(quantity, place="cases/*/mechanism"), of, "table")
 
 
 CASE_COLUMNS: tuple[Column, ...] = (
@@ -151,7 +152,7 @@ CASE_COLUMNS: tuple[Column, ...] = (
         )
     ),
     column(
-        at("cases/*", FIGURES_TOLD)[0],
+        replace(FIGURES_TOLD, place="cases/*"),
         lambda scene: np.array([FIGURES.index(scene.figures)]),
         "table",
         lambda _: FIGURES,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Literal
 
@@ -57,6 +57,18 @@ CLAIMED = "that no better answer was found than the status says, without associa
 STANDING = "that it stands only by self-stress, or that it is doubtful whether it stands"
 FALLS = "which block falls first"
 PASSED = "mechanism of a peak"
+TOLD = {
+    "versions": VERSIONS,
+    "times": TIMES,
+    "files": FILES,
+    "words": WORDS,
+    "course": COURSE,
+    "searches": SEARCHES,
+    "claimed": CLAIMED,
+    "standing": STANDING,
+    "falls": FALLS,
+}
+"""kinds of statements by the words that ``stored.csv`` has for them"""
 
 
 @dataclass(frozen=True)
@@ -105,41 +117,24 @@ class Quantity:
             yield place, "_".join([self.name, *parts]), halves[place[-1] // 3] if place else self.unit
 
 
-def text(name: str, words: str, dims: str = "", *, told: str = "", proved: tuple[str, ...] = ()) -> Quantity:
-    """Text."""
-    return Quantity(name, "text", words, dims=tuple(dims.split()), told=told, proved=proved)
+def text(name: str, words: str, dims: str = "") -> Quantity:
+    """Text that follows from what the file holds."""
+    return Quantity(name, "text", words, dims=tuple(dims.split()))
 
 
-def real(
-    name: str, words: str, unit: UnitKind = "1", dims: str = "", *, open: bool = False, told: str = ""
-) -> Quantity:
-    """Floating-point numbers."""
-    return Quantity(name, "float", words, unit, tuple(dims.split()), open=open, told=told)
+def real(name: str, words: str, unit: UnitKind = "1", dims: str = "") -> Quantity:
+    """Floating-point numbers that do."""
+    return Quantity(name, "float", words, unit, tuple(dims.split()))
 
 
-def whole(name: str, words: str, dims: str = "", *, index_of: str = "", start_of: str = "", told: str = "") -> Quantity:
-    """Whole numbers."""
-    return Quantity(name, "int", words, dims=tuple(dims.split()), index_of=index_of, start_of=start_of, told=told)
+def whole(name: str, words: str, dims: str = "") -> Quantity:
+    """Whole numbers that do."""
+    return Quantity(name, "int", words, dims=tuple(dims.split()))
 
 
 def flag(name: str, words: str, dims: str = "") -> Quantity:
-    """Truth, stored as 0 and 1."""
+    """Truth that does, 0 or 1."""
     return Quantity(name, "bool", words, dims=tuple(dims.split()))
-
-
-def at(place: str, *quantities: Quantity, part: str = "", told: str = "") -> tuple[Quantity, ...]:
-    """Quantities of one place and one part; ``told`` is of all of them."""
-    return tuple(replace(each, place=place, part=part, told=told or each.told) for each in quantities)
-
-
-def notices(place: str, what: str) -> tuple[Quantity, ...]:
-    """Columns of a list of notices."""
-    return at(
-        place,
-        text("severity", f"{what}: notice or warning", "notice"),
-        text("identifier", f"{what}: stable identifier, as `mbla explain` takes it", "notice"),
-        text("message", f"{what}: in words", "notice"),
-    )
 
 
 def unit_text(kind: UnitKind, units: Units) -> str:
