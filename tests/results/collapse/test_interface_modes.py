@@ -1,10 +1,22 @@
+"""Modes of interfaces, and sums over their points."""
+
+from __future__ import annotations
+
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_motion, stuck_interfaces
+from mbla.results.collapse.interface_modes import (
+    InterfaceMode,
+    InterfaceMotion,
+    interface_motion,
+    interface_radii,
+    largest_by_interface,
+    stuck_interfaces,
+    sum_by_interface,
+)
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
 from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
@@ -168,3 +180,18 @@ def test_a_hinge_that_slides_ends_where_its_faces_touch_though_its_axis_runs_off
     motion = motion_of(replace(mechanics, modes=modes))
     assert motion.hinge_directions[0, 0] == pytest.approx(0.1 / np.hypot(0.1, 1))
     assert motion.hinge_ends[0].tolist() == [[1, 0, 1], [1, 1, 1]]
+
+
+# ---  ---------------------------------------------------------------------------------------------------------------
+
+
+def test_sums_and_largest_of_each_interface() -> None:
+    contacts, values = tower_contacts(), np.array([1.0, 2, 3, 4, -5, -6, -7, -8])
+    assert sum_by_interface(contacts, values).tolist() == [10, -26]
+    assert sum_by_interface(contacts, np.column_stack([values, values])).tolist() == [[10, 10], [-26, -26]]
+    assert sum_by_interface(contacts, values > 2).tolist() == [2, 0]
+    assert largest_by_interface(contacts, values).tolist() == [4, 0]
+
+
+def test_radius_of_a_unit_square() -> None:
+    assert interface_radii(tower_contacts()) == pytest.approx([0.5**0.5, 0.5**0.5])

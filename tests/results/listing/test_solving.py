@@ -1,0 +1,280 @@
+"""How a case was solved: solver, programs, reductions, load path."""
+
+from __future__ import annotations
+
+import ast
+import fnmatch
+from dataclasses import replace
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import mbla
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.results.listing.listing import listing
+from mbla.results.listing.solving import (
+    FOUND,
+    METHODS,
+    MOST_PROGRAMS,
+    PURPOSES,
+    found_words,
+    path_lines,
+    program_lines,
+    reduction_lines,
+    solver_json,
+    solver_lines,
+    solver_words,
+)
+from mbla.results.listing.text import MOST_ROWS, WIDTH
+from mbla.results.records.json_record import results_json
+from mbla.results.results import Results
+from mbla.solution.solution import PathPoint, ProgramRecord
+from tests.results.synthetic import STEP, tower_model, tower_results
+
+FIRST = tower_results().cases[0].solution
+
+
+def taken(*programs: tuple[str, str, str]) -> tuple[ProgramRecord, ...]:
+    """Programs of that kind, solver and factorisation."""
+    return tuple(
+        replace(FIRST.programs[0], program=number, kind=kind, solver=solver, factorization=factorization)
+        for number, (kind, solver, factorization) in enumerate(programs, 1)
+    )
+
+
+def with_programs(*programs: tuple[str, str, str]) -> Results:
+    results = tower_results()
+    case = replace(results.cases[0], solution=replace(FIRST, programs=taken(*programs)))
+    return replace(results, cases=(case,))
+
+
+def test_every_solver_of_a_deck_has_its_words() -> None:
+    assert {"auto", *METHODS} == set(get_args(AnalysisSection.model_fields["solver"].annotation))
+
+
+@pytest.mark.parametrize(
+    ("solver", "factorization", "words"),
+    [
+        ("mbla", "cholmod", "mbla (condensed interior point, cholmod)"),
+        ("clarabel", "mkl", "clarabel (interior point, mkl)"),
+        ("highs", "", "HiGHS (interior point and crossover)"),
+        ("", "", ""),
+    ],
+)
+def test_one_program_in_words(solver: str, factorization: str, words: str) -> None:
+    assert solver_words(taken(("associative", solver, factorization))[0]) == words
+
+
+def test_each_name_once_in_the_order_of_the_programs() -> None:
+    programs = taken(
+        ("associative", "mbla", "cholmod"),
+        ("reverse", "clarabel", "qdldl"),
+        ("exact step", "", ""),
+        ("second opinion", "highs", ""),
+        ("range, lower", "mbla", "qdldl"),
+    )
+    assert solver_json(replace(FIRST, solver="auto", programs=programs)) == {
+        "asked": "auto",
+        "used": ["mbla", "clarabel", "highs"],
+        "factorization": ["cholmod", "qdldl"],
+    }
+    assert " ".join(" ".join(solver_lines(replace(FIRST, programs=programs))).split()) == (
+        "solver mbla (condensed interior point, cholmod) other programs clarabel (interior point, qdldl), "
+        "HiGHS (interior point and crossover), mbla (condensed interior point, qdldl)"
+    )
+
+
+def test_the_listing_says_it_in_one_line_where_one_solver_took_all() -> None:
+    lines = listing(
+        with_programs(("associative", "mbla", "qdldl"), ("reverse", "mbla", "qdldl"), ("exact step", "", ""))
+    ).splitlines()
+    assert [line for line in lines if "condensed interior point" in line] == [
+        line for line in lines if line.split() == ["solver", "mbla", "(condensed", "interior", "point,", "qdldl)"]
+    ]
+    assert not any("other programs" in line for line in lines)
+
+
+def test_a_case_without_cone_programs_has_no_solver() -> None:
+    results = with_programs(("exact step", "", ""))
+    assert solver_lines(results.cases[0].solution) == []
+    assert results_json(results)["cases"][0]["solver"] == {"asked": "auto", "used": [], "factorization": []}
+
+
+# ---  ---------------------------------------------------------------------------------------------------------------
+
+
+SOLUTION = Path(mbla.__file__).parent / "solution"
+
+
+def kinds_in(*paths: Path) -> dict[str, str]:
+    """Texts that end up as the kind of a program, and the file that each is in.
+
+    That is what ProgramRecord is given, and every function that hands its own ``kind`` on to it; and what is assigned
+    to a name ``kind``.
+    """
+    trees = {path.name: ast.parse(path.read_text(encoding="utf-8")) for path in paths}
+    functions = [node for tree in trees.values() for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    places = {"ProgramRecord": 1}
+    for _ in functions:  # as often as one hands on to another
+        places |= {node.name: _place_of_kind(node) for node in functions if _hands_on(node, places)}
+    found = ((name, value) for name, tree in trees.items() for node in ast.walk(tree) for value in _given(node, places))
+    return {text: name for name, value in found for text in _texts(value)}
+
+
+def _place_of_kind(function: ast.FunctionDef) -> int:
+    """Position of the parameter ``kind``, ``self`` not counted; beyond all others where it is given by name only."""
+    names = [argument.arg for argument in function.args.args if argument.arg != "self"]
+    return names.index("kind") if "kind" in names else len(names)
+
+
+def _hands_on(function: ast.FunctionDef, places: dict[str, int]) -> bool:
+    """Whether a function gives its own ``kind`` to one that is known."""
+    arguments = (*function.args.args, *function.args.kwonlyargs)
+    if "kind" not in [argument.arg for argument in arguments]:
+        return False
+    given = (value for node in ast.walk(function) if isinstance(node, ast.Call) for value in _given(node, places))
+    return any(isinstance(part, ast.Name) and part.id == "kind" for value in given for part in ast.walk(value))
+
+
+def _given(node: ast.AST, places: dict[str, int]) -> list[ast.expr]:
+    """Values that one statement or call hands on as a kind."""
+    if isinstance(node, ast.Call):
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        if name not in places:
+            return []
+        return node.args[places[name] :][:1] + [word.value for word in node.keywords if word.arg == "kind"]
+    if isinstance(node, ast.FunctionDef) and node.name in places:
+        preset = node.args.args[len(node.args.args) - len(node.args.defaults) :]
+        return [v for argument, v in zip(preset, node.args.defaults, strict=True) if argument.arg == "kind"]
+    if isinstance(node, ast.Assign) and [getattr(target, "id", "") for target in node.targets] == ["kind"]:
+        return [node.value]
+    return []
+
+
+def _texts(value: ast.expr) -> set[str]:
+    """A text, both of a choice between two, or of a text with something put in the pattern that it follows."""
+    if isinstance(value, ast.IfExp):
+        return _texts(value.body) | _texts(value.orelse)
+    if isinstance(value, ast.JoinedStr):
+        return {"".join(str(part.value) if isinstance(part, ast.Constant) else "*" for part in value.values)}
+    return {value.value} if isinstance(value, ast.Constant) and isinstance(value.value, str) else set()
+
+
+RECORDS = """
+def note(run, kind, solution):
+    run.add(kind)
+
+class Run:
+    def add(self, kind, words="not this"):
+        self.records.append(ProgramRecord(len(self.records), kind, self.status))
+
+def other(kind, reason): ...
+"""
+
+SCHEME = """
+run.records.append(ProgramRecord(1, "a", status))
+run.records.append(ProgramRecord(1, kind="b"))
+note(run, "c" if first else "d", solution)
+other("nor this", kind="nor that")
+def solve(form, kind="e", words="nor these"):
+    note(form, kind, words)
+kind = "f" if first else "g"
+order = np.argsort(x, kind="nor here")
+run.add(f"h, {end}")
+"""
+
+
+def test_the_search_finds_kinds_however_they_are_given(tmp_path: Path) -> None:
+    (tmp_path / "records.py").write_text(RECORDS)
+    (tmp_path / "schemes.py").write_text(SCHEME)
+    found = kinds_in(tmp_path / "records.py", tmp_path / "schemes.py")
+    assert set(found) == {*"abcdefg", "h, *"}
+    assert set(found.values()) == {"schemes.py"}
+
+
+def test_every_kind_of_program_is_said_in_words() -> None:
+    found = kinds_in(*sorted(SOLUTION.rglob("*.py")))
+    assert {"associative", "reverse", "gravity"} <= set(found)
+    assert {kind: file for kind, file in found.items() if not fnmatch.filter(PURPOSES, kind)} == {}
+
+
+@pytest.mark.parametrize("count", [0, 1, MOST_PROGRAMS, MOST_PROGRAMS + 1, 500])
+def test_long_sequences_show_both_ends_and_say_what_is_left_out(count: int) -> None:
+    program = FIRST.programs[1]
+    programs = tuple(replace(program, program=i + 1) for i in range(count))
+    lines = program_lines(replace(FIRST, programs=programs))
+    if not count:
+        assert lines == []
+        return
+    assert max(map(len, lines)) <= WIDTH
+    assert f"{count} program" in lines[1]
+    numbers = [int(line.split()[0]) for line in lines[3:] if line.split()[0].isdigit()]
+    assert numbers[0] == 1
+    assert numbers[-1] == count
+    if count > MOST_PROGRAMS:
+        assert len(numbers) == MOST_PROGRAMS
+        assert any(f"{count - MOST_PROGRAMS} more" in line for line in lines)
+    else:
+        assert len(numbers) == count
+
+
+# ---  ---------------------------------------------------------------------------------------------------------------
+
+
+def test_every_reduction_has_its_words() -> None:
+    assert set(FOUND) == {"glued", *vars(ReductionSwitches())}
+
+
+def test_what_was_found_or_why_nothing() -> None:
+    one = ProgramSize(6, 4, 20, 6)
+    assert found_words(STEP) == "2 parts solved apart"
+    assert found_words(ReductionStep("points", StepState.APPLIED, 1, one, one)) == "1 contact point left out"
+    assert found_words(ReductionStep("mirror", StepState.OFF, 0, one, one)) == "switched off"
+    assert found_words(ReductionStep("mirror", StepState.BARRED, 0, one, one)) == "would change the answer"
+
+
+def test_a_row_says_what_is_left_after_each() -> None:
+    lines = [" ".join(str(line).split()) for line in reduction_lines((STEP,))]
+    assert lines[0] == "reduction found unknowns cones entries largest program"
+    assert lines[1] == "none 12 8 80 12"
+    assert lines[2] == "parts 2 parts solved apart 12 8 80 6"
+
+
+def test_nothing_is_said_where_nothing_was_looked_for() -> None:
+    assert reduction_lines(()) == []
+
+
+# ---  ---------------------------------------------------------------------------------------------------------------
+
+
+MODEL = tower_model()
+CASE = tower_results().cases[0]
+
+
+def lines_of(*path: PathPoint) -> list[str]:
+    return path_lines(MODEL, replace(CASE, solution=replace(CASE.solution, path=path)))
+
+
+def test_no_path_no_lines() -> None:
+    assert lines_of() == []
+
+
+def test_a_long_path_shows_where_modes_change_and_says_what_it_leaves_out() -> None:
+    quiet = [PathPoint(i, 0.001 * i, 0, 0, 1e-9) for i in range(100)]
+    quiet[60:] = [replace(point, open=2) for point in quiet[60:]]
+    lines = lines_of(*quiet)
+    rows = [line.split() for line in lines if line.split() and line.split()[0].isdigit()]
+    assert [row[0] for row in rows] == ["0", "60", "99"]
+    assert "and 97 steps more" in lines[-1]
+
+
+def test_a_path_of_many_changes_is_thinned_but_keeps_peak_and_ends() -> None:
+    factors = [0.001 * i for i in range(300)]
+    factors[150] = 1.0
+    lines = lines_of(*(PathPoint(i, factor, i, 0, 1e-9) for i, factor in enumerate(factors)))
+    rows = [line.split()[0] for line in lines if line.split() and line.split()[0].isdigit()]
+    assert len(rows) == MOST_ROWS
+    assert {"0", "150", "299"} <= set(rows)
