@@ -1,10 +1,4 @@
-"""All checks in one command: format, lint, types and tests, these two on all cores; options go to pytest.
-
-::
-
-    python tests/checks.py
-    python tests/checks.py -m long -n 0
-"""
+"""Format, lint and types in one command: ``python tests/checks.py``; tests are ``pytest`` and ``pytest -m long``."""
 
 from __future__ import annotations
 
@@ -17,20 +11,17 @@ CHECKS = (
     ("ruff", "format", "--check", "."),
     ("ruff", "check", "."),
     ("mypy", "--num-workers", "auto"),
-    ("pytest", "-rs", "-n", "auto", "--dist", "loadfile"),
 )
-"""mypy on all cores: on one it takes minutes; -rs: what was skipped, and why: a machine without a browser or OpenGL
-tests less"""
+"""mypy on all cores: on one it takes minutes"""
 
 
 def main() -> int:
     """Run every check to its end; 1 if one of them failed."""
     failed = []
     for check in CHECKS:
-        options = sys.argv[1:] if check[0] == "pytest" else []
-        sys.stderr.write(f"== {' '.join([*check, *options])}\n")
+        sys.stderr.write(f"== {' '.join(check)}\n")
         sys.stderr.flush()
-        if subprocess.run([sys.executable, "-m", *check, *options], cwd=ROOT, check=False).returncode != 0:
+        if subprocess.run([sys.executable, "-m", *check], cwd=ROOT, check=False).returncode != 0:
             failed.append(check[0])
     sys.stderr.write(f"== failed: {', '.join(failed)}\n" if failed else "== all checks passed\n")
     return 1 if failed else 0

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from tests.line import line_of, load_factor, verified
 
+pytestmark = pytest.mark.long
+
 Array = NDArray[np.float64]
 SAME = 1e-7
 
@@ -115,9 +117,7 @@ PUSHES = {"wall": (1.0, 0.1, 0.0), "arch": (1.0, 0.2, 0.0), "corner": (-0.6, -0.
 PUSHES |= dict.fromkeys(COURSES, (1.0, 0.0, 0.0))
 
 every_structure = pytest.mark.parametrize("name", ["wall", "arch", "corner"])
-published_walls = pytest.mark.parametrize(
-    "name", ["ferris 1", "ferris 3", "ferris 5", pytest.param("twenty", marks=pytest.mark.long)]
-)
+published_walls = pytest.mark.parametrize("name", ["ferris 1", "ferris 3", "ferris 5", "twenty"])
 
 
 def deck_text(name: str, setting: Setting) -> str:

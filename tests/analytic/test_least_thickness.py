@@ -15,6 +15,8 @@ from mbla.solution import Status
 from tests.analytic.planar import arch_load_factor, centre_line_arch
 from tests.line import HEAD, line_of, verified
 
+pytestmark = pytest.mark.long
+
 PUBLISHED = {0.7: 0.107426, 0.395832: 0.107426, 0.38: 0.122192, 0.35: 0.152920, 0.31: 0.199653}
 """Least thickness over mean radius by friction coefficient, six digits."""
 
@@ -95,7 +97,6 @@ def test_below_the_least_friction_no_thickness_stands(thickness: float) -> None:
     assert margin(thickness, 60, 0.308) == FALLS
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("mu", [0.7, 0.38, 0.35, 0.31])
 def test_least_thickness_with_720_voussoirs(mu: float) -> None:
     found = least_thickness(LONG, mu, PUBLISHED[mu])

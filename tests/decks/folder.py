@@ -33,15 +33,19 @@ PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder
 BENCHMARKS = {path.stem: path for path in PATHS if path.parts[-3] == "benchmarks"}
 """decks of closed forms and published cases by their names"""
 LONG = (
+    "regressions/shelf",
     "regressions/shelf_across",
     "structures/arch_bridge",
+    "structures/dome_on_drum",
     "structures/house",
     "structures/room",
     "structures/spiral_stair",
+    "tutorials/bridge_with_parapets",
     "tutorials/buttressed_wall",
     "tutorials/crossvault_without_dilatancy",
+    "tutorials/two_leaf_walls",
 )  # fmt: skip
-"""take more than ten seconds: run by ``pytest -m long`` only"""
+"""take more than three seconds: run by ``pytest -m long`` only"""
 
 
 @dataclass(frozen=True)

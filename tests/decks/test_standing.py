@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
 from mbla.model import build_model
@@ -15,6 +17,9 @@ from mbla.solution.settlement import posed
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load, worst_standing
 from tests.decks.folder import deck_of, every_deck, name_of
+
+pytestmark = pytest.mark.long
+
 
 LOCKED_IN = ("benchmarks/closed_forms/bar_between_walls",)
 

@@ -166,9 +166,8 @@ def test_a_symmetric_house_has_a_symmetric_diagram() -> None:
 
 
 @pytest.mark.long
-def test_the_whole_diagram_of_the_house_is_convex_and_has_the_figures_of_its_deck() -> None:
-    finished, rows = whole_sweep("house_directions")
-    assert finished.exit_code == 0
+def test_the_diagram_of_the_house_is_convex_and_has_the_figures_of_its_deck() -> None:
+    rows = solve_some(prepared_sweep("house_directions"), lambda row: number(row, "direction") % 30 == 0)
     check_convex(rows)
     found = {number(row, "direction"): number(row, "load_factor") for row in rows}
     expected = deck_of(DECKS / "structures" / "house.yaml").content.expected

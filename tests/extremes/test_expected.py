@@ -14,6 +14,8 @@ from tests.extremes.structures_symmetric import CROWNS, PUSHES
 from tests.line import line_of
 from tests.performance.rivals.statement import Statement, statement_of
 
+pytestmark = pytest.mark.long
+
 FRICTION = 5.0
 VIOLATED = 1e-6
 """Excess over a friction cone, in mean block weights, that is cut off no further: the load factor of the dome would
@@ -29,15 +31,12 @@ def test_arches_pressed_at_the_crown(voussoirs: int, thickness: float) -> None:
     assert factor == pytest.approx(CROWNS[voussoirs, thickness], rel=1e-8)
 
 
-@pytest.mark.parametrize(
-    ("voussoirs", "thickness"), [pytest.param(*key, marks=[pytest.mark.long] if key[0] > 100 else []) for key in PUSHES]
-)
+@pytest.mark.parametrize(("voussoirs", "thickness"), PUSHES)
 def test_arches_pushed(voussoirs: int, thickness: float) -> None:
     arch = polygon_arch(1 - thickness / 2, 1 + thickness / 2, np.pi, voussoirs)
     assert arch_load_factor(arch, FRICTION) == pytest.approx(PUSHES[voussoirs, thickness], rel=1e-8)
 
 
-@pytest.mark.long
 def test_dome_pushed() -> None:
     """The dome by linear programs that cut the friction cones where they are left: from above, to the cones."""
     line = line_of(DOME)

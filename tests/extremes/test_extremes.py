@@ -1,4 +1,4 @@
-"""A sample of the short scenes in the normal run, all under ``-m long``: no red line."""
+"""Every short scene and a sample of those that take long: no red line. ``python -m tests.extremes.table`` has all."""
 
 from __future__ import annotations
 
@@ -7,19 +7,15 @@ import pytest
 from tests.extremes.outcome import Scene, outcome_of
 from tests.extremes.scenes import all_scenes
 
-EVERY = 12
-"""The normal run takes one of so many short scenes; the table has them all."""
+pytestmark = pytest.mark.long
+
+EVERY = 6
+"""of the scenes that take long one of so many is taken; the table has them all"""
+SCENES = all_scenes()
+TAKEN = [*(scene for scene in SCENES if not scene.long), *[scene for scene in SCENES if scene.long][::EVERY]]
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
-        pytest.param(
-            scene, id=f"{scene.family}: {scene.name}", marks=[pytest.mark.long] if scene.long or i % EVERY else []
-        )
-        for i, scene in enumerate(all_scenes())
-    ],
-)
+@pytest.mark.parametrize("scene", TAKEN, ids=lambda scene: f"{scene.family}: {scene.name}")
 def test_no_red_line(scene: Scene) -> None:
     outcome = outcome_of(scene)
     assert not outcome.is_red, (outcome.verdict, outcome.got, scene.expected, outcome.status, outcome.words)

@@ -7,12 +7,12 @@ import pytest
 from tests.extremes.outcome import outcome_of
 from tests.extremes.scenes import all_scenes
 
+pytestmark = pytest.mark.long
+
 WALLS = {scene.name: scene for scene in all_scenes() if scene.family == "friction" and "wall, assoc" in scene.name}
 
 
-@pytest.mark.parametrize(
-    "friction", ["1.0e-12", *(pytest.param(value, marks=pytest.mark.long) for value in ("1.0e-9", "1.0e-6"))]
-)
+@pytest.mark.parametrize("friction", ["1.0e-12", "1.0e-9", "1.0e-6"])
 def test_bounds_of_a_wall_that_hardly_rubs(friction: str) -> None:
     """Uncharged for what its forces leave unbalanced, the static bound at 1e-12 was 1.2e-12.
 

@@ -12,9 +12,11 @@ from mbla.solution.solution import PROVED_STANDING, Status
 from tests.properties.random_decks import random_deck
 from tests.properties.run_deck import run_deck, write_deck
 
+pytestmark = pytest.mark.long
+
 FEW = (0, 3, 10, 13, 23, 39, 46, 49)
 """one each of solved, without equilibrium, unbounded, convex, a dome on a tilting table, dilatancy and mortar"""
-MANY = range(60, 460)
+SEEDS = (*FEW, *range(60, 110))
 
 
 def check(seed: int, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -40,12 +42,6 @@ def check(seed: int, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["show", file]) == 0
 
 
-@pytest.mark.parametrize("seed", FEW)
-def test_a_few(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    check(seed, tmp_path, capsys)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("seed", MANY)
-def test_many(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_decks(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     check(seed, tmp_path, capsys)

@@ -8,13 +8,14 @@ import pytest
 
 from tests.performance.bench_sweep_memory import POINTS, watched
 
+pytestmark = pytest.mark.long
+
 GROWTH = 0.05
 """of the processes of points, whose structures to be shared are bounded in number and size"""
 KILOBYTES = 6.0
 """that the command may keep of each point, its answers and the values that were set, until the table is written"""
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("workers", [1, 2])
 def test_ten_thousand_points(tmp_path: Path, workers: int) -> None:
     found = watched(tmp_path, POINTS, workers)

@@ -19,6 +19,8 @@ from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.killed_sweeps import written
 
+pytestmark = pytest.mark.long
+
 POINTS = 24
 HEADER = 2
 """lines of a journal before its rows"""
@@ -62,7 +64,6 @@ def test_a_full_disk(path: Path, clean: Path, tmp_path: Path) -> None:
     check_clean(tmp_path / "full", clean)
 
 
-@pytest.mark.long
 def test_a_disk_that_is_full_when_the_table_is_written(path: Path, clean: Path, tmp_path: Path) -> None:
     """Every point is in the journal then, and none is solved again."""
     size = (clean / "journal.csv").stat().st_size
@@ -90,7 +91,6 @@ def test_a_loss_of_power(path: Path, clean: Path, tmp_path: Path) -> None:
     check_cut(path, clean, tmp_path / "cut", next(lengths(clean, 1)), b"\0" * 300)
 
 
-@pytest.mark.long
 def test_losses_of_power(path: Path, clean: Path, tmp_path: Path) -> None:
     for number, length in enumerate(lengths(clean, 20)):
         check_cut(path, clean, tmp_path / str(number), length, b"\0" * (number % 3 * 100))
@@ -117,7 +117,6 @@ def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixt
             assert re.fullmatch(rf"mbla: \S+/journal\.csv: process {first.pid} on \S+ is at work on it; .*\n", said)
 
 
-@pytest.mark.long
 def test_a_job_array(path: Path, clean: Path, tmp_path: Path) -> None:
     """Four jobs together, one of which is killed in the middle; a run of the whole goes on with what they left."""
     folder = tmp_path / "array"

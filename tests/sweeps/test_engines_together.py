@@ -12,10 +12,11 @@ from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.real_cluster import RealCluster, real_cluster
 from tests.sweeps.killed_sweeps import written
 
+pytestmark = pytest.mark.long
+
 ONE, TWO, CLUSTER = "one", "two", "cluster"
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("protocol", ["tcp", "tls"])
 def test_a_cluster_of_two_workers(tmp_path: Path, protocol: str) -> None:
     path, folder, clean = written(tmp_path, 60), tmp_path / "cluster", tmp_path / "clean"
@@ -29,7 +30,6 @@ def test_a_cluster_of_two_workers(tmp_path: Path, protocol: str) -> None:
     check_clean(folder, clean)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("engines", [(TWO, CLUSTER, ONE, TWO), (CLUSTER, TWO, ONE, CLUSTER)])
 def test_one_goes_on_where_another_was_killed(tmp_path: Path, engines: Sequence[str]) -> None:
     path, folder, clean = written(tmp_path, 200), tmp_path / "killed", tmp_path / "clean"

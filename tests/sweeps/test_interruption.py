@@ -13,6 +13,8 @@ from tests.sweeps.commands import DASK_LOCKS, Command, check_clean, nothing_left
 from tests.sweeps.engine.real_cluster import real_cluster
 from tests.sweeps.killed_sweeps import written
 
+pytestmark = pytest.mark.long
+
 STATUS = {signal.SIGINT: (130, "interrupted"), signal.SIGTERM: (143, "terminated")}
 
 
@@ -47,7 +49,6 @@ def test_interrupt_from_the_keyboard(tmp_path: Path) -> None:
     interrupt(written(tmp_path, 200), signal.SIGINT)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("number", STATUS)
 @pytest.mark.parametrize("options", [("-j", "1"), ("-j", "2")])
 def test_signals(tmp_path: Path, number: signal.Signals, options: Sequence[str]) -> None:
@@ -55,7 +56,6 @@ def test_signals(tmp_path: Path, number: signal.Signals, options: Sequence[str])
     check_goes_on(path, interrupt(path, number, options), options)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("number", STATUS)
 def test_signals_to_the_client_of_a_cluster(tmp_path: Path, number: signal.Signals) -> None:
     """Its workers go on without it, the processes of their points do not."""
@@ -64,7 +64,6 @@ def test_signals_to_the_client_of_a_cluster(tmp_path: Path, number: signal.Signa
         check_goes_on(path, interrupt(path, number, options), options)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_interrupted_twice(tmp_path: Path, workers: str) -> None:
     """Somebody who does not want to wait: the second one meets the first one's end."""

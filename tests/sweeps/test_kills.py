@@ -23,6 +23,8 @@ from tests.sweeps.killed_sweeps import (
     written,
 )
 
+pytestmark = pytest.mark.long
+
 OF_EACH_KIND = 3
 """kills of client, scheduler, nanny, worker and points by each way to a cluster: 45, and 80 without one"""
 
@@ -45,25 +47,22 @@ def test_client_and_process_killed_a_few_times(tmp_path: Path) -> None:
     check_like_clean(killed, clean, reported)
 
 
-@pytest.mark.long
-def test_sixty_kills_of_client_and_process(tmp_path: Path) -> None:
-    path = written(tmp_path, 1500)  # so many that no fast machine is done before the last kill
+def test_kills_of_client_and_process(tmp_path: Path) -> None:
+    path = written(tmp_path, 500)  # so many that no fast machine is done before the last kill
     killed, clean = scene(path, tmp_path / "killed"), scene(path, tmp_path / "clean")
-    kills, reported = with_kills(killed, 60, Random(2), 2.5, 0.6)
-    assert kills == 60
+    kills, reported = with_kills(killed, 20, Random(2), 2.5, 0.6)
+    assert kills == 20
     check_like_clean(killed, clean, reported)
 
 
-@pytest.mark.long
 def test_kills_with_two_workers(tmp_path: Path) -> None:
-    path = written(tmp_path, 1000)
+    path = written(tmp_path, 500)
     killed = scene(path, tmp_path / "killed", EngineOptions(workers=2))
-    kills, reported = with_kills(killed, 20, Random(3), 3.0, 0.5)
-    assert kills == 20
+    kills, reported = with_kills(killed, 10, Random(3), 3.0, 0.5)
+    assert kills == 10
     check_like_clean(killed, scene(path, tmp_path / "clean"), reported)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("way", ["file", "tcp", "tls"])
 def test_kills_in_a_cluster(tmp_path: Path, way: str) -> None:
     """Scheduler, nannies, workers, processes of points, client: whichever is hit."""

@@ -17,6 +17,8 @@ from tests.sweeps import faulty_child
 from tests.sweeps.faulty_child import HANGS, KILLS, LOG, TAKES
 from tests.sweeps.killed_sweeps import keys_in_journals
 
+pytestmark = pytest.mark.long
+
 POINTS = 8
 SWEEP = f"""\
 mbla_sweep: 1
@@ -38,7 +40,6 @@ REASONS = {
 """exit code, tries and reason of each; memory is tried again in a fresh process, so that no earlier point counts"""
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: str) -> None:
     """Each fails for its reason, is not begun again by --resume, and is by --retry-failed."""

@@ -3,9 +3,13 @@
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from mbla.results.notebook.run import Run
 from tests.browser import visited
 from tests.results.synthetic import tower_results
+
+pytestmark = pytest.mark.long
 
 
 def test_the_view_in_a_frame(browser: Any, tmp_path: Path) -> None:

@@ -13,6 +13,8 @@ from mbla.results.results import Results
 from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
+pytestmark = pytest.mark.long
+
 SMALL = PictureOptions(size=(200, 202), view=(-60.0, 25.0))
 
 

@@ -23,6 +23,8 @@ from tests.browser import Visit, visited
 from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
+pytestmark = pytest.mark.long
+
 WIDTHS = (1280, 390)
 EVIL = "<img src=x onerror=document.title='evil'><script>document.title='evil'</script>"
 
@@ -193,7 +195,6 @@ def test_a_view_begins_when_it_is_seen_and_turns(with_views: Visit) -> None:
     assert np.abs(before - after).max() > 50
 
 
-@pytest.mark.long
 def test_no_more_views_are_alive_than_a_browser_draws(with_views: Visit) -> None:
     page = with_views.page
     for i in range(MANY):

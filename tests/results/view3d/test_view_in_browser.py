@@ -14,6 +14,8 @@ from mbla.solution.solution import Status
 from tests.browser import Visit, visited
 from tests.results.synthetic import tower_results
 
+pytestmark = pytest.mark.long
+
 PLOT = ".mbla-view3d-plot"
 READY = "[data-mbla-ready]"
 

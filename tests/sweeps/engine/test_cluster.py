@@ -20,6 +20,8 @@ from tests.sweeps.engine.real_cluster import kill, real_cluster
 from tests.sweeps.engine.test_supervised import children, wait_for
 from tests.sweeps.small_plan import ROW, frictions, plan_over
 
+pytestmark = pytest.mark.long
+
 WALLS = tuple(Task(f"key{i}", i, {"parameters.n": 7, "parameters.mu": i / 50}) for i in range(1, 25))
 """points that take some tenths of a second each"""
 
@@ -43,7 +45,6 @@ def test_two_workers_of_this_machine(tmp_path: Path) -> None:
         wait_for(lambda: not set(children()) - before)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("workers", [1, 2])
 def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int) -> None:
     """In the middle of large points; another plan in the same workers goes on from there."""
@@ -61,7 +62,6 @@ def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int)
     wait_for(lambda: not set(children()) - before)
 
 
-@pytest.mark.long
 def test_over_tcp(tmp_path: Path) -> None:
     tasks = frictions(40)
     with real_cluster(tmp_path) as cluster:
@@ -71,7 +71,6 @@ def test_over_tcp(tmp_path: Path) -> None:
             check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
 
 
-@pytest.mark.long
 def test_over_tls(tmp_path: Path) -> None:
     tasks, files = frictions(20), write_certificates(tmp_path / "tls")
     options = [f"--tls-{name}={files[kind]}" for name, kind in (("ca-file", "ca"), ("cert", "cert"), ("key", "key"))]
@@ -90,7 +89,6 @@ def test_over_tls(tmp_path: Path) -> None:
                 pass
 
 
-@pytest.mark.long
 def test_workers_killed_in_the_middle(tmp_path: Path) -> None:
     """One of two workers is killed with its process of points, then another that came in its place."""
     with real_cluster(tmp_path) as cluster, engine_for(EngineOptions(scheduler=cluster.address)) as engine:
@@ -103,7 +101,6 @@ def test_workers_killed_in_the_middle(tmp_path: Path) -> None:
     check_answers(found, WALLS)
 
 
-@pytest.mark.long
 def test_scheduler_killed_in_the_middle(tmp_path: Path) -> None:
     with real_cluster(tmp_path) as cluster, engine_for(EngineOptions(scheduler=cluster.address)) as engine:
         begun = engine.run(plan_over(tmp_path, ROW), WALLS)
@@ -116,7 +113,6 @@ def test_scheduler_killed_in_the_middle(tmp_path: Path) -> None:
     assert all(outcome.state == DONE for outcome in found)
 
 
-@pytest.mark.long
 def test_all_workers_gone(tmp_path: Path) -> None:
     with real_cluster(tmp_path, 1) as cluster:
         with engine_for(EngineOptions(scheduler=cluster.address, patience=2.0)) as engine:
@@ -130,7 +126,6 @@ def test_all_workers_gone(tmp_path: Path) -> None:
             pass
 
 
-@pytest.mark.long
 def test_a_point_of_which_workers_die(tmp_path: Path) -> None:
     """The worker is killed whenever it has begun the one slow point; that point alone is given up."""
     slow = Task("slow", 9, {"parameters.n": 30})
@@ -162,7 +157,6 @@ def points_in(worker: int) -> bool:
     return any(path.read_text().split() for path in Path(f"/proc/{worker}/task").glob("*/children"))
 
 
-@pytest.mark.long
 def test_a_worker_with_another_mbla_or_other_libraries(tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.mkdir()

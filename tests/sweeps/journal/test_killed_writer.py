@@ -8,9 +8,14 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
+import pytest
+
 from mbla.sweeps.journal import Journal, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, as_read, point
+
+pytestmark = pytest.mark.long
+
 
 KILLS = 50
 IN_PIECES, AT_ONCE = 41, 10**9
