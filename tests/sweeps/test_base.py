@@ -8,13 +8,11 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from mbla.deck.overrides import RefusedError
 from mbla.errors import DeckError
-from mbla.sweeps.base import Base, check_points, read_base
+from mbla.sweeps.base import Base, check_points
 from mbla.sweeps.base_keys import path_of_key, unit_at
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
-from mbla.sweeps.file.read import read_sweep
 from mbla.sweeps.identity import fingerprint_of, key_hash
 from mbla.sweeps.plan import override_texts
 from tests.deck.decks import BLOCK, write
@@ -81,31 +79,9 @@ def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
     assert unit_at(path_of_key(base.tree.data, key), base.deck.units) == unit
 
 
-def test_no_key(tmp_path: Path) -> None:
-    with pytest.raises(RefusedError, match="unknown key thick in blocks"):
-        path_of_key(base_of(tmp_path).tree.data, "blocks.0.arch.thick")
-
-
-def test_a_whole_list_of_the_deck_may_change(tmp_path: Path) -> None:
-    base = base_of(tmp_path, GOOD + "  s: {key: masses, values: [[]]}\n")
-    assert base.paths["s"] == (("masses",),)
-    assert base.units["s"] == ""
-
-
-def test_texts_with_units_of_their_own_have_no_unit_of_the_column(tmp_path: Path) -> None:
-    text = GOOD.replace("t: {values: [0.1, 0.15, 0.2]}", 'w: {key: blocks.0.arch.width, values: ["20 cm", 0.3]}')
-    assert base_of(tmp_path, text).units["w"] == ""
-
-
 def test_a_vector_with_expressions_is_evaluated(tmp_path: Path) -> None:
     deck = ARCH.replace("acceleration: [1, 0, 0]", 'acceleration: ["=2*radius", 0, -0.5]')
     assert base_of(tmp_path, ALL_WAYS, deck).vectors["d"] == (2.0, 0.0, -0.5)
-
-
-def test_overrides_come_after_set(tmp_path: Path) -> None:
-    base = base_of(tmp_path, ALL_WAYS, ARCH, "blocks.0.arch.width=0.7")
-    assert base.deck.content.blocks[0].arch is not None
-    assert base.deck.content.blocks[0].arch.width == 0.7
 
 
 @pytest.mark.parametrize(
@@ -133,12 +109,6 @@ def test_faults_of_the_deck_are_its_own(tmp_path: Path) -> None:
     assert [str(fault) for fault in caught.value.faults] == [
         f"{tmp_path}/deck.yaml:17:14 blocks[0].arch.width = 0: must be > 0"
     ]
-
-
-def test_the_deck_may_lie_anywhere(tmp_path: Path) -> None:
-    write(tmp_path / "decks", ARCH)
-    sweep = write(tmp_path / "sweeps", GOOD.replace("deck.yaml", "../decks/deck.yaml"), "sweep.yaml")
-    assert read_base(read_sweep(sweep)).path == tmp_path.resolve() / "decks" / "deck.yaml"
 
 
 def test_what_another_parameter_brings_into_use_has_an_effect(tmp_path: Path) -> None:
@@ -181,14 +151,6 @@ def test_a_sweep_with_a_corner_that_cannot_be_read_begins(tmp_path: Path) -> Non
 
 
 EXPECTING = ARCH + 'expected: {push_x: {load_factor: "=sqrt(t - 0.12)/spare", source: "closed form", tolerance: 1.}}\n'
-
-
-def test_expectations_of_the_deck_are_not_those_of_its_points(tmp_path: Path) -> None:
-    """They are defined at the values of the deck, and need not be elsewhere: 0.1 - 0.12 has no root."""
-    base = base_of(tmp_path, GOOD.replace("[0.1, 0.15, 0.2]", "[0.1, 0.11]"), EXPECTING)
-    with pytest.raises(DeckError, match="is not defined"):
-        read_deck(base.path, ("parameters.t=0.1",))
-    check_points(base, points_of(base))
 
 
 def test_a_parameter_that_only_an_expectation_uses_has_no_effect(tmp_path: Path) -> None:
@@ -234,22 +196,6 @@ def test_what_counts(tmp_path: Path, change: Callable[[str], str]) -> None:
     assert fingerprint(tmp_path, change(ARCH)) != fingerprint(tmp_path, ARCH)
 
 
-def test_a_fixed_value_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
-    other = ARCH.replace("width: 0.3", "width: 0.5")
-    assert fingerprint(tmp_path, ARCH, "blocks.0.arch.width=0.5", "title=x") == fingerprint(tmp_path, other)
-
-
-def test_an_included_part_is_as_if_the_deck_had_it(tmp_path: Path) -> None:
-    joints = ARCH[ARCH.index("joints:") : ARCH.index("blocks:")]
-    write(tmp_path / "two", joints, "joints.yaml")
-    two = fingerprint(tmp_path / "two", ARCH.replace(joints, "include: [joints.yaml]\n"))
-    assert two == fingerprint(tmp_path / "one", ARCH)
-
-
-def test_fingerprint_of_the_base_is_what_workers_compute(base: Base) -> None:
-    assert fingerprint_of(base.path, base.fixed) == base.fingerprint
-
-
 def test_a_deck_has_the_same_fingerprint_for_good(tmp_path: Path) -> None:
     """A journal names it: another value here is another format of journals, to be said in the release notes."""
     assert fingerprint(tmp_path, BLOCK) == "d8ee98c44b2103e6d825a239e2921eb677d4c780a913f510f9c85ff282ca98fe"
@@ -275,15 +221,6 @@ def test_keys_of_points(base: Base) -> None:
     assert base.key_of({"parameters.t": 0.1, "parameters.mu": 0.3}) == base.key_of(
         {"parameters.mu": 0.3, "parameters.t": 0.1}
     )
-
-
-def test_keys_are_those_of_the_base(tmp_path: Path) -> None:
-    one = base_of(tmp_path / "one")
-    other = base_of(tmp_path / "two", GOOD, ARCH.replace("width: 0.3", "width: 0.4"))
-    again = base_of(tmp_path / "three", "# words\n" + GOOD)
-    settings = {"parameters.mu": 0.3}
-    assert one.key_of(settings) != other.key_of(settings)
-    assert one.key_of(settings) == again.key_of(settings)
 
 
 def test_the_key_of_a_point_is_the_same_for_good() -> None:
@@ -321,21 +258,6 @@ def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, obje
     assert a.fingerprint == b.fingerprint
     assert a.key_of(settings) != b.key_of(settings)  # type: ignore[arg-type]
     assert a.key_of({"parameters.mu": 1.0}) == b.key_of({"parameters.mu": 1.0})
-
-
-def test_a_file_that_several_points_name_is_read_once(tmp_path: Path) -> None:
-    """What a sweep is made of does not change while its points are numbered."""
-    base = with_tables(tmp_path, -1, -2)
-    settings = {"load_cases.push_x.live.0.table": "more.csv"}
-    first = base.key_of(settings)
-    (tmp_path / "more.csv").unlink()
-    assert base.key_of(settings) == first
-
-
-def test_a_text_that_names_no_file_is_no_deck(tmp_path: Path) -> None:
-    text = GOOD.replace("deck: deck.yaml", f"deck: {'a' * 4001}")
-    with pytest.raises(DeckError, match=r"sweep\.yaml:3:7 deck = .*: is not a file name"):
-        base_of(tmp_path, text)
 
 
 def test_a_file_that_is_missing_is_a_fault_of_its_point(tmp_path: Path) -> None:

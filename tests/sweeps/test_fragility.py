@@ -15,7 +15,6 @@ from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.records.json_record import json_line
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
-from mbla.sweeps.design.sampling import quantiles
 from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of, interval
 from mbla.sweeps.plan import DONE, FAILED, Outcome
 from mbla.sweeps.results import result_columns
@@ -93,12 +92,6 @@ def test_the_interval_holds_its_confidence_over_many_samples(confidence: float) 
     assert coverage(list(draws), confidence) >= confidence - scatter
 
 
-def test_the_interval_is_too_wide_for_a_latin_hypercube() -> None:
-    """The friction alone is sampled: every sample has nearly the same count, so that the interval always holds."""
-    draws = [FRICTION.ppf(quantiles("latin_hypercube", POINTS, seed, ["mu"])[:, 0]) for seed in range(200)]
-    assert coverage(draws, 0.5) == 1.0
-
-
 @pytest.mark.parametrize(("below", "points"), [(0, 20), (1, 20), (7, 20), (20, 20), (3, 500)])
 def test_the_interval_is_that_of_clopper_and_pearson(below: int, points: int) -> None:
     lower, upper = interval(np.array([below]), 0, points, 0.95)
@@ -141,16 +134,6 @@ def test_a_failed_point_is_counted_both_ways() -> None:
     assert "counted both as below and as above a demand" in text
 
 
-def test_nothing_known_says_nothing() -> None:
-    (found,) = fragility_of(table_of([[MIXED[4]] * 3]), "load_factor", (0.3,), 0.95)
-    assert (found.lower[0], found.upper[0]) == (0.0, 1.0)
-
-
-def test_only_load_factors_have_a_side_where_nothing_stands() -> None:
-    (found,) = fragility_of(table_of([MIXED[:4]]), "mechanism.moving_weight_share", (0.3,), 0.95)
-    assert (found.below.tolist(), found.unknown) == ([1], 2)
-
-
 # --- words and files ----------------------------------------------------------------------------------------------
 
 
@@ -174,11 +157,6 @@ def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
     assert lines[1].split() == ["t", "[m]", "demand", "points", "below", "unknown", "probability", "interval"]
     assert lines[2].split() == ["0.25", "0.15", "2", "1", "0", "0.5000", "0.0253", "to", "0.9747"]
     assert "Sobol" in " ".join(lines[6:])
-
-
-def test_points_drawn_at_random_need_no_remark() -> None:
-    lines = fragility_lines(fragility_of(table_of([solved([0.1, 0.2])]), "load_factor", (0.15,), 0.95))
-    assert len(lines) == 3
 
 
 def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
@@ -209,7 +187,3 @@ def test_a_result_that_is_none_is_refused(result: str, words: str) -> None:
 def test_a_design_without_a_sample_is_refused() -> None:
     with pytest.raises(UsageError, match="random design"):
         fragility_of(replace(table_of([solved([0.1])]), samples=""), "load_factor", (0.1,), 0.95)
-
-
-def test_without_demands_there_is_no_text_of_a_file() -> None:
-    assert fragility_csv(()) == ""

@@ -15,20 +15,12 @@ def test_a_line_has_counts_rate_and_time_left() -> None:
     assert progress.bar() == "[##......................] 10 of 100 points, 1 failed, 2 points/s, 45 s left"
 
 
-def test_before_the_first_point_nothing_is_said_of_a_rate() -> None:
-    assert Progress(total=7).words() == "0 of 7 points"
-
-
 def test_nothing_is_left_at_the_end() -> None:
     progress = Progress(total=2)
     progress.add(failed=False, seconds=1.0)
     progress.add(failed=False, seconds=2.0)
     assert progress.words() == "2 of 2 points, 1 points/s"
     assert progress.bar().startswith("[########################]")
-
-
-def test_nothing_to_do_is_a_full_bar() -> None:
-    assert Progress(total=0, earlier=5).bar() == "[########################] 0 of 0 points"
 
 
 def test_the_rate_follows_the_last_points() -> None:
@@ -61,11 +53,3 @@ def test_slow_rates_are_told_by_the_minute_or_the_hour(rate: float, words: str) 
 )
 def test_durations_have_two_units_at_most(seconds: float, words: str) -> None:
     assert duration_words(seconds) == words
-
-
-def test_the_start_of_processes_is_not_charged_to_the_points() -> None:
-    progress = Progress(total=100)
-    progress.add(failed=False, seconds=4.0)
-    assert progress.words() == "1 of 100 points"
-    progress.add(failed=False, seconds=4.1)
-    assert progress.words() == "2 of 100 points, 10 points/s, 9 s left"

@@ -10,7 +10,6 @@ import pytest
 import mbla
 from mbla.deck.units import Units
 from mbla.results.records.json_record import results_json
-from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.results import reason_of, result_columns, result_faults, result_places, values_of
 from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_results
@@ -75,14 +74,6 @@ def test_paths_that_are_none_are_told_with_what_is_meant(path: str, words: str) 
     assert re.fullmatch(r"[^\n]+", fault)
 
 
-def test_a_path_that_stands_twice_is_a_fault() -> None:
-    assert result_faults(["status", "status"]) == ((1, "stands twice"),)
-
-
-def test_results_unless_others_are_asked_for() -> None:
-    assert result_faults(SweepContent.model_fields["results"].get_default(call_default_factory=True)) == ()
-
-
 def test_several_load_cases_have_a_column_each() -> None:
     columns = result_columns(["status", "model.blocks", "load_factor"], ["x", "y"], Units())
     assert [column.name for column in columns] == [
@@ -105,11 +96,6 @@ def test_values_of_a_case_and_of_the_run(record: dict[str, Any]) -> None:
 def test_names_with_full_stops_are_found() -> None:
     record = {"cases": [{"name": "c", "supports": {"ground z = 0.5": {"force": [1.0, 2.0]}}}], "series": []}
     assert values(record, "supports.ground z = 0.5.force.1", cases=("c",)) == {"supports.ground z = 0.5.force.1": 2.0}
-
-
-def test_objects_and_missing_cases_are_no_values(record: dict[str, Any]) -> None:
-    assert values(record, "mechanism") == {"mechanism": None}
-    assert values(record, "load_factor", cases=("another",)) == {"load_factor": None}
 
 
 def series(*positions: tuple[str, float | None], worst: int | None) -> dict[str, Any]:

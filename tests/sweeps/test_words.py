@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mbla.results.listing.text import WIDTH
 from mbla.sweeps.tables.sweep_table import sweep_table
-from mbla.sweeps.words import NAMED, failure_lines, result_lines, sweep_lines
+from mbla.sweeps.words import failure_lines, result_lines, sweep_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic
 
@@ -44,39 +43,6 @@ def test_values_that_are_shown_alike_have_no_least_and_no_greatest_point() -> No
     lines = [" ".join(line.split()) for line in result_lines(table)]
     assert "load_factor 0.25 all 0.25 all" in lines
     assert not any(line.startswith("point ") for line in lines)
-
-
-def test_the_first_of_points_that_cannot_be_told_apart_is_named() -> None:
-    """So that two results that have their least value at the same point name the same one."""
-    table = grid({"mu": [0.2, 0.3, 0.4]}, lambda mu: {"status": "solved", "load_factor": max(0.3, mu) - 1e-9 * mu})
-    assert "load_factor 0.3 1 0.4 3" in [" ".join(line.split()) for line in result_lines(table)]
-
-
-def test_no_verified_value_at_all() -> None:
-    table = grid({"mu": [0.8, 0.9]}, lambda mu: two_bounds(mu))
-    lines = [" ".join(line.split()) for line in result_lines(table)]
-    assert "load_factor - - - - 2" in lines
-    assert not any(line.startswith("point ") for line in lines)
-
-
-def test_many_extreme_points_are_counted_and_every_line_has_room() -> None:
-    """Each of ten results is least and greatest at points of its own."""
-
-    def solve(n: int) -> Row:
-        results = {f"result_{i}": float(abs(n - 2 * i) if n // 2 == i else 0.5) for i in range(10)}
-        return {"status": "solved", "load_factor": 1.0, "mechanism.class": "sliding", **results}
-
-    lines = result_lines(grid({"n": list(range(20)), "name": ["a" * 40]}, lambda n, name: solve(n)))
-    assert sum(line.startswith("  point ") for line in lines) == NAMED
-    assert "  14 further points: see sweep.csv" in lines
-    assert max(map(len, lines)) <= WIDTH
-
-
-def test_of_many_texts_the_most_common_are_told() -> None:
-    """Eight of ten, each as often as it is there."""
-    table = grid({"n": list(range(11))}, lambda n: {"status": f"state {min(n, 9)}", "load_factor": 1.0})
-    told = " ".join(" ".join(result_lines(table)).split())
-    assert told.startswith("status state 9 2, " + ", ".join(f"state {n} 1" for n in range(7)) + ", 2 others result")
 
 
 def test_notices_of_the_deck_stand_between_results_and_time() -> None:

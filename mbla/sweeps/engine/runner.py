@@ -52,7 +52,18 @@ def keep_files(plan: Plan, task: Task, results: Results, status: str, output: Ou
 ON_REQUEST = frozenset(
     {
         *("best_iterate", "complete", "factor_unique", "greatest_load_factor", "iterations", "least_load_factor"),
-        *("path", "peak", "programs", "range", "reductions", "remarks", "settings", "solver", "spread", "time"),
+        *(
+            "path",
+            "peak_load_factor",
+            "programs",
+            "range",
+            "reductions",
+            "remarks",
+            "settings",
+            "solver",
+            "spread",
+            "time",
+        ),
     }
 )
 """first keys of columns that need, or may depend on, the range of the load factor or a peak on the way to it"""

@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.errors import DeckError
 from tests.sweeps.design.hand_made import column, design
 
 MU = {"key": "joints.dry.friction", "values": [0.5, 0.6, 0.7]}
@@ -20,11 +19,6 @@ def test_the_last_parameter_of_a_grid_changes_fastest() -> None:
     assert [column.dimension for column in found.columns] == ["mu", "t"]
     assert found.points[3].position == (1, 1)
     assert found.points[3].settings == {"joints.dry.friction": 0.6, "blocks.0.t": 2}
-
-
-def test_the_order_of_a_part_is_that_of_its_list() -> None:
-    found = design({"mu": MU, "t": T}, design=[{"grid": {"of": ["t", "mu"]}}])
-    assert [point.values for point in found.points][:4] == [(1, 0.5), (1, 0.6), (1, 0.7), (2, 0.5)]
 
 
 def test_a_zip_takes_first_with_first() -> None:
@@ -45,12 +39,6 @@ def test_parts_are_combined_and_the_rest_goes_to_the_part_that_names_none() -> N
     assert len(set(column(found, "g"))) == 3
 
 
-def test_parts_of_one_kind_have_different_dimensions_that_are_no_parameters() -> None:
-    parameters = {name: {"key": name, "values": [1, 2]} for name in ("a", "b", "zip")}
-    found = design(parameters, design=[{"zip": {"of": ["a"]}}, {"zip": {"of": ["b"]}}, {"grid": {"of": ["zip"]}}])
-    assert [dimension.name for dimension in found.dimensions] == ["zip_2", "zip_3", "zip"]
-
-
 def test_a_value_goes_to_every_key_and_to_the_parameter_of_the_deck_where_none_is_given() -> None:
     parameters = {
         "both": {"key": ["a.x", "b.x"], "values": [1]},
@@ -59,18 +47,6 @@ def test_a_value_goes_to_every_key_and_to_the_parameter_of_the_deck_where_none_i
     }
     [point] = design(parameters).points
     assert point.settings == {"a.x": 1, "b.x": 1, "parameters.mu": 2, "joints.dry.cohesion": 3}
-
-
-def test_units_are_those_of_the_deck_and_else_of_the_file() -> None:
-    a = {"key": "a", "values": [1.5], "unit": "mm"}
-    assert [column.unit for column in design({"a": a}, units={"a": "m"}).columns] == ["m"]
-    assert [column.unit for column in design({"a": a}).columns] == ["mm"]
-
-
-def test_levels_of_which_constraints_leave_no_point_are_told() -> None:
-    found = design({"a": {"values": [1, 2, 3]}, "b": {"values": [0.5, 7]}}, constraints=["a > 1", "b < a"])
-    assert [point.values for point in found.points] == [(2, 0.5), (3, 0.5)]
-    assert found.levels == ((1, 2, 3), (0.5, 7))
 
 
 NORMAL = {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}
@@ -116,13 +92,6 @@ def test_the_order_of_parameters_does_not_change_what_is_drawn() -> None:
     for kind in ("random", "latin_hypercube", "sobol"):
         one, other = (design(p, design=[{kind: {"points": 8}}]) for p in (parameters, backwards))
         assert [dict(point.settings) for point in one.points] == [dict(point.settings) for point in other.points]
-
-
-def test_faults_of_all_parameters_are_told_at_once() -> None:
-    close = {"key": "n", "linear": {"from": 1, "to": 1.000000000000001, "points": 9}}
-    with pytest.raises(DeckError) as caught:
-        design({"n": close, "t": T, "g": {"key": "g", "sphere": {"points": 2}}})
-    assert [fault.key for fault in caught.value.faults] == ["parameters.n.linear", "parameters.g.sphere"]
 
 
 def _part(kind: str, names: list[str], points: int) -> dict[str, Any]:

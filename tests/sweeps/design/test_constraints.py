@@ -45,10 +45,6 @@ def test_points_that_break_a_constraint_are_left_out() -> None:
     assert kept("t < 0.2*radius") == {(0.2, 2), (0.2, 3), (0.4, 3)}
 
 
-def test_every_constraint_must_hold() -> None:
-    assert kept("t < 0.2*radius", "radius > 2") == {(0.2, 3), (0.4, 3)}
-
-
 def test_comparisons_may_be_chained() -> None:
     assert kept("0.3 < t <= 0.6") == {(t, r) for t, r in ALL if t in (0.4, 0.6)}
 
@@ -81,11 +77,6 @@ def test_a_parameter_of_the_deck_that_the_sweep_gives_an_expression() -> None:
         ("=c", 1),
         ("=c", 2),
     ]
-
-
-def test_an_azimuth_is_compared_in_degrees() -> None:
-    found = design(PARAMETERS, constraints=["wind < 100"], vectors={"wind": (1, 0, 0)})
-    assert set(column(found, "wind")) == {0, 90}
 
 
 def test_how_many_points_break_each_constraint() -> None:
@@ -140,22 +131,6 @@ def test_refusals(text: str, message: str) -> None:
     [(key, told)] = message_of(text)
     assert key == "constraints[0]"
     assert told.startswith(message)
-
-
-def test_faults_of_all_constraints_are_told_at_once() -> None:
-    assert [key for key, _ in message_of("t < 1", "t + 1", "x > 2")] == ["constraints[1]", "constraints[2]"]
-    lost: dict[str, Any] = {"key": "g", "sphere": {"points": 2}}
-    assert {key for key, _ in message_of("t + 1", g=lost)} == {"constraints[0]", "parameters.g.sphere"}
-
-
-def test_a_name_of_the_sweep_and_of_the_deck_is_ambiguous() -> None:
-    [(_, told)] = message_of("fixed < 3", fixed={"key": "other", "values": [1]})
-    assert told == "fixed is a parameter of the sweep and another one of the deck: rename one of them"
-
-
-def test_a_parameter_with_the_name_of_a_constant_is_not_taken_for_it() -> None:
-    [(_, told)] = message_of("e < 3", e={"key": "other", "values": [1]})
-    assert told == "e is 2.71828 in expressions: give the parameter another name"
 
 
 def test_a_design_of_which_nothing_is_left_is_refused() -> None:

@@ -38,13 +38,6 @@ def test_sine_and_cosine_of_the_common_angles() -> None:
     assert [sine_cosine(angle) for angle in (135, 225, 315)] == [(half, -half), (-half, -half), (-half, half)]
 
 
-def test_sine_and_cosine_of_other_angles() -> None:
-    angles = np.linspace(-720, 720, 1001)
-    found = np.array([sine_cosine(angle) for angle in angles])
-    assert found[:, 0] == pytest.approx(np.sin(np.radians(angles)), abs=3e-15)
-    assert found[:, 1] == pytest.approx(np.cos(np.radians(angles)), abs=3e-15)
-
-
 def test_the_horizon_turns_the_horizontal_part_and_keeps_the_vertical_one() -> None:
     found = directions({"horizon": {"points": 4}})
     assert vectors_of(found).tolist() == [[5, 0, -12], [0, 5, -12], [-5, 0, -12], [0, -5, -12]]
@@ -58,15 +51,6 @@ def test_an_arc_has_both_ends() -> None:
 
 def test_a_full_circle_may_begin_anywhere() -> None:
     assert column(directions({"horizon": {"from": -60, "to": 300, "points": 6}}), "x") == [-60, 0, 60, 120, 180, 240]
-
-
-def test_one_direction_is_the_first() -> None:
-    assert column(directions({"horizon": {"from": 30, "points": 1}}), "x") == [30]
-
-
-def test_the_size_may_be_given() -> None:
-    found = vectors_of(directions({"horizon": {"points": 2, "size": 0.2}}))
-    assert found.tolist() == [[0.2, 0, -12], [-0.2, 0, -12]]
 
 
 def test_drawn_azimuths_are_uniform() -> None:

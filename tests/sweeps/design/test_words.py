@@ -47,14 +47,6 @@ def test_a_design_is_listed_with_parts_counts_and_every_point() -> None:
     ]
 
 
-def test_seeds_and_remarks_are_told() -> None:
-    drawn = {"n": {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}, "m": {"key": "m", "values": [1, 2]}}
-    lines = design_lines(design(drawn, design=[{"sobol": {"points": 3, "seed": 5}}]))
-    assert "  sobol                           n and m: 3 points, seed 5" in lines
-    assert any(line.startswith("  3 points of a Sobol sequence are spread less evenly") for line in lines)
-    assert any(line.startswith("  sobol: m has no distribution") for line in lines)
-
-
 def test_many_columns_go_below_each_other_and_none_is_lost() -> None:
     parameters = {f"a_long_name_{i}": {"key": f"k{i}", "values": [i + 0.5, i + 0.25]} for i in range(20)}
     lines = design_lines(design(parameters, design=[{"zip": {}}]))
@@ -70,8 +62,3 @@ def test_a_column_shows_as_many_digits_as_tell_its_values_apart() -> None:
     assert [line.split()[1] for line in lines[-2:]] == ["1000000", "1000000.25"]
     lines = design_lines(design({"x": {"key": "x", "values": [0.1, 0.1 + 1e-14]}}))
     assert [line.split()[1] for line in lines[-2:]] == ["0.1", "0.1"]  # twelve digits are the most
-
-
-def test_long_texts_are_shortened() -> None:
-    lines = design_lines(design({"x": {"key": "x", "values": [[0.123456] * 10, "a"]}}))
-    assert lines[-2] == "      1  [0.123456, .., 0.123456]"

@@ -10,7 +10,6 @@ import pytest
 from mbla.errors import UsageError
 from mbla.sweeps.engine import on_worker
 from mbla.sweeps.engine.on_worker import Processes, end_processes, run_batch
-from mbla.sweeps.engine.supervised import StoppedError
 from mbla.sweeps.identity import library_versions
 from mbla.sweeps.plan import DONE, Outcome, Plan, Task, record_of
 from tests.sweeps.small_plan import frictions, plan_over
@@ -93,16 +92,6 @@ def test_a_process_that_refuses_the_plan_leaves_what_was_solved(
     processes.end()
 
 
-def test_what_was_stopped_is_nobodys_fault(
-    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(Runner, "error", StoppedError())
-    found = answer(tmp_path)
-    assert keys(found) == ["key1"]
-    assert "refused" not in found
-    processes.end()
-
-
 def test_a_process_is_kept_for_the_next_batch_of_the_same_plan_only(processes: Processes, tmp_path: Path) -> None:
     plan, other = plan_over(tmp_path), plan_over(tmp_path, keep="all")
     first = lent(processes, plan)
@@ -119,16 +108,6 @@ def test_a_process_is_kept_for_the_next_batch_of_the_same_plan_only(processes: P
     processes.give_back(late)
     processes.end()
     assert late.ended
-
-
-def test_the_end_stops_what_is_under_way_and_keeps_nothing(processes: Processes, tmp_path: Path) -> None:
-    runner = lent(processes, plan_over(tmp_path))
-    processes.end()
-    assert runner.stopped
-    assert not runner.ended  # by the thread that has it
-    processes.give_back(runner)
-    assert runner.ended
-    processes.end()
 
 
 def test_processes_that_nobody_asks_for_are_ended(

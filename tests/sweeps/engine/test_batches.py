@@ -35,13 +35,6 @@ def test_each_task_once_and_in_order_with_small_portions_at_the_end() -> None:
     assert sizes[-1] == 1
 
 
-def test_what_is_given_back_comes_next() -> None:
-    batches = Batches(frictions(3))
-    first = batches.take(1)
-    batches.give_back(first)
-    assert batches.take(1) == first
-
-
 def test_after_a_death_points_go_alone_and_are_given_up_at_the_second() -> None:
     batches = Batches(frictions(10))
     batches.learn(took(0.1))

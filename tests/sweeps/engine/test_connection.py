@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import threading
 from pathlib import Path
 from typing import Any
@@ -43,24 +42,10 @@ def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     assert script.asked == ["close"]
 
 
-@pytest.mark.parametrize("error", [TimeoutError(), OSError("connection reset")])
-def test_a_scheduler_that_does_not_say_what_workers_it_has(monkeypatch: pytest.MonkeyPatch, error: OSError) -> None:
-    assert refusal(monkeypatch, Script(threads=(error,))) == GONE
-
-
 def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     script = Script(refusal=OSError("Timed out\n  during handshake"))
     words = f"no connection to the scheduler {ADDRESS}: Timed out during handshake"
     assert refusal(monkeypatch, script) == words
-
-
-def test_a_tls_address_without_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
-    refused = ValueError()
-    refused.__cause__ = OSError("certificate required")
-    assert refusal(monkeypatch, Script(refusal=refused), scheduler="tls://host:8786") == (
-        "no connection to the scheduler tls://host:8786: certificate required"
-        "; a tls:// address needs --tls-ca-file, --tls-cert and --tls-key"
-    )
 
 
 def test_certificates_are_handed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -115,19 +100,6 @@ def test_a_scheduler_file_that_is_none(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert words == f"--scheduler-file {path}: not a file that `dask scheduler --scheduler-file` wrote"
 
 
-def test_a_scheduler_file_that_cannot_be_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    words = refusal(monkeypatch, Script(), scheduler="", scheduler_file=tmp_path)
-    assert words == f"--scheduler-file {tmp_path}: Is a directory"
-
-
-def test_the_scheduler_of_a_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    path = tmp_path / "scheduler.json"
-    path.write_text('{"address": "tcp://other:1"}', encoding="utf-8")
-    script = Script(refusal=OSError("closed"))
-    words = refusal(monkeypatch, script, scheduler="", scheduler_file=path)
-    assert words == "no connection to the scheduler tcp://other:1: closed"
-
-
 def test_what_takes_too_long_is_not_waited_for() -> None:
     def fail() -> None:
         raise KeyError("none")
@@ -139,9 +111,3 @@ def test_what_takes_too_long_is_not_waited_for() -> None:
     with pytest.raises(TimeoutError):
         connection.within(0.01, over.wait)
     over.set()
-
-
-def test_an_extra_that_is_half_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "distributed.scheduler", None)
-    with pytest.raises(UsageError, match=r"an extra that is not installed: pip install 'mbla\[dask\]'$"):
-        connection.dask_parts()

@@ -21,14 +21,6 @@ def process_that(code: str) -> LineProcess:
     return process
 
 
-def test_before_it_is_begun_there_is_nothing_to_say_or_to_end() -> None:
-    process = LineProcess((sys.executable, "-c", ""))
-    process.kill()
-    process.stop()
-    assert not process.runs()
-    assert process.last_words() == ""
-
-
 def test_one_that_cannot_be_begun(tmp_path: os.PathLike[str]) -> None:
     process = LineProcess((f"{tmp_path}/none",))
     with pytest.raises(FileNotFoundError):
@@ -63,17 +55,3 @@ def test_one_that_closed_its_output_and_does_not_end_is_ended(
     assert process.runs()
     assert process.death() == f"its process closed its output and did not end{told}"
     assert not process.runs()
-
-
-def test_a_signal_without_a_name_is_told_by_its_number() -> None:
-    process = LineProcess(())
-    assert process.words_of(-9) == "its process was ended by SIGKILL, as the system does where memory runs out"
-    assert process.words_of(-200) == "its process was ended by signal 200"
-
-
-def test_it_is_ended_where_the_system_has_no_groups_of_processes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr(os, "killpg")
-    process = process_that("time.sleep(60)")
-    process.kill()
-    assert process.next(time.monotonic() + 30.0) is None
-    assert process.death() == "its process was ended by SIGKILL, as the system does where memory runs out"

@@ -6,7 +6,6 @@ import io
 import json
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mbla.deck import read_deck
@@ -15,9 +14,7 @@ from mbla.results.records.description import RUN_RECORD
 from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.solution import further_results as beside
 from mbla.sweeps.engine.runner import ON_REQUEST, PointRunner, requested_only
-from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plan, Task, override_texts
 from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
 
@@ -68,16 +65,16 @@ def test_nothing_else_changes_in_any_deck() -> None:
 
 @pytest.mark.parametrize(
     ("results", "keep"),
-    [(("load_factor", "range.0"), "none"), (("peak",), "none"), (("factor_unique",), "none"), (("status",), "failed")],
+    [
+        (("load_factor", "range.0"), "none"),
+        (("peak_load_factor",), "none"),
+        (("factor_unique",), "none"),
+        (("status",), "failed"),
+    ],
 )
 def test_they_are_worked_out_where_they_are_shown_or_kept(results: tuple[str, ...], keep: str) -> None:
     deck = read_deck(DECKS / ARCH)
     assert requested_only(deck, plan_of(ARCH, *results, keep=keep)) is deck
-
-
-def test_the_default_columns_need_neither() -> None:
-    default = SweepContent.model_fields["results"].get_default(call_default_factory=True)
-    assert requested_only(read_deck(DECKS / ARCH), plan_of(ARCH, *default)).analysis.range is False
 
 
 def test_every_key_on_request_is_one_of_the_record() -> None:
@@ -95,16 +92,3 @@ def test_a_column_of_the_range_shows_it() -> None:
     assert isinstance(high, float)
     assert low <= factor * (1 + 1e-7)
     assert factor <= high * (1 + 1e-7)
-
-
-def test_a_load_factor_survives_a_range_whose_equations_break_down(monkeypatch: pytest.MonkeyPatch) -> None:
-    expected = record_of(ARCH, SMALL_ARCH, None)["cases"][0]
-
-    def singular(*args: object) -> None:
-        raise np.linalg.LinAlgError("Singular matrix")
-
-    monkeypatch.setattr(beside, "factor_range", singular)
-    case = record_of(ARCH, SMALL_ARCH, None)["cases"][0]
-    assert (case["status"], case["load_factor"]) == ("solved", expected["load_factor"])
-    assert case["range"] is None
-    assert any("broke down (singular matrix)" in remark for remark in case["remarks"])

@@ -48,13 +48,6 @@ def test_every_kind_of_deck_and_setting_is_answered_as_from_scratch(seed: int) -
     assert set(memory.found) >= {"structure", "contacts", "standing"}
 
 
-@pytest.mark.long
-def test_with_room_for_two_results_too() -> None:
-    memory = Memory(most_results=2)
-    assert not differing(in_random_order(POINTS, 5), memory)
-    assert len(memory) <= 2
-
-
 def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})

@@ -194,33 +194,3 @@ def test_stopped_from_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyP
             runner.run(TASK)
         thread.join()
         assert runner.started == 1
-
-
-def test_stopped_before_it_begins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with runner_that(monkeypatch, plan_over(tmp_path), "pass") as runner:
-        runner.kill()
-        with pytest.raises(StoppedError):
-            runner.run(TASK)
-        assert runner.started == 0
-
-
-def test_one_that_is_always_killed_while_it_starts_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.sweeps.engine.supervised.STARTS", 3)
-    killed = "import os; os.kill(os.getpid(), 9)\n"
-    with runner_that(monkeypatch, plan_over(tmp_path), "pass", before=killed) as runner:
-        with pytest.raises(UsageError) as caught:
-            runner.run(TASK)
-        assert runner.started == 3
-    assert str(caught.value) == (
-        "the process that solves points cannot be started: "
-        "its process was ended by SIGKILL, as the system does where memory runs out"
-    )
-
-
-def test_one_that_ends_when_it_hears_the_plan(tmp_path: Path) -> None:
-    code = "import sys; print('{}', flush=True); sys.stdin.readline(); sys.exit('no room')"
-    with (
-        SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner,
-        pytest.raises(UsageError, match=r"cannot be started: its process ended with status 1: no room$"),
-    ):
-        runner.run(TASK)

@@ -8,12 +8,10 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from mbla.errors import DeckError, FileError, Message
+from mbla.errors import DeckError, Message
 from mbla.sweeps.file.content import MAX_POINTS
 from mbla.sweeps.file.parts import WAYS, design_parts, is_random, key_paths, level_count, spelt, way_of
 from mbla.sweeps.file.read import Sweep, read_sweep
-from mbla.sweeps.results import OWN_COLUMNS
-from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
 
@@ -68,11 +66,6 @@ def test_parts_of_the_design(tmp_path: Path) -> None:
     assert [is_random(part, content) for part in parts] == [False, False, True, True, True, False]
 
 
-def test_without_a_design_there_is_one_grid(tmp_path: Path) -> None:
-    (part,) = design_parts(sweep_of(tmp_path, GOOD).content)
-    assert (part.kind, part.names, part.path) == ("grid", ("mu", "t"), ("parameters",))
-
-
 def test_levels_and_key_paths(tmp_path: Path) -> None:
     parameters = sweep_of(tmp_path, ALL_WAYS).content.parameters
     assert {name: level_count(each) for name, each in parameters.items()} == {
@@ -93,11 +86,6 @@ def test_levels_and_key_paths(tmp_path: Path) -> None:
     assert spelt(" blocks.007.arch") == ("blocks", "7", "arch")
 
 
-def test_own_columns_are_those_of_the_table() -> None:
-    """They are written twice, so that a faulty sweep file is told before numpy is imported."""
-    assert tuple(column.name for column in (POINT, STATE, *AFTER)) == OWN_COLUMNS
-
-
 @pytest.mark.parametrize(
     ("points", "accepted"), [("n: {whole: {from: 1, to: 1000}}", True), ("n: {whole: {from: 1, to: 1001}}", False)]
 )
@@ -110,14 +98,6 @@ def test_the_number_of_points_is_that_of_the_product(tmp_path: Path, points: str
         assert faults(tmp_path, text) == [
             "3:1 parameters: makes 1001000 points, at most 1000000 are taken: a sample needs fewer"
         ]
-
-
-def test_product_of_parts_is_told(tmp_path: Path) -> None:
-    text = GOOD + "design:\n  - grid: {of: [mu, t]}\n  - sobol: {points: 100000}\n"
-    text = text.replace("  t: {", "  r: {uniform: {from: 0, to: 1}}\n  t: {")
-    assert faults(tmp_path, text) == [
-        "9:3 design: makes 15 x 100000 = 1500000 points, at most 1000000 are taken: a sample needs fewer"
-    ]
 
 
 def test_all_faults_at_once(tmp_path: Path) -> None:
@@ -135,25 +115,6 @@ def test_all_faults_at_once(tmp_path: Path) -> None:
 )
 def test_bytes_that_are_no_text(tmp_path: Path, content: bytes, expected: str) -> None:
     assert faults(tmp_path, content) == [expected]
-
-
-def test_byte_order_mark_is_allowed(tmp_path: Path) -> None:
-    path = tmp_path / "sweep.yaml"
-    path.write_bytes(b"\xef\xbb\xbf" + GOOD.encode())
-    assert read_sweep(path).content.title == "Arch over friction and thickness"
-
-
-def test_a_huge_file_is_not_read(tmp_path: Path) -> None:
-    path = tmp_path / "sweep.yaml"
-    with path.open("wb") as file:
-        file.truncate(64 * 1024 * 1024 + 1)
-    with pytest.raises(DeckError, match="is larger than 16 MB: say values as ranges or samples, or divide it"):
-        read_sweep(path)
-
-
-def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match=r"none\.yaml: cannot be opened"):
-        read_sweep(tmp_path / "none.yaml")
 
 
 def test_nothing_is_included(tmp_path: Path) -> None:

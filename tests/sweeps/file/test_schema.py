@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,6 @@ from typing import Any
 import jsonschema
 import pytest
 
-from mbla.cli import main
 from mbla.deck.fields import section_keys
 from mbla.deck.reader import read_yaml
 from mbla.deck.schema import REPOSITORY
@@ -77,19 +75,10 @@ def test_faulty_files_fail_both(path: Path) -> None:
     assert not schema_accepts(path.read_text(encoding="utf-8"))
 
 
-def test_many_faulty_files_are_within_sight() -> None:
-    assert len(SEEN) >= 35
-
-
 def test_expressions_are_not_numbers_but_times_have_units() -> None:
     assert not schema_accepts(GOOD.replace("to: 0.7", 'to: "=0.7"'))
     assert schema_accepts(GOOD + 'limits: {time: "10 min"}\n')
     assert not schema_accepts(GOOD + 'limits: {time: "=10"}\n')
-
-
-def test_command_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["schema", "sweep"]) == 0
-    assert json.loads(capsys.readouterr().out) == sweep_schema()
 
 
 def test_write(tmp_path: Path) -> None:
@@ -103,15 +92,6 @@ def test_write(tmp_path: Path) -> None:
     assert "\nold\n" not in text
     with pytest.raises(SystemExit):
         write_main([])
-
-
-def test_the_module_writes_into_the_repository(monkeypatch: pytest.MonkeyPatch) -> None:
-    written: list[tuple[object, ...]] = []
-    monkeypatch.setattr("mbla.sweeps.file.schema.write_generated", lambda *what: written.append(what))
-    write_main(["--write"])
-    ((folder, name, text, *_),) = written
-    assert (folder, name) == (REPOSITORY, "sweep")
-    assert json.loads(str(text)) == sweep_schema()
 
 
 def test_the_key_reference_is_up_to_date() -> None:

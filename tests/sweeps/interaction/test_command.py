@@ -14,7 +14,7 @@ import mbla
 from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.process.signals import Terminated
-from mbla.sweeps.interaction.study import factor_ratio, question_of, study_points
+from mbla.sweeps.interaction.study import factor_ratio, question_of
 from mbla.sweeps.interaction.words import conclusions
 from mbla.sweeps.plan import Outcome, Plan, Task
 from tests.sweeps.interaction.hand_made import Asked, ThisProcess, solved, written
@@ -100,22 +100,6 @@ def test_an_interrupted_study_is_shown_and_never_written_over_an_earlier_one(
     assert (table.read_bytes() == before) == earlier
 
 
-def test_a_study_that_is_terminated_has_its_points_too(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(2, Terminated))
-    assert main(["interact", str(written(tmp_path)), "--case", "push", "--directions", "4", "--json"]) == 143
-    record = json.loads(capsys.readouterr().out)
-    assert record["exit_code"] == 143
-    assert [point["verified"] for point in record["points"]].count(True) == 2
-
-
-def test_an_interruption_before_the_first_point_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.sweeps.interaction.study.engine_for", lambda _: Interrupted(0))
-    assert main(["interact", str(written(tmp_path)), "--case", "push", "-q"]) == 130
-    assert not (tmp_path / "block.out").exists()
-
-
 @pytest.mark.parametrize("after", [0, 1])
 def test_an_interruption_before_the_angles_are_known_writes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
@@ -190,15 +174,6 @@ def test_points_of_two_loads_of_different_size_lie_evenly(tmp_path: Path) -> Non
     assert ratio == pytest.approx(alone.points[1].load_factor / alone.points[0].load_factor, rel=1e-12)
     angles = question_of(deck, asked, ratio).angles
     assert angles == pytest.approx((0.0, math.degrees(math.atan(ratio)), 90.0), rel=1e-12)
-
-
-def test_each_point_is_reported_as_it_comes(tmp_path: Path) -> None:
-    """Whatever their order."""
-    path = written(tmp_path)
-    deck, told = read_deck(path), list[tuple[int, int]]()
-    wanted = question_of(deck, Asked(case="push", directions=3))
-    study_points(deck, (), wanted, ThisProcess(), lambda *done: told.append(done))
-    assert told == [(1, 3), (2, 3), (3, 3)]
 
 
 def test_vertical_parts_leave_no_domain_and_that_is_told(tmp_path: Path) -> None:

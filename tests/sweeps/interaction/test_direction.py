@@ -93,9 +93,3 @@ def test_half_of_a_structure_is_refused(tmp_path: Path) -> None:
     assert level.angles == (0.0, 90.0, 180.0, 270.0)  # halves one above the other are pushed the same way
     with pytest.raises(UsageError, match=r"symmetry\.0: the deck gives half of the structure"):
         direction_question(read_deck(written(tmp_path), ["symmetry=[{y: 2}]"]), "push", 4)
-
-
-def test_a_support_that_gives_way_has_no_live_load_to_turn(tmp_path: Path) -> None:
-    sinks = ["load_cases.sinks={settlement: {on: block, direction: [0, 0, -1]}}"]
-    with pytest.raises(UsageError, match=r"load case sinks: a support gives way, there is no live load; .* needs one"):
-        direction_question(read_deck(written(tmp_path), sinks), "sinks", 4)

@@ -58,20 +58,6 @@ def test_of_two_loads_the_factors_are_the_coordinates(tmp_path: Path, figures: l
     assert names_in_legend(figure) == [SAFE, BOUND, FACTOR]
 
 
-def test_loads_the_other_way_have_room(tmp_path: Path, figures: list[Any]) -> None:
-    points = [point(angle, 0.5) for angle in (0.0, 90.0, 180.0, 270.0)]
-    (axes,) = drawn(tmp_path, figures, points, TWO_LOADS).axes
-    assert axes.get_xlim() == pytest.approx((-ROOM * 0.5, ROOM * 0.5))
-    assert axes.get_ylim() == pytest.approx((-ROOM * 0.5, ROOM * 0.5))
-
-
-def test_a_direction_in_which_nothing_has_a_factor_has_the_room_of_the_other(
-    tmp_path: Path, figures: list[Any]
-) -> None:
-    (axes,) = drawn(tmp_path, figures, [point(0.0, 0.4), late(90.0)], TWO_LOADS).axes
-    assert axes.get_ylim() == pytest.approx((-0.02 * ROOM * 0.4, ROOM * 0.4))
-
-
 @pytest.mark.parametrize(
     ("angle", "place"),
     [
@@ -117,33 +103,3 @@ def test_on_bounds_that_contradict_each_other_nothing_is_called_safe(
     assert SAFE not in names_in_legend(figure)
     assert not figure.axes[0].patches
     assert BOUND in names_in_legend(figure)
-
-
-def test_bounds_that_leave_no_place_draw_no_polygon(tmp_path: Path, figures: list[Any]) -> None:
-    """Two mechanisms at opposite azimuths, each of which asks for the load of the other: nothing lies within both."""
-    points = [replace(one, kinematic_bound=-0.5) if one.angle in (0, 180) else one for one in around(4)]
-    made = study(points)
-    assert made.domain is not None
-    assert len(made.domain.outer) == 0
-    assert np.isnan(made.domain.gap)
-    assert made.exit_code == 4
-    figure = drawn(tmp_path, figures, points)
-    assert names_in_legend(figure) == [FACTOR]
-
-
-@pytest.mark.parametrize(("standing", "corners"), [("yes", 2), ("doubtful", 1)])
-def test_of_one_safe_point_there_is_no_polygon(tmp_path: Path, figures: list[Any], standing: str, corners: int) -> None:
-    """With the dead load alone it is a line; neither passes a bound."""
-    points = [point(0.0, standing=standing), late(90.0), late(180.0), late(270.0)]
-    domain = study(points).domain
-    assert domain is not None
-    assert len(domain.inner) == corners
-    assert not domain.crossings
-    figure = drawn(tmp_path, figures, points)
-    assert SAFE not in names_in_legend(figure)
-
-
-def test_of_no_point_there_are_words_alone(tmp_path: Path, figures: list[Any]) -> None:
-    figure = drawn(tmp_path, figures, [])
-    assert figure.axes == []
-    assert "what is asked" in " ".join(text.get_text() for text in figure.texts)

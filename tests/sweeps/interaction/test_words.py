@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from mbla.sweeps.interaction.description import INTERACT_RECORD
 from mbla.sweeps.interaction.domain import Point
-from mbla.sweeps.interaction.picture import draw_study, joined_runs
+from mbla.sweeps.interaction.picture import joined_runs
 from mbla.sweeps.interaction.question import TWO_LOADS
 from mbla.sweeps.interaction.study import study_json
 from mbla.sweeps.interaction.words import angle_words, conclusions, mark_words, study_lines
@@ -64,10 +63,6 @@ def test_the_gravest_point_ends_the_study() -> None:
     assert study(points).exit_code == 1
 
 
-def test_no_load_factor_at_any_point() -> None:
-    assert study([replace(FALLEN, angle=angle) for angle in (0.0, 90.0)]).exit_code == 5
-
-
 def test_extremes_name_their_angles() -> None:
     points = around(8)
     points[2] = replace(points[2], load_factor=0.25)
@@ -114,26 +109,3 @@ def test_no_line_leads_to_a_point_without_a_verified_factor() -> None:
     ]
     (whole,) = joined_runs(around(4), closed=True)
     assert [one.angle for one in whole] == [0.0, 90.0, 180.0, 270.0, 0.0]
-
-
-@pytest.mark.parametrize(
-    ("other", "legend", "mark"),
-    [
-        (DOUBTFUL, "no verified answer", "NOT VERIFIED at 1 point of 4"),
-        (FREE, "never collapses (at the rim)", None),
-        (FALLEN, "no load factor: dead load alone (at the origin)", None),
-    ],
-)
-def test_pictures_name_what_is_not_plain(tmp_path: Path, other: Point, legend: str, mark: str | None) -> None:
-    path = tmp_path / "diagram.svg"
-    draw_study(path, study(with_one(other)))
-    text = path.read_text(encoding="utf-8")
-    assert legend in text
-    assert ("NOT VERIFIED" in text) == (mark is not None)
-    assert mark is None or mark in text
-
-
-def test_a_picture_of_nothing_says_so(tmp_path: Path) -> None:
-    path = tmp_path / "diagram.svg"
-    draw_study(path, study([replace(LATE, angle=angle) for angle in (0.0, 180.0)]))
-    assert "NOT VERIFIED at 2 points of 2" in path.read_text(encoding="utf-8")

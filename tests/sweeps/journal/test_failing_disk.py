@@ -87,17 +87,6 @@ def test_the_disk_does_not_take_what_was_written(tmp_path: Path, at: int) -> Non
     assert (set(rows.finished), rows.torn, len(added)) == (added, 0, at - 1)
 
 
-def test_room_is_made_on_a_full_disk(tmp_path: Path) -> None:
-    path = tmp_path / "journal.csv"
-    with Journal(path, HEADER, resume=False, force=False) as journal:
-        with pytest.MonkeyPatch.context() as context:
-            context.setattr(os, "write", failing(os.write, 1, errno.ENOSPC, part=5))
-            with pytest.raises(FileError, match="No space left"):
-                journal.add(*POINTS[0])
-        journal.add(*POINTS[0])
-    assert read_journal(path, HEADER).finished.keys() == {POINTS[0][0].key}
-
-
 @pytest.mark.parametrize("room", [1, 700, 5000, 12000])
 def test_a_file_system_without_room(tmp_path: Path, room: int) -> None:
     """No wrapper: the operating system itself refuses what lies beyond the largest file that it allows."""
@@ -121,19 +110,3 @@ def test_a_file_system_without_room(tmp_path: Path, room: int) -> None:
     assert (list(rows.finished), rows.torn) == (added, 0)
     assert add_all(path, {})[1] == ""
     assert len(read_journal(path, HEADER).finished) == len(POINTS)
-
-
-def test_nothing_is_begun_where_there_is_no_room_for_the_header(tmp_path: Path) -> None:
-    path = tmp_path / "arch.out" / "journal.csv"
-
-    def begin(report: Callable[[str], None]) -> None:
-        path.parent.mkdir()
-        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
-        try:
-            Journal(path, HEADER, resume=False, force=False).__enter__()
-        except FileError as error:
-            report(str(error))
-
-    with forked(begin) as child:
-        assert child.lines() == [f"{path}: File too large"]
-    assert list(path.parent.iterdir()) == []

@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import FileError, UsageError
 from mbla.results.explanations import explanations
 from mbla.sweeps.journal import Journal, JournalHeader, header_bytes, read_journal, row_bytes
-from mbla.sweeps.plan import DONE, FAILED, Outcome
+from mbla.sweeps.plan import DONE, FAILED
 from tests.sweeps.journal.points import HEADER, as_read, point
 
 POINTS = [point(number) for number in range(1, 31)]
@@ -64,14 +64,6 @@ def test_pandas_reads_it(path: Path) -> None:
     assert list(table["seconds"]) == [repr(outcome.seconds) for _, outcome in POINTS]
 
 
-def test_rows_are_there_before_the_journal_is_left(tmp_path: Path) -> None:
-    path = tmp_path / "journal.csv"
-    with begun(path) as journal:
-        for count, (task, outcome) in enumerate(POINTS[:3], start=1):
-            journal.add(task, outcome)
-            assert len(read_journal(path, HEADER).finished) == count
-
-
 def test_an_earlier_journal_is_refused_without_a_word_of_what_to_do_with_it(path: Path) -> None:
     before = path.read_bytes()
     with pytest.raises(FileError, match=r"journal\.csv: exists already; --resume goes on with it, --force begins anew"):
@@ -83,18 +75,6 @@ def test_force_begins_anew(path: Path) -> None:
     with Journal(path, HEADER, resume=False, force=True) as journal:
         assert journal.finished == {}
     assert path.read_bytes() == header_bytes(HEADER)
-
-
-def test_an_earlier_journal_stays_where_the_new_one_cannot_be_made(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> int:
-        raise OSError(28, "No space left on device")
-
-    before = path.read_bytes()
-    monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(FileError, match=r"journal\.csv: No space left on device"):
-        Journal(path, HEADER, resume=False, force=True).__enter__()
-    assert path.read_bytes() == before
-    assert [file.name for file in path.parent.iterdir()] == ["journal.csv"]
 
 
 def test_to_go_on_and_to_begin_anew_is_no_choice(path: Path) -> None:
@@ -222,12 +202,3 @@ def test_what_is_cut_off_is_told(path: Path) -> None:
         journal.add(*point(99))
     assert read_journal(path, HEADER).finished.keys() == {*EXPECTED, point(99)[0].key}
     assert "journal-repaired" in explanations()
-
-
-def test_an_outcome_without_results_is_read_with_every_column(tmp_path: Path) -> None:
-    task, outcome = POINTS[0]
-    died = Outcome(task.key, FAILED, 1, "its process died twice", {}, 2, 0.5)
-    with begun(tmp_path / "journal.csv") as journal:
-        journal.add(task, died)
-        assert journal.finished[task.key].results == dict.fromkeys(HEADER.columns)
-    assert outcome.key == task.key

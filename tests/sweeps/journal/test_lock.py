@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.lock import holder, lock_path, locked
+from mbla.results.lock import lock_path, locked
 from mbla.sweeps.journal import Journal, journal_name, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, point
@@ -73,15 +73,6 @@ def test_a_whole_run_waits_for_the_shards_and_they_for_it(tmp_path: Path) -> Non
         assert child.line() == "at work"
         told = refused(tmp_path / "two" / journal_name(1, 2))
         assert told.startswith(f"{tmp_path / 'two' / 'journal.csv'}: process {child.pid} on ")
-
-
-def test_a_lock_is_let_go_where_a_journal_cannot_be_opened(tmp_path: Path) -> None:
-    path = tmp_path / "journal.csv"
-    path.write_text("something else\n", encoding="utf-8")
-    with pytest.raises(FileError, match="is no journal"):
-        Journal(path, HEADER, resume=True, force=False).__enter__()
-    assert holder(path) is None
-    assert [file.name for file in tmp_path.iterdir()] == ["journal.csv"]
 
 
 def test_of_many_at_once_one_gets_it(tmp_path: Path) -> None:

@@ -59,13 +59,6 @@ def test_what_shards_of_any_number_finished_counts_once(tmp_path: Path) -> None:
     )  # of 3, 8, 13, 18 the first shard had 3
 
 
-def test_a_shard_that_goes_on_with_nothing_has_all_of_its_points(tmp_path: Path) -> None:
-    run(tmp_path, journal_name(1, 2), shard_of(TASKS, 1, 2))
-    run(tmp_path, journal_name(1, 4), shard_of(TASKS, 1, 4))
-    assert len(merged([tmp_path / journal_name(1, 4)], HEADER)) == 5
-    assert len(merged(journals_in(tmp_path), HEADER)) == 10
-
-
 def test_a_torn_row_of_a_shard_is_solved_again_and_its_journal_left_alone(tmp_path: Path) -> None:
     shard = tmp_path / journal_name(1, 1)
     run(tmp_path, shard.name, tuple(TASKS[:3]))

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, lines_with, names_along, words
-from tests.sweeps.pictures.hand_made import FAILED, FALLEN, Row, grid, sphere, table_of
+from tests.sweeps.pictures.drawing import draw, names_along, words
+from tests.sweeps.pictures.hand_made import FAILED, Row, grid, sphere
 
 
 def curves(axes: Any) -> list[Any]:
@@ -56,39 +56,6 @@ def test_points_of_long_lines_have_a_marker_where_no_line_leads_to_one(
     assert np.flatnonzero(np.isnan(line.get_ydata())).tolist() == list(failed)
 
 
-def test_texts_have_markers_without_lines(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"bond": ["stack", "running", "flemish"]}, lambda bond: len(bond)), tmp_path, "curve")
-    (axes,) = figures[0].axes
-    (shown,) = [line for line in axes.lines if len(line.get_xdata()) == 3]
-    assert (shown.get_linestyle(), shown.get_marker()) == ("None", "o")
-    assert shown.get_ydata().tolist() == [5.0, 7.0, 7.0]
-    assert names_along(axes, "x") == ["stack", "running", "flemish"]
-
-
-def test_without_a_value_there_are_marks_and_no_numbers(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"mu": [0.1, 0.2, 0.3]}, lambda mu: FAILED), tmp_path, "curve")
-    (axes,) = figures[0].axes
-    assert axes.get_yticks().tolist() == []
-    assert lines_with(axes, "x")[0].get_xdata().tolist() == [0.1, 0.2, 0.3]
-    assert "3 points: 0 with a verified value, 3 failed" in words(figures[0])
-
-
-def test_other_results_have_no_band_and_no_zero_line(tmp_path: Path, figures: list[Any]) -> None:
-    """What does not stand has no number of hinges: it is marked at the lower edge."""
-
-    def solve(mu: float) -> Row:
-        own = FALLEN if mu == 1 else {"status": "solved", "load_factor": mu, "mechanism.class": "sliding"}
-        return {**own, "static_bound": mu, "kinematic_bound": mu, "hinges": None if mu == 1 else mu + 3}
-
-    draw(grid({"mu": [1.0, 2.0, 3.0]}, solve), tmp_path, "curve", result="hinges")
-    (axes,) = figures[0].axes
-    assert axes.get_ylabel() == "hinges"
-    assert not axes.collections
-    (fallen,) = lines_with(axes, "v")
-    assert fallen.get_transform() != axes.transData
-    assert "band" not in words(figures[0])
-
-
 def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_path: Path, figures: list[Any]) -> None:
     """Over a sphere of directions; bounds of each point have no place then."""
 
@@ -104,18 +71,3 @@ def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_pat
     assert {tuple(each) for each in band} == {(1.0, 1.0), (1.0, 151.0), (2.0, 2.0), (2.0, 152.0)}
     assert "line: median of up to 3 points of to; band: least to greatest" in words(figures[0])
     assert "static to kinematic" not in words(figures[0])
-
-
-@pytest.mark.parametrize(("more", "told"), [([], "2 combinations have"), ([(2, 1)], "1 combination has")])
-def test_combinations_without_a_point_are_counted(
-    tmp_path: Path, figures: list[Any], more: list[tuple[int, int]], told: str
-) -> None:
-    places = [(0, 0), (1, 0), (1, 1), (2, 0), *more]
-    rows = [{"mu": 1.0 + i, "thickness": 1.0 + j} for i, j in places]
-    table = table_of(rows, lambda mu, thickness: mu, [("mu", 3), ("thickness", 2)], places,
-                     {"mu": "mu", "thickness": "thickness"})  # fmt: skip
-    draw(table, tmp_path, "curve", by="mu")
-    first, second = curves(figures[0].axes[0])
-    assert first.get_ydata().tolist() == [1.0, 2.0, 3.0]
-    assert np.array_equal(second.get_ydata(), [np.nan, 2.0, 3.0 if more else np.nan], equal_nan=True)
-    assert f"{told} no point" in words(figures[0])

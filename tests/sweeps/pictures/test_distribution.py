@@ -8,7 +8,7 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.answers import answers_of
-from mbla.sweeps.pictures.distribution import MOST_BINS, cumulative
+from mbla.sweeps.pictures.distribution import cumulative
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.view import chosen_results
 from mbla.sweeps.tables.sweep_table import SweepTable
@@ -64,30 +64,6 @@ def over_heights(heights: int, solve: Any) -> SweepTable:
     places = [(i, j) for i in range(heights) for j in range(20)]
     return table_of(rows, solve, [("height", heights), ("random", 20)], places, {"height": "height", "mu": "random"},
                     samples="random", sampling="random")  # fmt: skip
-
-
-def test_bands_of_many_curves_are_lines(tmp_path: Path, figures: list[Any]) -> None:
-    """Four heights: a curve of each with the edges of its band; of the one that failed its name alone."""
-    draw(over_heights(5, lambda height, mu: FAILED if height == 2 else height + mu), tmp_path, "distribution")
-    lower = figures[0].axes[1]
-    assert not lower.collections  # nothing is filled
-    assert len(lower.lines) == 4 * 3
-    for curve, low, high, height in zip(*(lower.lines[i::3] for i in range(3)), (0, 1, 3, 4), strict=True):
-        assert curve.get_xdata()[1:] == pytest.approx(height + np.linspace(0.05, 1.0, 20))
-        reach = np.sqrt(np.log(2 / 0.05) / (2 * 20))
-        share = np.arange(1, 21) / 20
-        assert low.get_ydata() == pytest.approx(np.clip(share - reach, 0, 1))
-        assert high.get_ydata() == pytest.approx(np.clip(share + reach, 0, 1))
-    assert names_in_legend(figures[0]) == [f"height {height}" for height in range(5)]
-    assert "the band takes those without one as below and as above" in words(figures[0])
-
-
-def test_a_far_value_does_not_make_hundreds_of_bars(tmp_path: Path, figures: list[Any]) -> None:
-    values = [*np.linspace(0.0, 1.0, 2000).tolist(), 1000.0]
-    draw(sample({"mu": values}, lambda mu: mu), tmp_path, "distribution")
-    bars = [bar.get_height() for bar in figures[0].axes[0].patches]
-    assert len(bars) == MOST_BINS
-    assert (bars[0], bars[-1], sum(bars)) == (2000, 1, 2001)
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
-from mbla.sweeps.pictures.polar import closes
 from mbla.sweeps.pictures.sheet import MARKS
 from mbla.sweeps.pictures.sphere import nearest_direction
-from tests.sweeps.pictures.drawing import SMALL, draw, lines_with, words
+from tests.sweeps.pictures.drawing import draw, lines_with, words
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of
 
 
@@ -95,14 +93,6 @@ def test_scatter_shows_each_point_once_in_each_diagram(tmp_path: Path, figures: 
         assert lines_with(axes, "v")[0].get_data()[1].tolist() == [0.0]
 
 
-def test_many_points_are_an_image_in_vector_files(tmp_path: Path) -> None:
-    rng = np.random.default_rng(1)
-    table = sample({"mu": list(rng.uniform(size=10_000))}, lambda mu: mu)
-    (path,) = plot_sweep(table, tmp_path / "s.svg", SweepPictures(("scatter",), page=SMALL))
-    assert path.stat().st_size < 400_000
-    assert b"<image" in path.read_bytes()
-
-
 def test_a_tornado_is_sorted(tmp_path: Path, figures: list[Any]) -> None:
     table = grid({"weak": [0.0, 1.0], "strong": [0.0, 1.0]}, lambda weak, strong: weak - 5 * strong)
     draw(table, tmp_path, "tornado")
@@ -129,19 +119,6 @@ def test_a_polar_curve_is_closed_and_broken_where_it_fails(tmp_path: Path, figur
     assert radius[0] == radius[-1] == 1.0
     assert np.isnan(radius[2])
     assert np.degrees(lines_with(axes, "x")[0].get_xdata()).tolist() == pytest.approx([90.0])
-
-
-def test_negative_load_factors_keep_their_direction(tmp_path: Path, figures: list[Any]) -> None:
-    """A radius below zero would be drawn on the other side: the middle of the diagram lies below the least value."""
-    draw(grid({"azimuth": [0.0, 90.0, 180.0, 270.0]}, lambda azimuth: -0.5 + azimuth / 270), tmp_path, "polar")
-    assert figures[0].axes[0].get_rmin() < -0.5
-
-
-def test_only_full_circles_are_closed() -> None:
-    assert closes(np.arange(0.0, 360.0, 5.0))
-    assert not closes(np.arange(0.0, 181.0, 5.0))
-    assert not closes(np.array([0.0, 180.0]))
-    assert not closes(np.linspace(0.0, 360.0, 9))  # the last is the first
 
 
 def test_places_of_a_sphere_have_the_nearest_direction() -> None:

@@ -1,6 +1,5 @@
 """Cells, contours and figures of maps."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +8,11 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.results.pictures.page import GROUPS
-from mbla.sweeps.pictures.map import NO_POINT_COLOUR
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.view import value_words
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, names_along, words
-from tests.sweeps.pictures.hand_made import FAILED, Row, grid, table_of
+from tests.sweeps.pictures.hand_made import FAILED, Row, grid
 
 FINE = list(np.linspace(0.1, 1.6, 16))
 """so many that their values have no room in the cells"""
@@ -58,14 +56,6 @@ def test_cells_of_several_classes_are_their_class_where_it_is_one(tmp_path: Path
     assert "cell: class of up to 2 points of the other parameters where it is the same" in words(figures[0])
 
 
-def test_places_without_a_map_stay_empty(tmp_path: Path, figures: list[Any]) -> None:
-    """Three values of a parameter are three maps; the fourth place of two rows is bare."""
-    levels = {"mu": [1.0, 2.0, 3.0, 4.0], "thickness": [1.0, 2.0, 3.0, 4.0], "height": [5.0, 6.0, 7.0]}
-    draw(grid(levels, lambda mu, thickness, height: mu), tmp_path, "map")
-    assert [axes.get_title() for axes in figures[0].axes[:4]] == ["height 5", "height 6", "height 7", ""]
-    assert [axes.axison for axes in figures[0].axes[:4]] == [True, True, True, False]
-
-
 def test_contours_are_lines_of_equal_value(tmp_path: Path, figures: list[Any]) -> None:
     """Of a plane they are straight: along each the sum of both parameters is the level that its label names."""
     draw(grid({"mu": FINE, "thickness": FINE}, lambda mu, thickness: mu + thickness), tmp_path, "map")
@@ -80,47 +70,6 @@ def test_contours_are_lines_of_equal_value(tmp_path: Path, figures: list[Any]) -
     assert set(texts(axes)) <= {value_words(float(level)) for level in found.levels}
     assert texts(axes)
     assert bar.get_ylabel() == "load factor"
-
-
-def test_equal_values_have_no_contours(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"mu": FINE, "thickness": FINE}, lambda mu, thickness: 1.0), tmp_path, "map")
-    axes = figures[0].axes[0]
-    assert set(axes.collections[0].get_array().ravel()) == {1.0}
-    assert contours(axes) is None
-    assert texts(axes) == []
-
-
-@pytest.mark.parametrize(("other", "drawn"), [([str(i) for i in range(12)], False), (FINE[:4], False), (FINE, True)])
-def test_contours_need_numbers_and_five_of_them(
-    tmp_path: Path, figures: list[Any], other: Sequence[Any], drawn: bool
-) -> None:
-    table = grid({"mu": list(np.linspace(0, 1, 40)), "other": list(other)}, lambda mu, other: mu)
-    draw(table, tmp_path, "map")
-    assert (contours(figures[0].axes[0]) is not None) is drawn
-
-
-def test_a_map_without_a_value_has_no_scale_of_colours(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"mu": [1.0, 2.0], "thickness": [1.0, 2.0]}, lambda mu, thickness: FAILED), tmp_path, "map")
-    (axes,) = figures[0].axes
-    assert names_in_legend(figures[0]) == ["failed"]
-    assert [each.get_hatch() for each in axes.collections] == ["xx"]
-
-
-def test_combinations_without_a_point_are_named(tmp_path: Path, figures: list[Any]) -> None:
-    places = [(0, 0), (1, 0), (1, 1)]
-    rows = [{"mu": 1.0 + i, "thickness": 1.0 + j} for i, j in places]
-    table = table_of(rows, lambda mu, thickness: 10 * mu + thickness, [("mu", 2), ("thickness", 2)], places,
-                     {"mu": "mu", "thickness": "thickness"})  # fmt: skip
-    draw(table, tmp_path, "map", by="mu")
-    axes = figures[0].axes[0]
-    assert axes.collections[0].get_array().tolist() == [[11.0, 21.0], [None, 22.0]]
-    bare = axes.collections[1]
-    assert bare.get_paths()[0].get_extents().extents.tolist() == [0.5, 1.5, 1.5, 2.5]
-    assert np.round(255 * bare.get_facecolor()[0, :3]).astype(int).tolist() == [
-        int(NO_POINT_COLOUR[i : i + 2], 16) for i in (1, 3, 5)
-    ]
-    assert names_in_legend(figures[0]) == ["no point"]
-    assert texts(axes) == ["11", "21", "22"]
 
 
 def test_edges_of_cells_lie_half_way_in_ratio_on_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:

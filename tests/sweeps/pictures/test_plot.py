@@ -80,27 +80,12 @@ def test_by_puts_a_parameter_first() -> None:
         assert picture.view.axes[0].column.name == by
 
 
-@pytest.mark.parametrize(("ending", "start"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
-def test_formats(tmp_path: Path, ending: str, start: bytes) -> None:
-    page = PictureOptions(size=(400, 300), format=ending)
-    (path,) = plot_sweep(plane(), tmp_path, SweepPictures(("map",), page=page))
-    assert path.name == f"sweep_map_load_factor.{ending}"
-    assert path.read_bytes().startswith(start)
-
-
 def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
     first, second = (
         plot_sweep(drawn(), tmp_path / name, SweepPictures(("scatter",), page=SMALL))[0].read_bytes()
         for name in ("a.svg", "b.svg")
     )
     assert first == second
-
-
-def test_one_file_is_the_first_that_suits(tmp_path: Path, figures: list[Any]) -> None:
-    assert plot_sweep(plane(), tmp_path / "s.png", SweepPictures(page=SMALL)) == [tmp_path / "s.png"]
-    assert len(figures) == 1
-    with pytest.raises(UsageError, match="one file for 2 pictures"):
-        plot_sweep(plane(), tmp_path / "s.png", SweepPictures(("curve", "map"), page=SMALL))
 
 
 @pytest.fixture
@@ -123,14 +108,6 @@ def test_the_command_writes_into_the_folder_of_the_sweep_and_replaces(
         assert capsys.readouterr().out.splitlines() == [str(wanted)]
     assert wanted.read_bytes().startswith(b"\x89PNG")
     assert [0.2, 0.2] in [list(line.get_xdata()) for line in figures[0].axes[0].lines]  # the demand of the record
-
-
-def test_all_kinds_of_the_command_are_those_that_the_sweep_fits(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["sweep-plot", "--kind", "all", "--size", "800x500", str(folder)]) == 0
-    written = [Path(line).name for line in capsys.readouterr().out.splitlines()]
-    assert written == [f"sweep_{kind}_load_factor.png" for kind in ("curve", "scatter", "distribution")]
 
 
 @pytest.mark.parametrize(

@@ -3,16 +3,14 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
-from mbla.sweeps.pictures.sphere import MOST_DOTS
 from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, lines_with, names_along
-from tests.sweeps.pictures.hand_made import FAILED, Row, grid, sample, sphere, table_of
+from tests.sweeps.pictures.drawing import draw, names_along
+from tests.sweeps.pictures.hand_made import Row, grid, sample, sphere, table_of
 
 QUARTERS = [0.0, 90.0, 180.0, 270.0]
 OVER = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0)]
@@ -42,22 +40,6 @@ def test_more_curves_than_a_legend_names_have_a_scale(tmp_path: Path, figures: l
     assert names_along(bar, "y") == [str(i) for i in range(1, 12)]
 
 
-@pytest.mark.parametrize("answer", [0.0, FAILED])
-def test_without_a_value_above_zero_the_rim_is_one(tmp_path: Path, figures: list[Any], answer: Row | float) -> None:
-    draw(grid({"azimuth": QUARTERS}, lambda azimuth: answer), tmp_path, "polar")
-    (axes,) = figures[0].axes
-    assert (axes.get_rmin(), axes.get_rmax()) == (0.0, 1.0)
-
-
-def test_half_a_circle_is_open_and_many_directions_have_dots(tmp_path: Path, figures: list[Any]) -> None:
-    turns = list(np.linspace(0.0, 180.0, 61))
-    draw(grid({"azimuth": turns}, lambda azimuth: 1.0 + azimuth), tmp_path, "polar")
-    (line,) = curves(figures[0].axes[0])
-    assert np.degrees(line.get_xdata()).tolist() == pytest.approx(turns)
-    assert line.get_ydata().tolist() == [1.0 + turn for turn in turns]
-    assert line.get_marker() == "."
-
-
 def text_of(**values: float) -> Row:
     return {"status": "solved", "load_factor": 1.0, "mechanism.class": "sliding"}
 
@@ -82,33 +64,6 @@ def test_what_is_not_drawn_is_refused_with_the_reason(swept: SweepTable, result:
         pictures_of(swept, SweepPictures(("polar",), result=result))
 
 
-def test_a_sphere_beside_one_value_of_another_parameter_is_a_map(tmp_path: Path, figures: list[Any]) -> None:
-    table = sphere(OVER, {"mu": [0.5]}, lambda to_azimuth, to_elevation, mu: to_azimuth)
-    draw(table, tmp_path, "polar")
-    axes = figures[0].axes[0]
-    assert set(np.unique(axes.collections[0].get_array())) == {0.0, 120.0, 240.0}
-    (dots,) = [line for line in axes.lines if line.get_marker() == "."]
-    assert list(zip(*dots.get_data(), strict=True)) == OVER
-
-
-def test_a_sphere_without_a_value_is_hatched(tmp_path: Path, figures: list[Any]) -> None:
-    draw(sphere(OVER, {}, lambda to_azimuth, to_elevation: FAILED), tmp_path, "polar")
-    (axes,) = figures[0].axes  # no scale of colours beside it
-    assert [hatch for each in axes.collections for hatch in each.hatches] == ["xx"]
-    assert names_in_legend(figures[0]) == ["failed"]
-
-
-def test_very_many_directions_have_no_dots(tmp_path: Path, figures: list[Any]) -> None:
-    turns = np.linspace(0.0, 359.0, MOST_DOTS + 1)
-    rises = np.degrees(np.arcsin(np.linspace(-1, 1, MOST_DOTS + 1)))
-    table = sphere(list(zip(turns.tolist(), rises.tolist(), strict=True)), {},
-                   lambda to_azimuth, to_elevation: to_azimuth)  # fmt: skip
-    draw(table, tmp_path, "polar")
-    axes = figures[0].axes[0]
-    assert len(axes.collections[0].get_array().ravel()) > MOST_DOTS
-    assert not axes.lines
-
-
 def test_of_two_directions_the_one_over_a_sphere_is_the_map(tmp_path: Path, figures: list[Any]) -> None:
     """The other, around the horizon, has one value; it is no part of the sphere."""
     rows = [{"push_azimuth": 45.0, "to_azimuth": azimuth, "to_elevation": elevation} for azimuth, elevation in OVER]
@@ -120,10 +75,3 @@ def test_of_two_directions_the_one_over_a_sphere_is_the_map(tmp_path: Path, figu
     assert list(zip(*dots.get_data(), strict=True)) == OVER
     with pytest.raises(UsageError, match="the result is text; scatter shows it"):
         pictures_of(table, SweepPictures(("polar",), result="mechanism.class"))
-
-
-def test_marks_of_failed_directions_lie_at_the_rim(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"azimuth": QUARTERS}, lambda azimuth: FAILED if azimuth == 90 else 2.0), tmp_path, "polar")
-    (axes,) = figures[0].axes
-    (mark,) = lines_with(axes, "x")
-    assert mark.get_ydata().tolist() == pytest.approx([axes.get_rmax()])

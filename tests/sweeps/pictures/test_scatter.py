@@ -4,14 +4,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
-from mbla.errors import UsageError
 from mbla.results.pictures.page import BLUE, CASES
-from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, names_along, words
-from tests.sweeps.pictures.hand_made import FALLEN, Row, grid, sample
+from tests.sweeps.pictures.hand_made import FALLEN, Row, sample
 
 BONDS = ["stack", "running", "flemish"]
 
@@ -34,23 +31,6 @@ def test_texts_and_truth_values_are_columns_of_points(tmp_path: Path, figures: l
         assert points.get_ydata().tolist() == table["load_factor"].tolist()
         assert axes.get_title() == ""
     assert "rank correlation" not in words(figures[0])
-
-
-@pytest.mark.parametrize(
-    ("values", "scale"),
-    [
-        (np.geomspace(1e6, 1e9, 12), "log"),
-        (np.linspace(1.0, 1000.0, 12), "linear"),  # over decades, but evenly up to the least
-        (np.linspace(1.0, 2.0, 12), "linear"),
-        (np.linspace(-1.0, 1000.0, 12), "linear"),
-    ],
-)
-def test_values_over_decades_have_a_log_axis(tmp_path: Path, figures: list[Any], values: Any, scale: str) -> None:
-    draw(sample({"k": values.tolist()}, lambda k: -k), tmp_path, "scatter")
-    (axes,) = figures[0].axes
-    assert axes.get_xscale() == scale
-    assert axes.get_title() == "rank correlation -1.00"
-    assert dots(axes)[0].get_xdata().tolist() == values.tolist()
 
 
 def test_a_result_that_is_text_has_a_row_for_each(tmp_path: Path, figures: list[Any]) -> None:
@@ -82,25 +62,3 @@ def test_mechanism_classes_have_their_colours(tmp_path: Path, figures: list[Any]
     shown = {line.get_color(): line.get_xdata().tolist() for line in dots(axes)}
     assert shown == {CASES[0]: [3.0, 6.0], CASES[2]: [1.0, 4.0], "#777777": [2.0, 5.0]}
     assert names_in_legend(figures[0]) == ["hinging", "sliding", "no equilibrium (does not stand)"]
-
-
-@pytest.mark.parametrize("classes", [0, len(CASES) + 1])
-def test_classes_that_no_colours_tell_apart_are_left_out(tmp_path: Path, figures: list[Any], classes: int) -> None:
-    def solve(mu: float) -> Row:
-        name = f"class {mu:.0f}" if classes else None
-        return {"status": "solved", "load_factor": mu, "mechanism.class": name}
-
-    draw(sample({"mu": [float(i) for i in range(classes or 5)]}, solve), tmp_path, "scatter")
-    (points,) = dots(figures[0].axes[0])
-    assert points.get_color() == BLUE
-    assert names_in_legend(figures[0]) == []
-
-
-def test_of_one_named_parameter_there_is_one_diagram(tmp_path: Path, figures: list[Any]) -> None:
-    levels = {f"p{i}": [1.0, 2.0] for i in range(3)}
-    draw(grid(levels, lambda **values: values["p1"]), tmp_path, "scatter", by="p1")
-    (axes,) = figures[0].axes
-    assert axes.get_xlabel() == "p1"
-    many = {f"p{i}": [float(i), 2.0, 3.0] for i in range(17)}
-    with pytest.raises(UsageError, match="16 have room, name one with --by"):
-        pictures_of(sample(many, lambda **values: 1.0), SweepPictures(("scatter",)))

@@ -37,14 +37,6 @@ def test_the_interval_holds_the_true_value_as_often_as_it_says() -> None:
     assert abs(held / 400 - 0.95) < 0.033
 
 
-def test_failed_points_take_no_part() -> None:
-    mu = list(np.linspace(0, 1, 30))
-    table = sample({"mu": mu}, lambda mu: FAILED if mu > 0.9 else mu)
-    found = correlation(view(table), column_by_name(table, "mu"))
-    assert found.points == 27
-    assert found.value == pytest.approx(1.0)
-
-
 def test_swings_of_a_product() -> None:
     """mu t over mu in {1, 2, 4}, t in {1, 3}: changes 3 t of mu, 2 mu of t."""
     table = grid({"mu": [1.0, 2.0, 4.0], "thickness": [1.0, 3.0]}, lambda mu, thickness: mu * thickness)
@@ -52,12 +44,6 @@ def test_swings_of_a_product() -> None:
     assert (mu.change, mu.least, mu.most, mu.span) == (6.0, 3.0, 9.0, 6.0)
     assert thickness.change == pytest.approx(14 / 3)
     assert (thickness.least, thickness.most) == (2.0, 8.0)
-
-
-def test_the_greatest_within_a_range_is_its_span_not_its_change() -> None:
-    table = grid({"mu": [-1.0, 0.0, 1.0]}, lambda mu: 1 - mu * mu)
-    found = swing(view(table), axis_of(table, column_by_name(table, "mu")))
-    assert (found.change, found.span) == (0.0, 1.0)
 
 
 def test_combinations_with_a_failed_point_are_left_out() -> None:

@@ -19,15 +19,6 @@ def test_a_range_of_equal_ratios_has_a_log_axis_with_its_values(tmp_path: Path, 
     assert names_along(axes, "x") == ["1e+06", "1e+07", "1e+08"]
 
 
-def test_directions_have_ticks_each_half_quarter(tmp_path: Path, figures: list[Any]) -> None:
-    draw(grid({"azimuth": [0.0, 90.0, 180.0, 270.0]}, lambda azimuth: azimuth), tmp_path, "curve")
-    (axes,) = figures[0].axes
-    low, high = axes.get_xlim()
-    assert [tick for tick in axes.get_xticks() if low <= tick <= high] == list(range(0, 271, 45))
-    assert -45 < low < 0
-    assert 270 < high < 315
-
-
 @pytest.mark.parametrize(
     ("values", "named"),
     [
@@ -48,18 +39,6 @@ def test_ticks_stand_at_values_whose_names_have_room_and_are_exact(
         steps = np.diff(axes.get_xticks())
         assert steps == pytest.approx(steps[0])
         assert len(steps) > 3
-
-
-@pytest.mark.parametrize(("count", "turn", "step"), [(4, 0.0, 1), (20, 90.0, 1), (80, 90.0, 2)])
-def test_names_of_many_texts_stand_upright(
-    tmp_path: Path, figures: list[Any], count: int, turn: float, step: int
-) -> None:
-    """Where even those have no room, every second is named."""
-    texts = [f"bond {i}" for i in range(count)]
-    draw(grid({"bond": texts}, lambda bond: len(bond)), tmp_path, "curve")
-    (axes,) = figures[0].axes
-    assert {text.get_rotation() for text in axes.get_xticklabels()} == {turn}
-    assert names_along(axes, "x") == texts[::step]
 
 
 def test_a_value_that_is_not_verified_is_marked_at_its_place(tmp_path: Path, figures: list[Any]) -> None:

@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.errors import UsageError
-from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from tests.sweeps.pictures.drawing import draw, names_along, words
-from tests.sweeps.pictures.hand_made import FAILED, grid, sample, sphere, table_of
+from tests.sweeps.pictures.hand_made import sample, table_of
 
 UP = list(np.linspace(0.1, 0.9, 12))
 MIXED = [0.1 * ((5 * i) % 12) for i in range(12)]
@@ -62,39 +60,3 @@ def test_samples_over_a_grid_have_no_interval(tmp_path: Path, figures: list[Any]
     assert bars(axes) == pytest.approx([1.0, 0.0], abs=1e-12)
     assert whiskers(axes) == {}
     assert "24 points with a verified value; no interval, as samples that are repeated over a grid" in words(figures[0])
-
-
-def test_texts_and_combinations_without_a_value_of_a_grid(tmp_path: Path, figures: list[Any]) -> None:
-    """Of mu only the value 1 has results: how much it changes is not known."""
-    table = grid({"mu": [1.0, 2.0], "thickness": [1.0, 3.0], "bond": ["stack", "running", "flemish"]},
-                 lambda mu, thickness, bond: FAILED if mu == 2 else 2 * thickness + len(bond))  # fmt: skip
-    draw(table, tmp_path, "tornado")
-    axes, right = figures[0].axes
-    assert names_along(axes, "y") == ["thickness\n1 to 3 m", "bond\n3 values", "mu\n1 to 2"]
-    assert names_along(right, "y") == ["+4, range 4", "range 2", "not known"]
-    assert bars(axes) == [4.0, 2.0, 0.0, 4.0, 0.0, 0.0]  # outlines, then bars
-    assert whiskers(axes) == {0: [4.0, 4.0]}
-    assert "no verified value: thickness 3 of 6, bond 2 of 4, mu 6 of 6" in words(figures[0])
-
-
-def test_directions_over_a_sphere_have_no_bar(tmp_path: Path, figures: list[Any]) -> None:
-    table = sphere([(0.0, 10.0), (120.0, 20.0), (240.0, 30.0)], {"mu": [0.5, 0.6]},
-                   lambda to_azimuth, to_elevation, mu: mu + to_azimuth)  # fmt: skip
-    draw(table, tmp_path, "tornado")
-    assert names_along(figures[0].axes[0], "y") == ["mu\n0.5 to 0.6"]
-    assert "directions over a sphere have no least and greatest, so not here: to_azimuth" in words(figures[0])
-
-
-def test_a_parameter_around_the_horizon_has_a_range_but_no_change(tmp_path: Path, figures: list[Any]) -> None:
-    table = grid({"azimuth": [0.0, 90.0, 180.0], "mu": [0.5, 0.6]}, lambda azimuth, mu: mu + azimuth / 90)
-    draw(table, tmp_path, "tornado")
-    axes, right = figures[0].axes
-    assert names_along(axes, "y")[0] == "azimuth\n3 values"
-    assert names_along(right, "y") == ["range 2", "+0.1, range 0.1"]
-    assert set(whiskers(axes)) == {1}
-
-
-def test_only_numbers_of_a_sample_are_ranked() -> None:
-    table = sample({"bond": ["stack", "running"] * 6}, lambda bond: len(bond))
-    with pytest.raises(UsageError, match="no parameter is a number that can be put in order"):
-        pictures_of(table, SweepPictures(("tornado",)))

@@ -1,13 +1,12 @@
 """Which results are drawn, and which parameter comes first."""
 
-import numpy as np
 import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
-from mbla.sweeps.pictures.view import chosen_results, view_of
+from mbla.sweeps.pictures.view import chosen_results
 from mbla.sweeps.tables.sweep_table import SweepTable
-from tests.sweeps.pictures.hand_made import Row, grid, table_of
+from tests.sweeps.pictures.hand_made import Row, grid
 
 
 def over(mu: float, **results: object) -> Row:
@@ -29,31 +28,12 @@ def test_without_a_load_factor_the_first_number_is_drawn_or_else_the_first_text(
     assert [column.name for column in chosen_results(table, None)] == [chosen]
 
 
-def test_without_results_there_is_nothing_to_draw() -> None:
-    table = grid({"mu": [1.0, 2.0]}, lambda mu: over(mu))
-    bare = SweepTable(table.title, table.columns[:-1], table.values[:-1], table.dimensions, table.position)
-    assert [column.role for column in bare.columns] == ["number", "parameter", "state"]
-    with pytest.raises(UsageError, match="the sweep has no result columns to draw"):
-        pictures_of(bare, SweepPictures())
-
-
 def test_without_points_there_is_nothing_to_draw() -> None:
     table = grid({"mu": [1.0]}, lambda mu: mu)
     none = SweepTable(table.title, table.columns, tuple(values[:0] for values in table.values), table.dimensions,
                       table.position[:0])  # fmt: skip
     with pytest.raises(UsageError, match="the sweep has no points to draw"):
         pictures_of(none, SweepPictures())
-
-
-def test_a_sampled_parameter_that_comes_first_is_no_axis() -> None:
-    """The axes are those of the grid then, as without it."""
-    places = [(i, j) for i in range(2) for j in range(3)]
-    rows = [{"height": float(i), "mu": np.sqrt(2 + 3 * i + j)} for i, j in places]
-    table = table_of(rows, lambda height, mu: mu, [("height", 2), ("random", 3)], places,
-                     {"height": "height", "mu": "random"}, samples="random", sampling="random")  # fmt: skip
-    result = chosen_results(table, None)[0]
-    for by in ("", "mu", "height"):
-        assert [axis.column.name for axis in view_of(table, result, by).axes] == ["height"]
 
 
 def test_the_map_of_classes_is_made_of_itself_alone_where_no_result_is_named() -> None:

@@ -20,9 +20,8 @@ from mbla.results.record.column import Values
 from mbla.sweeps.fragility import fragility_of
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.read_table import read_sweep_table
-from mbla.sweeps.tables.sweep_json import sweep_json
-from mbla.sweeps.tables.sweep_table import SweepTable, as_text, column_values, sweep_table
-from mbla.sweeps.tables.table_hdf5 import NO_NUMBER, sweep_hdf5
+from mbla.sweeps.tables.sweep_table import SweepTable, column_values, sweep_table
+from mbla.sweeps.tables.table_hdf5 import sweep_hdf5
 from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, sweep_csv, table_names, write_tables
 from tests.sweeps.tables.synthetic import (
     FRICTION,
@@ -72,13 +71,6 @@ def test_rows_stand_in_the_order_of_the_design_whatever_order_outcomes_came_in()
     assert same_tables(found, other)
 
 
-def test_columns_stand_in_their_order() -> None:
-    names = [column.name for column in table().columns]
-    assert names[:4] == ["point", "mu", "t", "seed"]
-    assert names[4:7] == ["state", "status", "load_factor"]
-    assert names[-4:] == ["exit_code", "reason", "tries", "seconds"]
-
-
 def test_a_point_without_verified_answer_has_no_load_factor() -> None:
     found = table()
     assert np.isnan(found["load_factor"]).tolist() == [False, True, False, True, False]
@@ -92,40 +84,10 @@ def test_points_of_one_key_share_their_outcome() -> None:
     assert found["load_factor"].tolist() == [0.1 + 0.2] * 5
 
 
-def test_a_missing_outcome_is_an_error_of_the_caller() -> None:
-    known = outcomes()
-    del known["key4"]
-    with pytest.raises(KeyError, match="key4"):
-        sweep_table("", design(), (), known, keys())
-    found = table("key4")
-    assert found["state"].tolist() == ["done", "done", "done", None, "done"]
-    assert found["exit_code"].tolist() == [0, 5, 0, None, 0]
-    assert sweep_json(RUN, found)["points"] == {"all": 5, "done": 4, "failed": 0, "unfinished": 1, "left_out": 1}
-
-
-def test_a_table_that_would_not_fit_its_design_is_an_error_of_the_caller() -> None:
-    twice = result_columns(("load_factor",), ("push",), Units()) * 2
-    with pytest.raises(AssertionError, match="columns of one name: load_factor"):
-        sweep_table("", design(), twice, outcomes(), keys())
-    with pytest.raises(AssertionError, match="4 keys of 5 points"):
-        sweep_table("", design(), (), outcomes(), keys()[:4])
-
-
-def test_a_table_has_no_column_of_another_name() -> None:
-    with pytest.raises(KeyError, match="load_facter"):
-        table()["load_facter"]
-
-
 @pytest.mark.parametrize(("kind", "value"), [("int", 0.5), ("float", True), ("bool", 1), ("float", "0.5")])
 def test_values_of_another_kind_are_refused(kind: str, value: object) -> None:
     with pytest.raises(ValueError, match=f"column of kind {kind}"):
         column_values(kind, [None, value])  # type: ignore[list-item]
-
-
-def test_lists_and_objects_are_text() -> None:
-    assert as_text([1, 0.5, [True, "a"]]) == "[1, 0.5, [true, a]]"
-    assert as_text({"box": {"min": [0, 1], "name": None}}) == "{box: {min: [0, 1], name: null}}"
-    assert column_values("text", [[1, 2], "", None]).tolist() == ["[1, 2]", None, None]
 
 
 # --- files --------------------------------------------------------------------------------------------------------
@@ -147,13 +109,6 @@ def test_the_csv_has_units_and_every_bit(folder: Path) -> None:
 @pytest.mark.parametrize("name", ["", "sweep.csv", "sweep.json"])
 def test_the_table_is_read_back_from_its_folder_or_either_file(folder: Path, name: str) -> None:
     assert same_tables(read_sweep_table(folder / name), table())
-
-
-def test_an_unfinished_table_is_read_back(tmp_path: Path) -> None:
-    write_tables(tmp_path, False, RUN, table("key1", "key2", "key3", "key4", "key5"), TableFiles())
-    found = read_sweep_table(tmp_path)
-    assert found["state"].tolist() == [None] * 5
-    assert np.isnan(found["load_factor"]).all()
 
 
 def test_pandas_reads_both_tables(folder: Path) -> None:
@@ -207,14 +162,6 @@ def test_a_level_of_which_constraints_leave_no_point_keeps_its_value(tmp_path: P
         assert data.indexes["mu"].tolist() == list(FRICTION)
         assert data["t"].values.tolist() == list(THICKNESS)
         assert np.isnan(data["load_factor"].sel(mu=FRICTION[0])).all()
-
-
-def test_an_unfinished_sweep_says_so_in_its_file(tmp_path: Path) -> None:
-    path = tmp_path / "sweep.h5"
-    path.write_bytes(sweep_hdf5(RUN, table("key3")))
-    with xarray.open_dataset(path, engine="h5netcdf", mask_and_scale=False) as data:
-        assert data.attrs["complete"] == 0
-        assert data["exit_code"].values[0, 2] == NO_NUMBER
 
 
 def test_the_same_table_gives_the_same_bytes() -> None:
@@ -319,8 +266,3 @@ def test_a_file_that_is_no_table_is_refused_in_one_line(
     with pytest.raises(FileError, match=words) as caught:
         read_sweep_table(tmp_path)
     assert "\n" not in str(caught.value)
-
-
-def test_another_file_is_no_table(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match=r"wall\.h5: is no table of a sweep"):
-        read_sweep_table(tmp_path / "wall.h5")
