@@ -55,7 +55,7 @@ def run(
     expected
         Compare with the deck's ``expected`` section: differences are warnings, and count in ``exit_code``.
     threads
-        Of the libraries that can use several (MKL Pardiso), if they are not loaded yet.
+        Of the linear algebra libraries, if they are not loaded yet; factorisations are serial.
     progress
         Called once per iteration with the name of the load case and an ``IterationRecord``.
 

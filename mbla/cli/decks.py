@@ -41,7 +41,7 @@ def add_run(commands: Any) -> None:
         type=threads,
         default=1,
         metavar="N",
-        help="threads of the libraries that can use several, at most (default 1): MKL Pardiso, the others are serial",
+        help="threads of the linear algebra libraries, at most (default 1); factorisations are serial",
     )
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()

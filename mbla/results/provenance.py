@@ -23,7 +23,7 @@ LIBRARIES = (
     "pint",
 )
 
-OPTIONAL = ("mkl", "cvxopt")
+OPTIONAL = ("cvxopt",)
 """Libraries that are used where they are installed."""
 
 

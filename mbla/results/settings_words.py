@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from mbla.deck import Deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.process.threads import mkl_threads
 from mbla.results.results import CaseResult
 from mbla.solution.settings import SolverSettings
 
@@ -55,11 +54,9 @@ def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict
 
 
 def threads_in_words(cases: Sequence[CaseResult]) -> str:
-    """Threads that factorisations of cone programs ran on, whatever was asked for; which of them are serial."""
+    """Threads that factorisations of cone programs ran on, whatever was asked for: all are serial."""
     used = {program.factorization for case in cases for program in case.solution.programs} - {""}
-    serial = ", ".join(sorted(used - {"pardiso"}))
-    words = str(mkl_threads() if "pardiso" in used else 1)
-    return f"{words}; factorisations by {serial} are serial" if serial else words
+    return f"1; factorisations by {', '.join(sorted(used))} are serial" if used else "1"
 
 
 def _on(switch: bool) -> str:

@@ -21,8 +21,7 @@ class SolverSettings:
     regularization : static regularisation of clarabel's KKT matrix; None: by kind and size of the program
     solver         : of cone programs: auto, mbla, clarabel, or highs for linear ones
     deadline       : time.monotonic() at which to stop, or None
-    factorization  : of clarabel, qdldl or mkl; None: by size of the program and by what is installed
-    cholesky       : of the condensed method, qdldl, pardiso or cholmod; None likewise
+    cholesky       : of the condensed method, qdldl, superlu or cholmod; None: by size and by what is installed
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
     """
@@ -34,7 +33,6 @@ class SolverSettings:
     solver: str = "auto"
     gap: float = PRESETS["standard"].gap
     residual: float = PRESETS["standard"].residual
-    factorization: str | None = None
     cholesky: str | None = None
 
 

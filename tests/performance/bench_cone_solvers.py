@@ -6,7 +6,7 @@
 
 The associative program of each model is solved by either at tolerances that become smaller until the bounds that its
 solution proves (``certified_gap``) are within 1e-7 of the load factor; the row is that of the
-first that does, of the smallest gap where none does. clarabel is run with qdldl, and with MKL where that is installed;
+first that does, of the smallest gap where none does. clarabel is run with qdldl;
 the condensed method with every factorisation that is installed. ``seconds`` is the shortest of a few runs in seconds of
 the processor on one thread, everything from the cone program on counted; ``factorizing`` the share of that in the
 factorisation; ``gap`` the proved one; ``error`` the distance of the load factor from the middle of the tightest bounds
@@ -37,7 +37,6 @@ from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.linear_algebra import Factorization, best_library, installed
-from mbla.solution.linear_algebra.mkl import mkl_works
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
@@ -105,7 +104,7 @@ LARGEST = 60_300
 
 def ways() -> list[tuple[str, str]]:
     """Solver and factorisation."""
-    theirs = ["qdldl", *(["mkl"] if mkl_works() else [])]
+    theirs = ["qdldl"]
     return [("clarabel", library) for library in theirs] + [("mbla", library) for library in installed()]
 
 
@@ -136,7 +135,7 @@ def silent(record: IterationRecord) -> None:
 
 def solved(form: KinematicForm, solver: str, library: str, tolerance: float) -> tuple[ConeSolution, float, float]:
     """Solution, seconds, seconds of them in the factorisation (NaN for clarabel)."""
-    settings = SolverSettings(tolerance, factorization=library, cholesky=library)
+    settings = SolverSettings(tolerance, cholesky=library)
     started = time.process_time()
     if solver == "clarabel":
         solution = ClarabelProgram(form.cone_program, settings, silent).solve_once(1, 1.0)

@@ -28,7 +28,6 @@ from mbla.program.static import proximal_data, proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.linear_algebra import installed
-from mbla.solution.linear_algebra.mkl import mkl_works
 from mbla.solution.nonassociative.gravity import gravity_forces
 from mbla.solution.nonassociative.proximal import MOVE, step_size
 from mbla.solution.part import solve_part
@@ -117,9 +116,7 @@ def lagged_runs(program: Program, settings: SolverSettings) -> dict[tuple[str, f
     for tolerance in TOLERANCES:
         sharp = replace(settings, tolerance=tolerance)
         found["mbla", tolerance] = lagged_programs(program, CondensedProgram, sharp)
-        for factorization in ("qdldl", "mkl") if mkl_works() else ("qdldl",):
-            theirs = replace(sharp, factorization=factorization)
-            found[f"clarabel {factorization}", tolerance] = lagged_programs(program, ClarabelProgram, theirs)
+        found["clarabel qdldl", tolerance] = lagged_programs(program, ClarabelProgram, sharp)
     return found
 
 

@@ -45,8 +45,6 @@ def test_one_thread_unless_more_are_asked_for(arguments: list[str], given: dict[
     ("libraries", "words"),
     [
         (("qdldl", "superlu"), "1; factorisations by qdldl, superlu are serial"),
-        (("pardiso", "qdldl"), "2; factorisations by qdldl are serial"),
-        (("pardiso",), "2"),
         (("",), "1"),
     ],
 )

@@ -11,7 +11,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.linear_algebra.small_inverses import inverses
+from mbla.solution.linear_algebra.small_blocks import block_diagonal, inverses
 
 TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
@@ -54,12 +54,6 @@ def velocity_hessian(friction: FloatArray, v: FloatArray) -> FloatArray:
     hessian[:, 0, 0] -= 2.0 / det
     hessian[:, range(1, v.shape[1]), range(1, v.shape[1])] += (2.0 * squared / det)[:, None]
     return hessian
-
-
-def block_diagonal(blocks: FloatArray) -> sp.csr_array:
-    """The matrix with these blocks, (n, k, k), on its diagonal."""
-    n, size = blocks.shape[:2]
-    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(size * n, size * n)))
 
 
 def _cone_hessian(gradient: FloatArray, det: FloatArray) -> FloatArray:

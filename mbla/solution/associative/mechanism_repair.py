@@ -14,8 +14,9 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
-from mbla.solution.associative.barriers import block_diagonal, velocity_hessian
+from mbla.solution.associative.barriers import velocity_hessian
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
+from mbla.solution.linear_algebra.small_blocks import block_diagonal
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
 """Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is

@@ -137,7 +137,7 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
             continue
         tolerance = max(share * run.settings.tolerance, SHARPEST)
         sharper = replace(run.settings, solver=method, tolerance=tolerance, regularization=shifted)
-        answer = _answer(run, own or form, unit, replace(sharper, factorization="qdldl"))
+        answer = _answer(run, own or form, unit, sharper)
         if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
             tried.add(kind)
         best = better(best, answer)

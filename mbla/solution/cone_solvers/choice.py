@@ -31,8 +31,8 @@ SOLVERS = ("auto", "mbla", "clarabel", "highs")
 OWN_FROM = 1000
 """Rows of the condensed matrix from which ``auto`` takes the condensed method."""
 
-FAST = ("cholmod", "pardiso")
-"""Factorisations with which programs of few iterations, those with a quadratic cost, are faster too."""
+FAST = "cholmod"
+"""Factorisation with which programs of few iterations, those with a quadratic cost, are faster too."""
 
 
 def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
@@ -82,7 +82,7 @@ def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
 def _pays(cone_program: ConeProgram) -> bool:
     """Whether ``auto`` takes the condensed method for a program that fits."""
     size = condensed_size(cone_program)
-    return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) in FAST)
+    return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) == FAST)
 
 
 def other_method(solver: str) -> str:

@@ -13,6 +13,24 @@ LEAST = 1e-13
 what light blocks carry where it belongs to one."""
 
 
+def lines_to_boundary(inside: FloatArray, step: FloatArray) -> FloatArray:
+    """Largest t ≥ 0 with inside + t step ≥ 0 of each positive number, (n,); infinite where there is none."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.where(step < 0.0, -inside / step, np.inf)
+
+
+def cones_to_boundary(inside: FloatArray, mixed: FloatArray, step: FloatArray) -> FloatArray:
+    """Largest t ≥ 0 with z + t d in the second-order cone of each pair z, d, (n,); infinite where there is none.
+
+    With D = z_0² − ‖z̄‖² > 0, B = z_0 d_0 − z̄·d̄ and A = d_0² − ‖d̄‖²: t = D / (√(B² − A D) − B) where positive.
+
+    inside, mixed, step : (n,) D, B and A
+    """
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        root = np.sqrt(np.maximum(mixed**2 - step * inside, 0.0)) - mixed
+        return np.where(root > 0.0, inside / root, np.inf)
+
+
 class ConeVectors:
     """The half-lines and cones of a cone program, in the order of its rows behind the equations."""
 
@@ -56,15 +74,11 @@ class ConeVectors:
         inside[self.head] = np.maximum(z[self.head], tail * (1.0 + distance) + least)
         return inside
 
-    def longest_step(self, z: FloatArray, step: FloatArray) -> float:
+    def step_to_boundary(self, z: FloatArray, step: FloatArray) -> float:
         """Largest factor with which z + factor step stays inside."""
-        a, b, c = self.products(step, step), self.products(z, step), self.products(z, z)
-        half_line = self.sizes == 1
-        root = np.sqrt(np.maximum(b**2 - a * c, 0.0))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            reach = np.where(root - b > 0, c / (root - b), np.inf)
-            line = np.where(step[self.head] < 0, -z[self.head] / step[self.head], np.inf)
-        return float(np.where(half_line, line, np.where((a < 0) | (b < 0), reach, np.inf)).min(initial=np.inf))
+        cones = cones_to_boundary(self.products(z, z), self.products(z, step), self.products(step, step))
+        lines = lines_to_boundary(z[self.head], step[self.head])
+        return float(np.where(self.sizes == 1, lines, cones).min(initial=np.inf))
 
     def inverse_hessian(self, z: FloatArray) -> sp.csr_array:
         """Block-diagonal, of the barrier −log(z_0² − ‖z̄‖²)."""

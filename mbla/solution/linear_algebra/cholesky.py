@@ -3,24 +3,25 @@
 Seconds of one factorisation on one thread, and of the analysis before the first, for the condensed matrices of
 running-bond walls whose joints differ by sixteen decades (``tests/performance/results/factorization.csv``)::
 
-                               qdldl             superlu           pardiso           cholmod
-    unknowns              first     each     first     each    first     each    first     each
-      630                 0.0006   0.0006    0.003    0.0014   0.002    0.0003   0.0009   0.0003
-    2,460                 0.003    0.0062    0.013    0.012    0.005    0.0020   0.005    0.0016
-    6,072                 0.005    0.031     0.040    0.040    0.010    0.0080   0.010    0.0060
-   21,780                 0.12     0.31      0.26     0.25     0.039    0.051    0.052    0.038
-   30,150 planar          0.022    0.23      0.23     0.22     0.043    0.041    0.034    0.032
-   60,300                 0.77     2.7       1.7      1.2      0.19     0.23     0.15     0.16
+                               qdldl             superlu           cholmod
+    unknowns              first     each     first     each    first     each
+      630                 0.0006   0.0006    0.003    0.0014   0.0009   0.0003
+    2,460                 0.003    0.0062    0.013    0.012    0.005    0.0016
+    6,072                 0.005    0.031     0.040    0.040    0.010    0.0060
+   21,780                 0.12     0.31      0.26     0.25     0.052    0.038
+   30,150 planar          0.022    0.23      0.23     0.22     0.034    0.032
+   60,300                 0.77     2.7       1.7      1.2      0.15     0.16
 
 A solution takes 0.1 (small) to 0.01 (large) of a factorisation by qdldl, with every library. All leave a residual of
-rounding. CHOLMOD is the fastest and costs 0.03 s to load. Pardiso is close behind, but MKL is tried in a process of its
-own first, half a second once in a process: won back from about 5,000 unknowns on. Below 300 there is little to be won
-over qdldl. Of the two that are always there SuperLU is the faster from 12,000 unknowns on.
+rounding. CHOLMOD is the one optional library: the fastest, 0.03 s to load, and below 300 unknowns little is to be won
+over qdldl. MKL Pardiso was close behind for definite matrices (the run of a spatial wall of 3,630 blocks takes 33 s of
+the processor without either, 12 with CHOLMOD, 13 with Pardiso) and won nothing on flow without dilatancy (walls of 410
+and 1,012 blocks: 4.4 and 6.3 s without either, 4.3 and 6.2 with CHOLMOD, 4.5 and 6.6 with Pardiso).
 
-The column of SuperLU is that of its own order of elimination. In the one that it is given now
-(:mod:`mbla.solution.linear_algebra.elimination_order`) it takes 0.7 of that where matrices are large, and the analysis
-less than a factorisation. Side by side in one process it took 1.2 of qdldl's time for 10,890 unknowns of a planar wall,
-0.8 for 9,720 of a spatial and for 19,320 of a planar one, 0.7 for 30,150 planar, 0.55 for 21,780 spatial.
+Of the two that are always there SuperLU is the faster from 12,000 unknowns on. Its column is that of its own order of
+elimination; in the one that it is given now (``elimination_order``) it takes 0.7 of that where matrices are large, and
+the analysis less than a factorisation. Side by side in one process it took 1.2 of qdldl's time for 10,890 unknowns of a
+planar wall, 0.8 for 9,720 of a spatial and for 19,320 of a planar one, 0.7 for 30,150 planar, 0.55 for 21,780 spatial.
 """
 
 from __future__ import annotations
@@ -32,13 +33,12 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
-from mbla.solution.linear_algebra.mkl import mkl_library, mkl_works
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
-LIBRARIES = ("qdldl", "superlu", "pardiso", "cholmod")
+LIBRARIES = ("qdldl", "superlu", "cholmod")
 
-CHOLMOD_FROM, PARDISO_FROM, SUPERLU_FROM = 300, 5_000, 12_000
-"""Unknowns from which they are taken where they are installed, in this order."""
+CHOLMOD_FROM, SUPERLU_FROM = 300, 12_000
+"""Unknowns from which they are taken, the first where it is installed."""
 
 
 class Factorization(Protocol):
@@ -82,8 +82,6 @@ def best_library(n: int) -> str:
     """The library that ``factorization`` takes for n unknowns."""
     if n >= CHOLMOD_FROM and _fault("cholmod") is None:
         return "cholmod"
-    if n >= PARDISO_FROM and _fault("pardiso") is None:
-        return "pardiso"
     return "superlu" if n >= SUPERLU_FROM else "qdldl"
 
 
@@ -92,23 +90,13 @@ def _made(library: str, pattern: SymmetricPattern) -> Factorization:
         from mbla.solution.linear_algebra.cholmod_factors import CholmodFactors
 
         return CholmodFactors(pattern)
-    if library == "pardiso":
-        from mbla.solution.linear_algebra.pardiso_factors import PardisoFactors
-
-        runtime = mkl_library()
-        if runtime is None or not mkl_works():
-            raise ImportError(WITHOUT_MKL)
-        return PardisoFactors(pattern, runtime)
     if library == "superlu":
-        from mbla.solution.linear_algebra.superlu_factors import SuperluFactors
+        from mbla.solution.linear_algebra.superlu import SuperluFactors
 
         return SuperluFactors(pattern)
     from mbla.solution.linear_algebra.qdldl_factors import QdldlFactors
 
     return QdldlFactors(pattern)
-
-
-WITHOUT_MKL = "the package mkl is not installed or ends its process"
 
 
 @cache

@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.process.sharing import shared
 from mbla.program.program import Program
-from mbla.solution.linear_algebra.elimination_order import elimination_order
-from mbla.solution.linear_algebra.general import GeneralFactorization, Solve
+from mbla.solution.linear_algebra.qdldl_factors import elimination_order
+from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, Solve, factors_on_the_diagonal
 
 
 @dataclass(frozen=True)
@@ -67,13 +67,9 @@ class Places:
 
 @dataclass(frozen=True)
 class Stiffness(Places):
-    """The bordered matrix of one program.
-
-    factorization : of matrices of its pattern, one at a time
-    """
+    """The bordered matrix of one program."""
 
     program: Program
-    factorization: GeneralFactorization
 
     def velocities(self, u: FloatArray) -> FloatArray:
         """Velocities at the contact points, (n_points, components)."""
@@ -82,19 +78,20 @@ class Stiffness(Places):
     def factorized(self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False) -> Solve | None:
         """Factorise with C, (n_points, components, components), and a shift of the diagonal, (n_rows,).
 
-        Returns the solution of the bordered system as a function of the right-hand side, (n_rows + 1,), to be used
-        before the next factorisation; None where the matrix is singular to working accuracy.
+        Returns the solution of the bordered system as a function of the right-hand side, (n_rows + 1,); None where the
+        matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
-        once = self.factorization.factorize(matrix)
-        if once is None:
+        finite = bool(np.isfinite(matrix.data).all())
+        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
+        if factors is None:
             return None
         order = self.order
 
         def solve(rhs: FloatArray) -> FloatArray:
             ordered = rhs[order]
-            solution = once(ordered)
-            solution += once(ordered - matrix @ solution)  # pivots are small where joints are open
+            solution = factors.solve(ordered)
+            solution += factors.solve(ordered - matrix @ solution)  # pivots are small where joints are open
             result = np.empty_like(solution)
             result[order] = solution
             return result
@@ -133,7 +130,7 @@ def stiffness_of(program: Program) -> Stiffness:
     """Pattern, places and order of elimination of a program."""
     matrix = program.equilibrium_matrix
     found = _places(matrix, program.components, program.n_points)
-    return Stiffness(**vars(found), program=program, factorization=GeneralFactorization(found.pointers, found.indices))
+    return Stiffness(**vars(found), program=program)
 
 
 @shared("stiffness")

@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
-from mbla.solution.linear_algebra.small_inverses import inverses
+from mbla.solution.linear_algebra.small_blocks import inverses
 from mbla.solution.linear_algebra.stiffness import Stiffness
 
 LEAST_LIMIT = 1e-10

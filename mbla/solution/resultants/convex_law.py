@@ -28,6 +28,7 @@ from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram
 from mbla.program.resultants.crushing import RESULTANTS, crushing_violation
 from mbla.program.resultants.friction_limit import friction_limit, nearest
+from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION
 from mbla.solution.resultants.convex_state import with_motions
@@ -195,7 +196,7 @@ class _Trial:
             forces=forces,
             residual=np.append(balance, program.live_load @ u - 1.0),
             tangent=points.tangent(program.limits.friction, rho),
-            by_own=_blocks(np.concatenate([found.by_point, follows]) / rho),
+            by_own=block_diagonal(np.concatenate([found.by_point, follows]) / rho),
             by_forces=sp.csr_array(by_sizes @ convex.resultants),
             closing=closing,
         )
@@ -251,12 +252,7 @@ class _Points:
         tangents[:, 1:, 1:] = self.share[:, None, None] * across
         follows = self.slips & self.in_contact
         tangents[follows, 1:, 0] = friction[follows, None] * theta[follows]
-        return _blocks(tangents / rho)
-
-
-def _blocks(blocks: FloatArray) -> sp.csr_array:
-    n = len(blocks)
-    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(3 * n, 3 * n)))
+        return block_diagonal(tangents / rho)
 
 
 def _columns(vectors: FloatArray, n: int) -> sp.csr_array:

@@ -128,7 +128,7 @@ def _corrected(
         step = step_of(equilibrium, cones, z)
         if step is None:
             break
-        longest = 0.999 * cones.longest_step(z[1:], step[1:])
+        longest = 0.999 * cones.step_to_boundary(z[1:], step[1:])
         z = z + min(1.0, longest) * step
         residual = float(np.abs(equilibrium.unbalanced(z)).max(initial=0.0))
         stalled = longest >= 1.0 and residual > PROGRESS * least

@@ -24,6 +24,7 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 
 BALANCED = 1e-9
@@ -154,9 +155,7 @@ def _share(size: FloatArray, limit: FloatArray) -> FloatArray:
 
 def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: bool) -> sp.csc_matrix:
     """A C Aᵀ + κ W."""
-    blocks = joint_stiffness(problem, joints, lagged)
-    n, size = len(blocks), problem.components * len(blocks)
-    diagonal = sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(size, size)))
+    diagonal = block_diagonal(joint_stiffness(problem, joints, lagged))
     return sp.csc_matrix(problem.equilibrium_matrix @ diagonal @ problem.transpose + kappa * problem.springs)
 
 

@@ -59,7 +59,6 @@ def test_every_solver_of_a_deck_has_its_words() -> None:
     ("solver", "factorization", "words"),
     [
         ("mbla", "cholmod", "mbla (condensed interior point, cholmod)"),
-        ("clarabel", "mkl", "clarabel (interior point, mkl)"),
         ("highs", "", "HiGHS (interior point and crossover)"),
         ("", "", ""),
     ],

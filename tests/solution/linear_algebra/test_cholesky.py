@@ -151,37 +151,21 @@ def test_reruns_are_identical_to_the_bit(library: str) -> None:
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip() == here
 
 
-@pytest.mark.skipif(not {"pardiso", "cholmod"} <= set(installed()), reason="pardiso or cholmod is not installed")
-def test_cholmod_does_not_take_the_blas_of_mkl() -> None:
-    """MKL offers it to the whole process once it is loaded; then the last digits would depend on what ran before."""
-    command = [sys.executable, "-c", WITHOUT_MKL + DIGEST.format("cholmod")]
-    alone = subprocess.run(command, capture_output=True, text=True, check=True)
-    digest("pardiso")
-    assert alone.stdout.strip() == digest("cholmod")
-
-
-WITHOUT_MKL = """
-from mbla.solution.linear_algebra import cholesky
-cholesky.mkl_library = lambda: None
-"""
-
-
 def test_two_are_always_there() -> None:
     assert {"qdldl", "superlu"} <= set(installed())
 
 
 def test_an_unknown_library_is_named() -> None:
-    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, superlu, pardiso, cholmod"):
+    with pytest.raises(SolverError, match="no factorisation mumps: it is one of qdldl, superlu, cholmod"):
         factorization(definite(3)[0], "mumps")
 
 
 @pytest.fixture
 def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """As if neither extra were installed."""
+    """As if the extra were not installed."""
     cholesky._fault.cache_clear()
     monkeypatch.setitem(sys.modules, "cvxopt", None)
     monkeypatch.delitem(sys.modules, "mbla.solution.linear_algebra.cholmod_factors", raising=False)
-    monkeypatch.setattr(cholesky, "mkl_library", lambda: None)
     yield
     cholesky._fault.cache_clear()
 
@@ -190,9 +174,8 @@ def only_qdldl(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def test_what_is_not_installed_is_left_out_and_said_where_it_is_asked_for() -> None:
     pattern = definite(3)[0]
     assert installed() == ("qdldl", "superlu")
-    for library in ("pardiso", "cholmod"):
-        with pytest.raises(SolverError, match=f"the factorisation {library} does not work here: .+"):
-            factorization(pattern, library)
+    with pytest.raises(SolverError, match=r"the factorisation cholmod does not work here: .+"):
+        factorization(pattern, "cholmod")
 
 
 class Wrong:
@@ -223,10 +206,8 @@ def test_a_library_with_wrong_answers_is_left_out(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize(
     ("there", "n", "expected"),
     [
-        ({"cholmod", "pardiso"}, cholesky.CHOLMOD_FROM, "cholmod"),
-        ({"cholmod", "pardiso"}, cholesky.CHOLMOD_FROM - 1, "qdldl"),
-        ({"pardiso"}, cholesky.PARDISO_FROM, "pardiso"),
-        ({"pardiso"}, cholesky.PARDISO_FROM - 1, "qdldl"),
+        ({"cholmod"}, cholesky.CHOLMOD_FROM, "cholmod"),
+        ({"cholmod"}, cholesky.CHOLMOD_FROM - 1, "qdldl"),
         (set(), cholesky.SUPERLU_FROM, "superlu"),
         (set(), cholesky.SUPERLU_FROM - 1, "qdldl"),
     ],
@@ -239,10 +220,3 @@ def test_the_best_for_the_size(monkeypatch: pytest.MonkeyPatch, there: set[str],
 def test_a_small_matrix_looks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cholesky, "_fault", lambda library: pytest.fail(f"looked for {library}"))
     assert factorization(definite(50)[0]).library == "qdldl"
-
-
-def test_pardiso_is_not_made_where_mkl_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cholesky, "mkl_library", lambda: None)
-    one = SymmetricPattern(1, np.zeros(1, dtype=np.int32), np.array([0, 1], dtype=np.int32))
-    with pytest.raises(ImportError, match="the package mkl is not installed"):
-        cholesky._made("pardiso", one)

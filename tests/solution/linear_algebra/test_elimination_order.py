@@ -10,7 +10,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
 from mbla.arrays import IntArray
-from mbla.solution.linear_algebra.elimination_order import elimination_order, sets_of_equal_rows
+from mbla.solution.linear_algebra.qdldl_factors import elimination_order, sets_of_equal_rows
 
 
 def blocks_of(graph: sp.coo_array, size: int) -> sp.coo_array:

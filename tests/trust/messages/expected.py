@@ -128,7 +128,7 @@ EXPECTED: dict[str, tuple[str, ...]] = {
     "limit_below_zero": ("HiGHS refuses the option ipm_iteration_limit = -5  [solver-option]",),
     "program_with_an_infinite_cost": ("the cone program holds numbers that are not finite  [program-not-finite]",),
     "factorisation_that_is_none": (
-        "there is no factorisation mumps: it is one of qdldl, superlu, pardiso, cholmod  [factorisation-missing]",
+        "there is no factorisation mumps: it is one of qdldl, superlu, cholmod  [factorisation-missing]",
     ),
     "resume_and_force": ("--resume goes on with the journal and --force begins anew: one of them  [sweep-option]",),
     "sweep_that_was_run": (

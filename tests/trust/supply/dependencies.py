@@ -8,7 +8,7 @@ from functools import cache
 from tests.decks.folder import ROOT
 
 PAGE = ROOT / "schemas" / "dependencies.md"
-EXTRAS = ("mkl", "cholmod", "pictures", "report", "tables", "dask")
+EXTRAS = ("cholmod", "pictures", "report", "tables", "dask")
 """those of users; the others are for tests and benchmarks"""
 
 

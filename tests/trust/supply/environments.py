@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.decks.folder import ROOT
 
-EXTRAS = ("pictures", "report", "tables", "dask", "mkl", "cholmod", "test")
+EXTRAS = ("pictures", "report", "tables", "dask", "cholmod", "test")
 LOWEST, NEWEST = "lowest-direct", "highest"
 
 

@@ -9,6 +9,18 @@ J = diag(1, −1, −1) in each cone, e = 1 on half-lines and (1, 0, 0) in cones
     l ∖ r : l ∘ (l ∖ r) = r
 
 Source: Alizadeh and Goldfarb 2003 (doi:10.1007/s10107-002-0339-5), sections 4 and 5.
+
+Nesterov–Todd scaling: the symmetric W with W z = W⁻¹ s = l, so that primal and dual look alike from the middle.
+
+On a half-line W = √(s/z). In a cone, with s̄ = s/√det s, z̄ = z/√det z, γ = √((1 + s̄·z̄)/2)::
+
+    w = (s̄ + J z̄) / (2 γ),   η = (det s / det z)^¼
+    W = η [w₀  w̄ᵀ; w̄  I + w̄ w̄ᵀ/(1 + w₀)],   W⁻¹ = 1/η [w₀  −w̄ᵀ; −w̄  I + w̄ w̄ᵀ/(1 + w₀)]
+
+W⁻¹ is applied twice rather than W⁻² once: near the border the eigenvalues of W⁻² lie 1e20 apart.
+
+Source: Nesterov and Todd 1997 (doi:10.1287/moor.22.1.1); Vandenberghe, "The CVXOPT linear and quadratic cone program
+solvers", 2010, section 4.
 """
 
 from __future__ import annotations
@@ -18,6 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.solution.cone_solvers.cone_vectors import cones_to_boundary, lines_to_boundary
 
 
 @dataclass(frozen=True)
@@ -88,19 +101,14 @@ class ConeProduct:
         least = float(self.lines(v).min(initial=np.inf))
         return min(least, float((cones[0] - np.hypot(cones[1], cones[2])).min(initial=np.inf)))
 
-    def longest_step(self, inside: FloatArray, step: FloatArray) -> float:
-        """Largest t with inside + t step in the cones; infinite where there is none.
-
-        In a cone with A = det step, B the mixed product and D = det inside: t = D / (√(B² − A D) − B) where positive.
-        """
-        lines, change = self.lines(inside), self.lines(step)
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            ratio = np.where(change < 0.0, -lines / change, np.inf).min(initial=np.inf)
-            a, b = self.cones(inside), self.cones(step)
-            det, mixed = determinant(a), a[0] * b[0] - a[1] * b[1] - a[2] * b[2]
-            root = np.sqrt(np.maximum(mixed**2 - determinant(b) * det, 0.0)) - mixed
-            reach = np.where(root > 0.0, det / root, np.inf).min(initial=np.inf)
-        return float(min(ratio, reach))
+    def step_to_boundary(self, inside: FloatArray, step: FloatArray) -> float:
+        """Largest t with inside + t step in the cones; infinite where there is none."""
+        a, b = self.cones(inside), self.cones(step)
+        with np.errstate(over="ignore", invalid="ignore"):
+            mixed = a[0] * b[0] - a[1] * b[1] - a[2] * b[2]
+            cones = cones_to_boundary(determinant(a), mixed, determinant(b))
+        lines = lines_to_boundary(self.lines(inside), self.lines(step))
+        return float(min(lines.min(initial=np.inf), cones.min(initial=np.inf)))
 
 
 def dot(u: FloatArray, v: FloatArray) -> float:
@@ -112,3 +120,68 @@ def determinant(cones: FloatArray) -> FloatArray:
     """v₀² − ‖v̄‖² of each cone, (n_cones,), from v (3, n_cones), without cancellation."""
     tail = np.hypot(cones[1], cones[2])
     return np.asarray((cones[0] - tail) * (cones[0] + tail))
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """W of one pair of vectors.
+
+    line : (n_lines,) W on half-lines
+    w    : (3, n_cones) unit vector of each cone
+    eta  : (n_cones,)
+    """
+
+    product: ConeProduct
+    line: FloatArray
+    w: FloatArray
+    eta: FloatArray
+
+    @staticmethod
+    def of(product: ConeProduct, s: FloatArray, z: FloatArray) -> Scaling:
+        """Of two vectors inside the cones."""
+        line = np.sqrt(product.lines(s) / product.lines(z))
+        a, b = product.cones(s), product.cones(z)
+        det_a, det_b = determinant(a), determinant(b)
+        a, b = a / np.sqrt(det_a), b / np.sqrt(det_b)
+        gamma = np.sqrt(0.5 * (1.0 + a[0] * b[0] + a[1] * b[1] + a[2] * b[2]))
+        w = np.empty_like(a)
+        w[1:] = (a[1:] - b[1:]) / (2.0 * gamma)
+        w[0] = np.sqrt(1.0 + w[1] ** 2 + w[2] ** 2)
+        return Scaling(product, line, w, (det_a / det_b) ** 0.25)
+
+    @staticmethod
+    def identity(product: ConeProduct) -> Scaling:
+        """W = I."""
+        w = np.zeros((3, product.n_cones))
+        w[0] = 1.0
+        return Scaling(product, np.ones(product.n_lines), w, np.ones(product.n_cones))
+
+    def times(self, v: FloatArray) -> FloatArray:
+        """W v."""
+        result = np.empty_like(v)
+        np.multiply(self.product.lines(v), self.line, out=self.product.lines(result))
+        boosted(self.w, self.product.cones(v), 1.0, self.product.cones(result))
+        self.product.cones(result)[:] *= self.eta
+        return result
+
+    def inverse(self, v: FloatArray) -> FloatArray:
+        """W⁻¹ v."""
+        result = np.empty_like(v)
+        np.divide(self.product.lines(v), self.line, out=self.product.lines(result))
+        boosted(self.w, self.product.cones(v), -1.0, self.product.cones(result))
+        self.product.cones(result)[:] /= self.eta
+        return result
+
+
+def boosted(w: FloatArray, v: FloatArray, sign: float, out: FloatArray) -> None:
+    """W/η of v for sign 1, η W⁻¹ of v for sign −1; w and v (3, …) are broadcast against each other."""
+    along = w[1] * v[1] + w[2] * v[2]
+    out[0] = w[0] * v[0] + sign * along
+    factor = sign * v[0] + along / (1.0 + w[0])
+    out[1] = v[1] + w[1] * factor
+    out[2] = v[2] + w[2] * factor
+
+
+def largest_entry(v: FloatArray) -> float:
+    """Largest size of an entry, zero of an empty vector."""
+    return float(np.abs(v).max(initial=0.0))

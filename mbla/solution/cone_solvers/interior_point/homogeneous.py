@@ -23,12 +23,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
 from mbla.solution.cone_solvers.interior_point.cone_data import ConeData
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, dot
-from mbla.solution.cone_solvers.interior_point.iterates import Point
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, dot
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, Point, Run, best_of_run, inside_start
 from mbla.solution.cone_solvers.interior_point.method import SHARE
-from mbla.solution.cone_solvers.interior_point.run import Ended, Run, best_of_run
-from mbla.solution.cone_solvers.interior_point.scaling import Scaling
-from mbla.solution.cone_solvers.interior_point.starts import inside_start
 
 
 @dataclass(frozen=True)
@@ -130,7 +127,7 @@ def _step(data: ConeData, condensation: Condensation, now: _Embedded) -> tuple[_
 
 def _reach(product: ConeProduct, middle: FloatArray, now: _Embedded, d: _Direction) -> float:
     """Longest step along a direction that stays within the cones, τ and κ positive."""
-    ends = [product.longest_step(middle, d.s), product.longest_step(middle, d.z)]
+    ends = [product.step_to_boundary(middle, d.s), product.step_to_boundary(middle, d.z)]
     ends += [-v / dv if dv < 0.0 else np.inf for v, dv in ((now.tau, d.tau), (now.kappa, d.kappa))]
     return float(min(ends))
 

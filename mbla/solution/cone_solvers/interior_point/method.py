@@ -32,11 +32,19 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
 from mbla.solution.cone_solvers.interior_point.cone_data import ConeData
-from mbla.solution.cone_solvers.interior_point.cones import dot
-from mbla.solution.cone_solvers.interior_point.iterates import Point, Residuals, measured, residuals_of
-from mbla.solution.cone_solvers.interior_point.run import Ended, Outcome, Run, best_of_run
-from mbla.solution.cone_solvers.interior_point.scaling import Scaling
-from mbla.solution.cone_solvers.interior_point.starts import inside_start, usual_start
+from mbla.solution.cone_solvers.interior_point.cones import Scaling, dot
+from mbla.solution.cone_solvers.interior_point.iterates import (
+    Ended,
+    Outcome,
+    Point,
+    Residuals,
+    Run,
+    best_of_run,
+    inside_start,
+    measured,
+    residuals_of,
+    usual_start,
+)
 
 SHARE = 0.99
 """Of the way to the border that a step goes."""
@@ -101,7 +109,7 @@ class _Frame:
     def lengths(self, direction: _Direction, share: float) -> tuple[float, float]:
         """How far s and (y, z) go, at most 1: each its own way where the cost is linear."""
         product = self.data.product
-        reach = [min(1.0, share * product.longest_step(self.middle, step)) for step in (direction.s, direction.z)]
+        reach = [min(1.0, share * product.step_to_boundary(self.middle, step)) for step in (direction.s, direction.z)]
         return (reach[0], reach[1]) if self.data.is_linear else (min(reach), min(reach))
 
     def ahead(self, direction: _Direction, to_s: float, to_z: float) -> tuple[FloatArray, FloatArray]:

@@ -1,7 +1,6 @@
 """Cone programs solved by the method of this package, held like those of the other solvers.
 
-Programs of few equations (kinematic forms) are condensed onto their unknowns, those whose unknowns are local (static
-forms) onto the multipliers of their equations. ``fits`` says whether a program is one of the two.
+Programs of few equations, the kinematic forms, are condensed onto their unknowns; ``fits`` says which.
 """
 
 from __future__ import annotations
@@ -19,12 +18,8 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cone_data import ConeData, cone_data
 from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
-from mbla.solution.cone_solvers.interior_point.iterates import Measures, Point
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Point, Run, warm_start
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
-from mbla.solution.cone_solvers.interior_point.on_multipliers import OnMultipliers, is_local
-from mbla.solution.cone_solvers.interior_point.on_unknowns import OnUnknowns
-from mbla.solution.cone_solvers.interior_point.run import Ended, Outcome, Run
-from mbla.solution.cone_solvers.interior_point.starts import warm_start
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 
@@ -140,8 +135,7 @@ class CondensedProgram:
         """The program as the method wants it, and its condensation, found once."""
         if self._data is None or self._condensation is None:
             self._data = cone_data(self.cone_program)
-            kind = OnUnknowns if _onto_unknowns(self._data) else OnMultipliers
-            self._condensation = kind(self._data, self.settings.cholesky)
+            self._condensation = Condensation(self._data, self.settings.cholesky)
         return self._data, self._condensation
 
     def _check_finite(self) -> None:
@@ -186,24 +180,13 @@ class CondensedProgram:
 
 def fits(program: ConeProgram) -> bool:
     """Whether a program is one that can be condensed."""
-    if program.further_cones or program.n_half_lines + program.n_cones == 0:
-        return False
-    return program.n_equations <= MOST_EQUATIONS or is_local(cone_data(program))
+    has_cones = program.n_half_lines + program.n_cones > 0
+    return has_cones and program.n_equations <= MOST_EQUATIONS and not program.further_cones
 
 
 def condensed_size(program: ConeProgram) -> int:
-    """Rows of N for a program that fits: its unknowns, or its equations where these are many."""
-    return len(program.cost) - program.n_local if program.n_equations <= MOST_EQUATIONS else program.n_equations
-
-
-def _onto_unknowns(data: ConeData) -> bool:
-    """Whether N is that on the unknowns: for few equations, unless an unknown is in equations alone.
-
-    The static form of one or two blocks has few equations too, and such an unknown in its load factor: N would be
-    singular. So it is with a block that nothing touches, but there only the shift decides how that moves.
-    """
-    held = (np.diff(data.cone_matrix_t.indptr) > 0) | (data.quadratic > 0.0)
-    return len(data.equation_rhs) <= MOST_EQUATIONS and (bool(held.all()) or not is_local(data))
+    """Rows of N for a program that fits: its unknowns that are not local."""
+    return len(program.cost) - program.n_local
 
 
 def _better(first: Ended, second: Ended) -> Ended:

@@ -20,7 +20,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.linear_algebra.small_inverses import inverses
+from mbla.solution.linear_algebra.small_blocks import inverses
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.interior_path.central_path import CentralPath, Residuals
 from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap

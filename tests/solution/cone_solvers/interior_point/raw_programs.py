@@ -5,20 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
-from mbla.program.fixed_mechanism import fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.program.static import gravity_form, proximal_data, proximal_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
-from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from tests.program.associative_static import associative_static_form
 
 TOLERANCE = 1e-8
 """Of both solvers."""
@@ -29,24 +22,10 @@ ALIKE = 1e-6
 CERTAIN = (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM)
 
 
-def raw_programs(program: Program, state: LawState | None) -> Mapping[str, ConeProgram]:
-    """By kind; those of a given mechanism only where there is a state."""
+def raw_programs(program: Program) -> Mapping[str, ConeProgram]:
+    """By kind."""
     kinematic = kinematic_form(program, program.limits).cone_program
-    programs = {
-        "kinematic": kinematic,
-        "reversed": replace(kinematic, rhs=-kinematic.rhs),
-        "static": associative_static_form(program, None).cone_program,
-        "gravity": gravity_form(program).cone_program,
-    }
-    if state is not None:
-        step = proximal_form(program, 0.01)
-        limit = program.limits.friction * np.abs(state.forces[:, 0]) + program.limits.cohesion
-        cost, rhs = proximal_data(step, 0.01, state.forces, limit)
-        programs["proximal"] = replace(step.cone_program, cost=cost, rhs=rhs)
-        motion = point_motion(program, state, 1e-6, program.limits.friction)
-        least = fixed_mechanism_form(program, motion).cone_program
-        programs |= {"least of mechanism": least, "greatest of mechanism": replace(least, cost=-least.cost)}
-    return programs
+    return {"kinematic": kinematic, "reversed": replace(kinematic, rhs=-kinematic.rhs)}
 
 
 def solved_by_both(program: ConeProgram) -> tuple[ConeSolution, ConeSolution]:

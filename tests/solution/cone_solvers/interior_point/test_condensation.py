@@ -1,8 +1,6 @@
-"""The condensed solution, refined, against a dense solution of the whole system; onto unknowns and onto multipliers."""
+"""The condensed solution, refined, against a dense solution of the whole system."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -12,12 +10,8 @@ from hypothesis import strategies as st
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
 from mbla.solution.cone_solvers.interior_point.cone_data import ConeData, cone_data
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct
-from mbla.solution.cone_solvers.interior_point.on_multipliers import OnMultipliers, is_local, local_groups
-from mbla.solution.cone_solvers.interior_point.on_unknowns import OnUnknowns
-from mbla.solution.cone_solvers.interior_point.program import fits
-from mbla.solution.cone_solvers.interior_point.scaling import Scaling
-from tests.solution.cone_solvers.interior_point.vectors import Known, inside, known_program, known_static_program
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling
+from tests.solution.cone_solvers.interior_point.vectors import Known, inside, known_program
 
 quick = settings(max_examples=25, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
@@ -30,12 +24,6 @@ def kinematic(seed: int, quadratic: bool) -> Known:
     return known_program(rng, int(rng.integers(4, 13)), int(rng.integers(0, 4)), product, quadratic)
 
 
-def static(seed: int, quadratic: bool) -> Known:
-    """Many equations, local unknowns and a free one."""
-    rng = np.random.default_rng(seed)
-    return known_static_program(rng, int(rng.integers(6, 10)), quadratic)
-
-
 def system(data: ConeData, scaling: Scaling) -> FloatArray:
     """[Q + GᵀW⁻²G, Eᵀ; E, 0], dense."""
     bent = np.column_stack([scaling.inverse(column) for column in data.cone_matrix.toarray().T])
@@ -45,20 +33,13 @@ def system(data: ConeData, scaling: Scaling) -> FloatArray:
 
 
 @pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
-@pytest.mark.parametrize(("make", "kind"), [(kinematic, OnUnknowns), (static, OnMultipliers)])
 @pytest.mark.parametrize("distance", [1.0, 1e-3])
 @quick
 @given(seed=seeds)
-def test_condensed_and_refined_is_the_solution_of_the_whole_system(
-    seed: int,
-    make: Callable[[int, bool], Known],
-    kind: Callable[[ConeData, str | None], Condensation],
-    distance: float,
-    quadratic: bool,
-) -> None:
+def test_condensed_and_refined_is_the_solution_of_the_whole_system(seed: int, distance: float, quadratic: bool) -> None:
     rng = np.random.default_rng(seed)
-    data = cone_data(make(seed, quadratic).program)
-    condensation = kind(data, "qdldl")
+    data = cone_data(kinematic(seed, quadratic).program)
+    condensation = Condensation(data, "qdldl")
     s, z = (inside(rng, data.product, distance) for _ in range(2))
     scaling = Scaling.of(data.product, s, z)
     assert condensation.factorize(scaling)
@@ -75,21 +56,20 @@ def test_condensed_and_refined_is_the_solution_of_the_whole_system(
 
 def test_one_condensation_serves_one_scaling_after_another() -> None:
     """A second factorisation leaves nothing of the first."""
-    for make, kind in ((kinematic, OnUnknowns), (static, OnMultipliers)):
-        data, rng = cone_data(make(5, True).program), np.random.default_rng(5)
-        pairs = [tuple(inside(rng, data.product, 0.1) for _ in range(2)) for _ in range(2)]
-        right = rng.normal(size=len(data.cost)), rng.normal(size=len(data.equation_rhs))
-        used, fresh = kind(data, "qdldl"), kind(data, "qdldl")
-        for pair in pairs:
-            assert used.factorize(Scaling.of(data.product, *pair))
-        assert fresh.factorize(Scaling.of(data.product, *pairs[1]))
-        for one, other in zip(used.solve(*right), fresh.solve(*right), strict=True):
-            np.testing.assert_array_equal(one, other)
+    data, rng = cone_data(kinematic(5, True).program), np.random.default_rng(5)
+    pairs = [tuple(inside(rng, data.product, 0.1) for _ in range(2)) for _ in range(2)]
+    right = rng.normal(size=len(data.cost)), rng.normal(size=len(data.equation_rhs))
+    used, fresh = Condensation(data, "qdldl"), Condensation(data, "qdldl")
+    for pair in pairs:
+        assert used.factorize(Scaling.of(data.product, *pair))
+    assert fresh.factorize(Scaling.of(data.product, *pairs[1]))
+    for one, other in zip(used.solve(*right), fresh.solve(*right), strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 def test_zero_has_the_solution_zero() -> None:
     data = cone_data(kinematic(1, False).program)
-    condensation = OnUnknowns(data, "qdldl")
+    condensation = Condensation(data, "qdldl")
     scaling = Scaling.identity(data.product)
     assert condensation.factorize(scaling)
     x, y = refined_solution(data, condensation, scaling, np.zeros_like(data.cost), np.zeros_like(data.equation_rhs))
@@ -98,19 +78,8 @@ def test_zero_has_the_solution_zero() -> None:
 
 
 def test_a_scaling_that_is_no_number_is_a_breakdown() -> None:
-    for make, kind in ((kinematic, OnUnknowns), (static, OnMultipliers)):
-        data = cone_data(make(2, False).program)
-        scaling = Scaling.identity(data.product)
-        spoiled = Scaling(data.product, scaling.line, scaling.w, np.full_like(scaling.eta, np.nan))
-        with np.errstate(invalid="ignore"):
-            assert not kind(data, "qdldl").factorize(spoiled)
-
-
-def test_the_load_factor_is_the_border_and_points_are_groups() -> None:
-    data = cone_data(static(3, False).program)
-    group, free = local_groups(data)
-    n_points = data.product.n_cones
-    assert free.tolist() == [3 * n_points]
-    assert np.array_equal(group[:-1], np.repeat(np.arange(n_points), 3))
-    assert is_local(data)
-    assert fits(static(3, False).program)
+    data = cone_data(kinematic(2, False).program)
+    scaling = Scaling.identity(data.product)
+    spoiled = Scaling(data.product, scaling.line, scaling.w, np.full_like(scaling.eta, np.nan))
+    with np.errstate(invalid="ignore"):
+        assert not Condensation(data, "qdldl").factorize(spoiled)

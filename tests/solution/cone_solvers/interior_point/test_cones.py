@@ -79,7 +79,7 @@ def test_the_least_eigenvalue_is_how_far_the_identity_can_be_taken_away(seed: in
 def test_the_longest_step_ends_on_the_border(seed: int, product: ConeProduct, distance: float) -> None:
     rng = np.random.default_rng(seed)
     here, step = inside(rng, product, distance), vector_of(rng, product)
-    longest = product.longest_step(here, step)
+    longest = product.step_to_boundary(here, step)
     if not np.isfinite(longest):  # the direction itself is in the cones
         assert product.least_eigenvalue(step) >= -1e-12
         return
@@ -99,13 +99,13 @@ def test_the_longest_step_next_to_the_border_has_the_sign_of_the_direction(seed:
     product = ConeProduct(0, 1)
     here = np.array([1.0 + distance, np.cos(angle), np.sin(angle)])
     room = here[0] - np.hypot(here[1], here[2])
-    assert product.longest_step(here, np.array([-1.0, 0.0, 0.0])) == pytest.approx(room, rel=1e-6)
-    assert product.longest_step(here, here) == np.inf
+    assert product.step_to_boundary(here, np.array([-1.0, 0.0, 0.0])) == pytest.approx(room, rel=1e-6)
+    assert product.step_to_boundary(here, here) == np.inf
     lost = np.sqrt(1e-15 / room)  # of B² − A D, where B and its rounding are as small as D
-    assert product.longest_step(here, -here) == pytest.approx(1.0, rel=lost)
+    assert product.step_to_boundary(here, -here) == pytest.approx(1.0, rel=lost)
     across = np.array([0.0, -np.sin(angle), np.cos(angle)])
     reach = np.sqrt(room * (2.0 + room))
-    assert product.longest_step(here, across) == pytest.approx(reach, rel=1e-6)
+    assert product.step_to_boundary(here, across) == pytest.approx(reach, rel=1e-6)
 
 
 @quick
@@ -120,5 +120,5 @@ def test_clipping_bounds_the_eigenvalues_and_leaves_those_within(seed: int, prod
 
 def test_an_empty_product_holds_everything() -> None:
     product, nothing = ConeProduct(0, 0), np.zeros(0)
-    assert product.longest_step(nothing, nothing) == np.inf
+    assert product.step_to_boundary(nothing, nothing) == np.inf
     assert product.least_eigenvalue(nothing) == np.inf

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -14,27 +13,19 @@ from hypothesis import strategies as st
 
 from mbla.errors import SolverError
 from mbla.program.kinematic import kinematic_form
-from mbla.program.static import gravity_form
-from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cone_data import cone_data
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling
 from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, Outcome, Run
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
-from mbla.solution.cone_solvers.interior_point.on_multipliers import OnMultipliers
-from mbla.solution.cone_solvers.interior_point.on_unknowns import OnUnknowns
-from mbla.solution.cone_solvers.interior_point.program import MOST_EQUATIONS, CondensedProgram, fits
-from mbla.solution.cone_solvers.interior_point.run import Ended, Outcome, Run
-from mbla.solution.cone_solvers.interior_point.scaling import Scaling
+from mbla.solution.cone_solvers.interior_point.program import CondensedProgram, fits
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
-from tests.line import BLOCK, WALL, line_of
-from tests.program.associative_static import associative_static_form
+from tests.line import BLOCK, line_of
 from tests.solution.cone_solvers.interior_point.held_programs import held, least_in_cones, small, wall
-from tests.solution.cone_solvers.interior_point.vectors import Known, known_program, known_static_program
-
-Make = Callable[[int, bool], Known]
+from tests.solution.cone_solvers.interior_point.vectors import Known, known_program
 
 quick = settings(max_examples=25, derandomize=True)
 
@@ -49,18 +40,12 @@ def kinematic(seed: int, quadratic: bool) -> Known:
     return known_program(rng, int(rng.integers(4, 13)), int(rng.integers(0, 4)), product, quadratic)
 
 
-def static(seed: int, quadratic: bool) -> Known:
-    rng = np.random.default_rng(seed)
-    return known_static_program(rng, int(rng.integers(6, 10)), quadratic)
-
-
 @pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
-@pytest.mark.parametrize("make", [kinematic, static])
 @quick
 @given(seed=seeds)
-def test_programs_made_around_a_solution_give_its_value(seed: int, make: Make, quadratic: bool) -> None:
+def test_programs_made_around_a_solution_give_its_value(seed: int, quadratic: bool) -> None:
     """Some end at 1.02e-9 instead of 1e-9 and say so: the value is as good."""
-    known = make(seed, quadratic)
+    known = kinematic(seed, quadratic)
     solution = held(known.program).solve(1, 1.0)
     assert solution.status in (Status.SOLVED, Status.APPROXIMATE), solution.verdict
     size = 1.0 + abs(known.optimum)
@@ -116,15 +101,13 @@ def test_strengths_far_beyond_the_weights_leave_the_answer_alone() -> None:
     assert line.program.scaling.load_factor(solution.objective) == pytest.approx(0.3, rel=1e-5)
 
 
-@pytest.mark.parametrize("make", [kinematic, static])
 @pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
-def test_the_embedding_has_the_same_optimum(make: Make, quadratic: bool) -> None:
+def test_the_embedding_has_the_same_optimum(quadratic: bool) -> None:
     """It is run where the method fails only; here it has to do all by itself."""
     for seed in range(6):
-        known = make(seed, quadratic)
+        known = kinematic(seed, quadratic)
         data = cone_data(known.program)
-        kind = OnUnknowns if make is kinematic else OnMultipliers
-        ended = solve_embedded(data, kind(data, "qdldl"), RUN)
+        ended = solve_embedded(data, Condensation(data, "qdldl"), RUN)
         assert ended.outcome in (Outcome.SOLVED, Outcome.ALMOST), (seed, ended.outcome)
         assert ended.measures.primal_objective == pytest.approx(known.optimum, abs=1e-5 * (1.0 + abs(known.optimum)))
 
@@ -134,7 +117,7 @@ def test_the_embedding_finds_both_rays() -> None:
     unbounded = small([0.0, -1.0], [[1.0, 0.0], [0.0, -1.0]], [1.0, 0.0], 1)
     for program, outcome in ((infeasible, Outcome.INFEASIBLE), (unbounded, Outcome.UNBOUNDED)):
         data = cone_data(program)
-        ended = solve_embedded(data, OnUnknowns(data, "qdldl"), RUN)
+        ended = solve_embedded(data, Condensation(data, "qdldl"), RUN)
         assert ended.outcome is outcome
 
 
@@ -224,7 +207,7 @@ def test_numbers_that_are_not_finite_are_refused(part: str, value: float) -> Non
 def test_the_best_iterate_is_kept_where_the_method_breaks_down() -> None:
     data = cone_data(wall())
 
-    class Failing(OnUnknowns):
+    class Failing(Condensation):
         """Breaks down after as many factorisations."""
 
         left = 8
@@ -235,7 +218,7 @@ def test_the_best_iterate_is_kept_where_the_method_breaks_down() -> None:
 
     seen: list[float] = []
     run = Run(1e-9, 100, None, 0.0, lambda number, measures, length: seen.append(measures.worst))
-    condensation: Condensation = Failing(data, "qdldl")
+    condensation = Failing(data, "qdldl")
     ended: Ended = solve_cone_program(data, condensation, run)
     assert ended.outcome is Outcome.NUMERICAL
     assert ended.measures.worst == min(seen)
@@ -254,33 +237,9 @@ def test_runs_are_alike_to_the_last_bit() -> None:
     assert one.objective == other.objective
 
 
-def test_the_gravity_state_is_that_of_clarabel() -> None:
-    """A static form, condensed onto the multipliers: forces are unique, and known to the root of the gap."""
-    program = gravity_form(line_of(WALL, "parameters.n=3").program).cone_program
-    assert fits(program)
-    one = held(program).solve(1, 0.0)
-    other = ClarabelProgram(program, SolverSettings(1e-9), lambda record: None).solve(1, 0.0)
-    assert one.status is Status.SOLVED
-    assert one.objective == pytest.approx(other.objective, rel=1e-7)
-    np.testing.assert_allclose(one.x, other.x, atol=1e-4 * np.abs(other.x).max())
-
-
 def test_a_program_of_another_shape_does_not_fit() -> None:
     program = wall()
     assert fits(program)
     rows = sp.csc_array(sp.vstack([program.matrix, sp.csr_array((4, program.matrix.shape[1]))]))
     assert not fits(replace(program, matrix=rows, rhs=np.append(program.rhs, np.ones(4)), further_cones=(4,)))
     assert not fits(replace(program, n_half_lines=0, n_cones=0))
-
-
-@pytest.mark.parametrize("overrides", [(), ("parameters.b=3",)])
-def test_the_static_form_of_one_block_has_few_equations_and_is_solved(overrides: tuple[str, ...]) -> None:
-    """Six equations, as many as a kinematic form may have; but its load factor is in no cone, so that N on the unknowns
-    was singular and the equations were not met."""
-    line = line_of(BLOCK, *overrides)
-    program = associative_static_form(line.program).cone_program
-    assert program.n_equations <= MOST_EQUATIONS
-    solution = held(program).solve(1, 1.0)
-    assert solution.status is Status.SOLVED, solution.verdict
-    factor = line.program.scaling.load_factor(-solution.objective)
-    assert factor == pytest.approx(0.5, rel=1e-7)

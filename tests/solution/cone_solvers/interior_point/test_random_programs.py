@@ -98,7 +98,7 @@ def compared_raw(seeds: range) -> tuple[Counter[tuple[str, str]], list[str]]:
         strengths = [limits.cohesion.max(), limits.tension.max(), *limits.compression[limits.compression < 1e300]]
         if limits.friction.max() > UNUSUAL or max(strengths) > STRONG:
             continue
-        for kind, cone_program in raw_programs(program, outcome_of(program, "clarabel").result.state).items():
+        for kind, cone_program in raw_programs(program).items():
             own, other = solved_by_both(cone_program)
             certain[kind, "all"] += 1
             certain[kind, "mbla"] += own.status in CERTAIN
@@ -112,9 +112,8 @@ def compared_raw(seeds: range) -> tuple[Counter[tuple[str, str]], list[str]]:
 def test_single_cone_programs_have_the_same_optimum() -> None:
     certain, disagreements = compared_raw(range(10))
     assert disagreements == []
-    for kind in ("kinematic", "reversed", "gravity", "proximal", "static"):
+    for kind in ("kinematic", "reversed"):
         assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 1, (kind, certain)
-    assert certain["proximal", "all"] >= 6
 
 
 @pytest.mark.long
@@ -134,5 +133,5 @@ def test_single_cone_programs_of_three_hundred_structures(capsys: pytest.Capture
         sys.stdout.write("\n".join(["", *map(str, sorted(certain.items())), *disagreements, ""]))
     # seed 130, reversed: clarabel calls itself solved 1.2e-6 off; with a tolerance of 1e-10 it has the other figure
     assert len(disagreements) <= 1
-    for kind in ("kinematic", "reversed", "gravity", "proximal"):
+    for kind in ("kinematic", "reversed"):
         assert certain[kind, "mbla"] >= certain[kind, "clarabel"] - 2, (kind, certain)

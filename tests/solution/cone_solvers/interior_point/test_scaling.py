@@ -7,8 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct
-from mbla.solution.cone_solvers.interior_point.scaling import Scaling
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling
 from tests.solution.cone_solvers.interior_point.vectors import inside, vector_of
 
 quick = settings(max_examples=40, derandomize=True)

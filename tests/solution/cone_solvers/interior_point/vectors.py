@@ -84,34 +84,3 @@ def known_program(rng: np.random.Generator, n: int, n_equations: int, product: C
         quadratic=q,
     )
     return Known(program, x, np.concatenate([y, z[order]]))
-
-
-def known_static_program(rng: np.random.Generator, n_points: int, quadratic: bool) -> Known:
-    """A random program like a static form: a cone and a half-line at each point, one load factor, many equations.
-
-    Unknowns are the forces of the points, three each, and one that is in no cone.
-    """
-    product = ConeProduct(n_points, n_points)
-    s, z = complementary(rng, product)
-    n, n_equations = 3 * n_points + 1, 12
-    x, y = rng.normal(size=n), rng.normal(size=n_equations)
-    e = rng.normal(size=(n_equations, n)) * (rng.random((n_equations, n)) < 0.6)
-    g = np.zeros((product.size, n))
-    points = np.arange(n_points)
-    g[points, 3 * points] = -1.0
-    slope = rng.uniform(0.2, 1.0, n_points)
-    for place, scale in enumerate((slope, np.ones(n_points), np.ones(n_points))):
-        g[n_points * (1 + place) + points, 3 * points + place] = -scale
-    q = np.append(rng.uniform(0.1, 1.0, 3 * n_points), 0.0) if quadratic else None
-    bent = np.zeros(n) if q is None else q * x
-    order = program_order(product)
-    program = ConeProgram(
-        cost=-bent - e.T @ y - g.T @ z,
-        matrix=sp.csc_array(np.vstack([e, g[order]])),
-        rhs=np.concatenate([e @ x, (g @ x + s)[order]]),
-        n_half_lines=n_points,
-        n_cones=n_points,
-        n_equations=n_equations,
-        quadratic=q,
-    )
-    return Known(program, x, np.concatenate([y, z[order]]))

@@ -1,8 +1,9 @@
-"""Inverses of many small blocks, of which one that is singular spoils no other."""
+"""Many small blocks: their inverses, of which one that is singular spoils no other, and the matrix that they are."""
 
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 
@@ -22,3 +23,9 @@ def inverses(blocks: FloatArray) -> FloatArray:
             except np.linalg.LinAlgError:
                 continue
         return found
+
+
+def block_diagonal(blocks: FloatArray) -> sp.csr_array:
+    """The matrix, (n k, n k), with these blocks, (n, k, k), on its diagonal."""
+    n, size = blocks.shape[:2]
+    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(size * n, size * n)))

@@ -9,7 +9,7 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.interior_point.condensation import bordered
-from mbla.solution.linear_algebra.small_inverses import inverses
+from mbla.solution.linear_algebra.small_blocks import inverses
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, verified
 
