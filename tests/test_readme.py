@@ -137,11 +137,15 @@ def test_the_job_array_solves_every_point(
     assert list(mbla.read_sweep("door.out")["load_factor"]) == pytest.approx([0.3, 0.4, 0.5], rel=1e-6)
 
 
-def test_commands_in_blocks_are_understood(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_commands_in_blocks_are_understood() -> None:
+    """Of sweeps, and of the recipes for engineers, whose decks are there."""
     lines = [line.partition("  #")[0] for line in SWEEPS.splitlines() if re.match(r"mbla (sweep|interact) .*-", line)]
+    recipes = [line for line in (ROOT / "decks" / "README.md").read_text("utf-8").splitlines() if line[:5] == "mbla "]
     assert lines
-    for line in lines:
+    assert recipes
+    for line in (*lines, *recipes):
         build_parser().parse_args(shlex.split(line)[1:])
+    assert all((ROOT / deck).is_file() for line in recipes for deck in re.findall(r"decks/\S+", line))
 
 
 def test_the_script_for_slurm_hands_a_sweep_to_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
