@@ -1,6 +1,6 @@
 """Errors outside of faulty decks and sweep files: what brings each about, in a folder of its own.
 
-The exact lines are in ``expected.py``, by the name of the function.
+The lines are in ``sentences.txt``, by the name of the function.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Errors cannot be made without an identifier; each identifier has a test of the exact text, and an entry.
+"""Errors cannot be made without an identifier; each identifier has a test, and an entry.
+
+The sentences are in ``sentences.txt``, and may be mended there: ``pytest --update`` writes those of the cases that run.
 
 The full form brings about every error, deck, sweep file and command alike, and asks ``mbla explain`` for what was
 printed.
@@ -21,11 +23,11 @@ from mbla.sweeps.file.read import read_sweep
 from tests.faulty_decks import DECKS, SENTENCES, expected_of, refusal_of, sentences
 from tests.trust.counts import record_counts
 from tests.trust.messages.cases import CASES
-from tests.trust.messages.expected import EXPECTED
 from tests.trust.messages.source import NOT_PRINTED, PRINTED_BY, identifiers, sites
 
 TESTS = Path(__file__).parents[2]
 SWEEPS = sorted((TESTS / "invalid_sweeps").glob("sweep_*.yaml"))
+TOLD = Path(__file__).with_name("sentences.txt")
 BRACKETED = re.compile(r"  \[([a-z]+(?:-[a-z0-9]+)*)\]$")
 LONG = frozenset(
     {
@@ -54,8 +56,13 @@ def exercised() -> Iterator[str]:
     """Identifiers of all lines that tests expect."""
     for path in (*DECKS, *SWEEPS):
         yield from map(identifier_of, expected_of(path))
-    for lines in EXPECTED.values():
-        yield identifier_of(lines[-1])
+    yield from (case.identifier for case in CASES.values())
+
+
+def expected() -> dict[str, list[str]]:
+    """The lines of every case, by the name of its function; {folder} is its folder."""
+    blocks = [block.splitlines() for block in TOLD.read_text(encoding="utf-8").split("\n\n")]
+    return {name: [line[2:] for line in lines] for name, *lines in blocks}
 
 
 def told(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> list[str]:
@@ -71,12 +78,17 @@ def told(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytes
 
 
 def check_case(
-    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], update: bool
 ) -> list[str]:
     """The lines of a case, which are those expected."""
     with monkeypatch.context() as patch:
         lines = told(name, folder, patch, capsys)
-    assert [line.replace(str(folder), "{folder}") for line in lines] == list(EXPECTED[name])
+    found = [line.replace(str(folder), "{folder}").encode("utf-8", "backslashreplace").decode() for line in lines]
+    if update:
+        texts = sorted({**expected(), name: found}.items())
+        blocks = ("\n".join([each, *(f"  {line}" for line in told), ""]) for each, told in texts if each in CASES)
+        TOLD.write_text("\n".join(blocks), encoding="utf-8")
+    assert found == expected()[name]
     assert identifier_of(lines[-1]) == CASES[name].identifier
     return lines
 
@@ -109,27 +121,32 @@ def test_no_error_is_explained_that_cannot_occur() -> None:
     assert errors - told_in_rows <= identifiers()
 
 
-def test_every_identifier_has_a_test_of_its_exact_text() -> None:
+def test_every_identifier_has_a_test() -> None:
     assert identifiers() - NOT_PRINTED - {"deck-invalid"} - set(exercised()) == set()
-    assert CASES.keys() == EXPECTED.keys()
+    assert CASES.keys() == expected().keys()
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if name not in LONG])
-def test_exact_text(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_identifier_and_text(
+    name: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    pytestconfig: pytest.Config,
 ) -> None:
-    check_case(name, tmp_path, monkeypatch, capsys)
+    check_case(name, tmp_path, monkeypatch, capsys, pytestconfig.getoption("--update"))
 
 
 @pytest.mark.trust
 def test_every_error_as_it_is_printed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], pytestconfig: pytest.Config
 ) -> None:
+    update = pytestconfig.getoption("--update")
     lines: list[str] = []
     for name in CASES:
         folder = tmp_path / name
         folder.mkdir()
-        lines.append("\n".join(check_case(name, folder, monkeypatch, capsys)))
+        lines.append("\n".join(check_case(name, folder, monkeypatch, capsys, update)))
     assert sentences() == SENTENCES.read_text(encoding="utf-8")
     lines += [fault.line() for path in DECKS for fault in refusal_of(path)[1].faults]
     for path in SWEEPS:
