@@ -17,9 +17,9 @@ from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
 from mbla.sweeps.base_rules import base_faults
 from mbla.sweeps.design.design import Point
-from mbla.sweeps.file.design_rules import key_places
 from mbla.sweeps.file.parts import DIRECTIONS, key_paths, way_of
 from mbla.sweeps.file.read import Sweep
+from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.identity import deck_fingerprint, effective_tree, file_hashes, key_hash
 from mbla.sweeps.plan import Plain, override_texts
 

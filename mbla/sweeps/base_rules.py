@@ -18,8 +18,8 @@ from mbla.deck.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Message, Notice, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.sweeps.file.content import Parameter
-from mbla.sweeps.file.design_rules import key_places, parameter_columns
 from mbla.sweeps.file.parts import DIRECTIONS, way_of
+from mbla.sweeps.file.rules import key_places, parameter_columns
 from mbla.sweeps.plan import override_texts
 from mbla.sweeps.results import result_faults, result_places
 

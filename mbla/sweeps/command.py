@@ -21,8 +21,7 @@ from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import Fragility, fragility_json, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, shard_of
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
-from mbla.sweeps.reasons import shown_folders
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, shown_folders
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any, TypeAlias
+
+from mbla.deck.overrides import LABEL
 
 Plain: TypeAlias = "bool | int | float | str | list[Plain] | dict[str, Plain] | None"
 """what JSON holds, numbers finite"""
@@ -115,3 +119,37 @@ def task_of(record: Mapping[str, Any]) -> Task:
 def outcome_of(record: Mapping[str, Any]) -> Outcome:
     """The outcome that ``record_of`` wrote."""
     return Outcome(**record)
+
+
+BEGINS = r"""(?<![^\s'"(=:,;])"""
+"""where a path may begin in a text"""
+SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
+"""place of a value that a point sets: the user did not write it; its key and value stand behind it"""
+
+
+@dataclass(frozen=True)
+class ShownFolders:
+    """How the folders of a sweep are shown.
+
+    folders : a folder as this machine has it, with a stroke at its end, and what is shown in its place; the longest
+              first
+    """
+
+    folders: tuple[tuple[str, str], ...]
+
+    def in_outcome(self, outcome: Outcome) -> Outcome:
+        """The same outcome with these folders shown so in its reason."""
+        reason = SETTING.sub("", outcome.reason)
+        for folder, shown in self.folders:
+            reason = shown.join(re.split(BEGINS + re.escape(folder), reason))
+        return replace(outcome, reason=reason)
+
+
+def shown_folders(plan: Plan, deck: str) -> ShownFolders:
+    """The base deck's folder as ``deck``, the path in the sweep file, has it; nothing for that of the sweep's files."""
+    named = Path(deck).parent
+    folders = {Path(plan.folder): "", Path(plan.deck).parent: "" if named == Path() else f"{named}/"}
+    own = {
+        f"{str(each).rstrip('/')}/": shown for folder, shown in folders.items() for each in (folder, folder.resolve())
+    }
+    return ShownFolders(tuple(sorted(own.items(), key=lambda item: -len(item[0]))))

@@ -25,8 +25,7 @@ from mbla.results.results import now
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
 from mbla.sweeps.engine.engine import Engine
 from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
-from mbla.sweeps.plan import Outcome, Plain, Plan, Task
-from mbla.sweeps.reasons import shown_folders
+from mbla.sweeps.plan import Outcome, Plain, Plan, Task, shown_folders
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import record_text
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table

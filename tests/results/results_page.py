@@ -12,7 +12,7 @@ from mbla.results.hdf5.layout import layout_table
 from mbla.results.records.description import record_page
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
-from mbla.sweeps.interaction.description import INTERACT_RECORD
+from mbla.sweeps.interaction.study import INTERACT_RECORD
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, keys_page, sweep_columns_page
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"

@@ -9,8 +9,7 @@ import pytest
 
 from mbla.sweeps.command import SweepOptions, prepare, run_sweep
 from mbla.sweeps.file.read import read_sweep
-from mbla.sweeps.plan import FAILED, Outcome, Plan
-from mbla.sweeps.reasons import shown_folders
+from mbla.sweeps.plan import FAILED, Outcome, Plan, shown_folders
 from tests.line import BLOCK
 
 SWEEP = """\

@@ -1,16 +1,36 @@
-"""Checks across the keys of one section of a sweep file; those across sections are in ``design_rules``."""
+"""Checks of a sweep file: across the keys of one section, then across its sections."""
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
+from math import prod
 from typing import Any
 
 from mbla.deck.section import Section, one_of, rule
+from mbla.deck.suggestions import did_you_mean, listed
+from mbla.deck.tree import shorten
 from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
-from mbla.sweeps.file.parts import KINDS, WAYS
+from mbla.sweeps.file.content import MAX_POINTS, Parameter, SweepContent
+from mbla.sweeps.file.parts import (
+    DISTRIBUTIONS,
+    KINDS,
+    RANDOM,
+    SAMPLED,
+    WAYS,
+    WITH_POINTS,
+    Part,
+    design_parts,
+    is_random,
+    key_paths,
+    level_count,
+    spelt,
+    way_of,
+)
+from mbla.sweeps.results import FACTORS, OWN_COLUMNS, STATUS
 
 EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {types.Parameter: WAYS, types.DesignPart: KINDS}
 """Keys of which a section has exactly one; the schema says so too."""
@@ -101,3 +121,248 @@ def _cut_around_the_mean(section: type[Section]) -> None:
 
 _cut_around_the_mean(types.Normal)
 _cut_around_the_mean(types.Lognormal)
+
+
+# --- parameters ---------------------------------------------------------------------------------------------------
+
+
+@rule(SweepContent)
+def column_names(sweep: SweepContent) -> Iterator[Finding]:
+    """Every column of the table has a name of its own."""
+    owners = dict.fromkeys(OWN_COLUMNS, "a column of every sweep")
+    owners |= dict.fromkeys(sweep.results, "a result")
+    for name, parameter in sweep.parameters.items():
+        for column in parameter_columns(name, parameter):
+            if column in owners:
+                yield Finding(
+                    "sweep-columns",
+                    f"column {column} of the table would be there twice, it is {owners[column]}: "
+                    "choose another name, and give the key path with key",
+                    "parameters",
+                    name,
+                )
+            owners.setdefault(column, f"that of parameter {name}")
+
+
+def parameter_columns(name: str, parameter: Parameter) -> tuple[str, ...]:
+    """Names of the columns that a parameter has in the table."""
+    return (f"{name}_azimuth", f"{name}_elevation") if parameter.sphere is not None else (name,)
+
+
+@rule(SweepContent)
+def keys_once(sweep: SweepContent) -> Iterator[Finding]:
+    """No key of the deck gets two values; keys inside of one another are found with the base deck at hand."""
+    owners: dict[tuple[str, ...], str] = {}
+    for key in sweep.set:
+        for before in owners:
+            if before[: len(spelt(key))] == spelt(key):
+                yield Finding(
+                    "sweep-without-effect",
+                    f"replaces {shorten('.'.join(before))}, which stands before it: put it first, or drop that",
+                    "set",
+                    key,
+                )
+        owners[spelt(key)] = f"set sets {shorten(key)} too: one of them would have no effect"
+    for name, parameter in sweep.parameters.items():
+        for path, key in key_places(name, parameter):
+            if spelt(key) in owners:
+                yield Finding(
+                    "sweep-without-effect", f"parameter {name} sets {shorten(key)}, and {owners[spelt(key)]}", *path
+                )
+            owners.setdefault(spelt(key), f"parameter {name} sets it too")
+
+
+def key_places(name: str, parameter: Parameter) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Each key path of a parameter with its place in the sweep file."""
+    for index, key in enumerate(key_paths(name, parameter)):
+        place: tuple[str | int, ...] = ("parameters", name)
+        if parameter.key is not None:
+            place = (*place, "key") if isinstance(parameter.key, str) else (*place, "key", index)
+        yield place, key
+
+
+# --- design -------------------------------------------------------------------------------------------------------
+
+
+@rule(SweepContent)
+def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
+    """None twice, none left out, no part empty."""
+    parts = design_parts(sweep)
+    open_parts = [part for part in parts if sweep.design and _names_given(sweep, part) is None]
+    for part in open_parts[1:]:
+        yield Finding(
+            "sweep-parts",
+            "needs `of`: only one part of the design can take all parameters that no other names",
+            *part.path,
+        )
+    for part in open_parts[:1]:
+        if not part.names:
+            yield Finding("sweep-parts", "has no parameters: the other parts name them all", *part.path)
+    owners: dict[str, int] = {}
+    for number, part in enumerate(parts):
+        for index, name in enumerate(_names_given(sweep, part) or ()):
+            if name in owners:
+                where = "this part" if owners[name] == number else f"part {owners[name] + 1} of the design"
+                yield Finding("sweep-parts", f"{name} stands in {where} already", *part.path, "of", index)
+            owners.setdefault(name, number)
+    if sweep.design and not open_parts:
+        for name in sweep.parameters:
+            if name not in owners:
+                yield Finding(
+                    "sweep-parts",
+                    "stands in no part of the design: name it in one of its `of`, or drop it",
+                    "parameters",
+                    name,
+                )
+
+
+def _names_given(sweep: SweepContent, part: Part) -> list[str] | None:
+    if sweep.design is None:
+        return None
+    names: list[str] | None = getattr(sweep.design[int(part.path[1])], part.kind).of
+    return names
+
+
+@rule(SweepContent)
+def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
+    """Levels where values are combined one by one, distributions and whole ranges where they are sampled."""
+    for part in design_parts(sweep):
+        for name in dict.fromkeys(part.names):
+            parameter = sweep.parameters[name]
+            way = way_of(parameter)
+            path = ("parameters", name, way)
+            points = level_count(parameter)
+            if part.kind in SAMPLED:
+                if way in WITH_POINTS and points is not None:
+                    yield Finding(
+                        "sweep-ranges",
+                        f"has no meaning in a {part.kind} design, which has its own: leave it out",
+                        *path,
+                        "points",
+                    )
+            elif way in DISTRIBUTIONS:
+                yield Finding(
+                    "sweep-ranges",
+                    f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}",
+                    *path,
+                )
+            elif points is None:
+                yield Finding(
+                    "sweep-ranges",
+                    f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}",
+                    *path,
+                )
+
+
+@rule(SweepContent)
+def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
+    """No point of a grid twice; in a zip a value may come again beside others, and in a sample it has more weight."""
+    for part in design_parts(sweep):
+        for name in part.names if part.kind == "grid" else ():
+            values = sweep.parameters[name].values or []
+            written = [json.dumps(value) if isinstance(value, bool | str | list) else value for value in values]
+            for index, value in enumerate(written):
+                if value in written[:index]:
+                    message = "is given twice: the points of a grid differ in each value"
+                    yield Finding("duplicate-key", message, "parameters", name, "values", index)
+
+
+def _samples() -> str:
+    return f"{listed(f'a {kind}' for kind in SAMPLED)} part of the design"
+
+
+@rule(SweepContent)
+def zipped_lists(sweep: SweepContent) -> Iterator[Finding]:
+    """First with first, second with second: none may be left over."""
+    for part in design_parts(sweep):
+        counts = {name: level_count(sweep.parameters[name]) for name in part.names}
+        if part.kind != "zip" or None in counts.values() or len(set(counts.values())) < 2:
+            continue
+        shown = listed((f"{name} {count}" for name, count in counts.items()), "and")
+        yield Finding("sweep-ranges", f"needs as many values of each parameter; here are: {shown}", *part.path)
+
+
+@rule(SweepContent)
+def number_of_points(sweep: SweepContent) -> Iterator[Finding]:
+    """Not more than anybody reads."""
+    parts = design_parts(sweep)
+    sizes = [_size(sweep, part) for part in parts]
+    known = [size for size in sizes if size is not None]
+    if len(known) == len(sizes) and prod(known) > MAX_POINTS:
+        path = ("design",) if sweep.design else ("parameters",)
+        factors = " x ".join(str(size) for size in known) + " = " if len(known) > 1 else ""
+        yield Finding(
+            "sweep-too-many-points",
+            f"makes {factors}{prod(known)} points, at most {MAX_POINTS} are taken: a sample needs fewer",
+            *path,
+        )
+
+
+def _size(sweep: SweepContent, part: Part) -> int | None:
+    """Points of a part; None where that is at fault."""
+    if part.kind in SAMPLED:
+        return part.points
+    counts = [level_count(sweep.parameters[name]) for name in part.names]
+    known = [count for count in counts if count is not None]
+    if len(known) < len(counts):
+        return None
+    return prod(known) if part.kind == "grid" else max(known, default=0)
+
+
+# --- results ------------------------------------------------------------------------------------------------------
+
+
+@rule(SweepContent)
+def cases_once(sweep: SweepContent) -> Iterator[Finding]:
+    """Each load case is solved once."""
+    cases = sweep.cases or []
+    for index, name in enumerate(cases):
+        if name in cases[:index]:
+            yield Finding("duplicate-key", "is given twice", "cases", index)
+
+
+@rule(SweepContent)
+def results_once(sweep: SweepContent) -> Iterator[Finding]:
+    """One column each."""
+    for index, name in enumerate(sweep.results):
+        if name in sweep.results[:index]:
+            yield Finding("duplicate-key", "is given twice", "results", index)
+        elif not name.strip():
+            yield Finding("sweep-result", "must not be empty: write a key path such as load_factor", "results", index)
+
+
+@rule(SweepContent)
+def fragility(sweep: SweepContent) -> Iterator[Finding]:
+    """A probability needs a column, and points that are a random sample."""
+    if sweep.fragility is None:
+        return
+    wanted = sweep.fragility.result
+    # With several load cases the name of one may stand before it; whether there is one is seen with the base deck.
+    if not any(wanted == name or wanted.endswith(f".{name}") for name in sweep.results):
+        hint = did_you_mean(wanted, sweep.results) or ";"
+        yield Finding(
+            "sweep-fragility",
+            f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
+            "fragility",
+            "result",
+        )
+    elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
+        yield Finding(
+            "sweep-fragility",
+            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from "
+            "what no load brings down",
+            "results",
+        )
+    random = [part for part in design_parts(sweep) if is_random(part, sweep)]
+    if not random:
+        yield Finding(
+            "sweep-fragility",
+            f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}",
+            "fragility",
+        )
+    elif len(random) > 1:
+        yield Finding(
+            "sweep-fragility",
+            "needs one random part of the design, not several: put their parameters into one",
+            "fragility",
+        )

@@ -11,7 +11,6 @@ from mbla.arrays import FloatArray
 from mbla.results.listing.text import counted
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.answers import Answer, answers_of
-from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
 from mbla.sweeps.pictures.sheet import (
     MOST_PANELS,
     Sheet,
@@ -23,7 +22,7 @@ from mbla.sweeps.pictures.sheet import (
     place_marks,
     scale_axis,
 )
-from mbla.sweeps.pictures.view import Axis, View
+from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, View, pooled
 
 MOST_NAMED = 10
 """lines that a legend names; more have a scale of colours beside them"""

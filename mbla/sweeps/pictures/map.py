@@ -11,7 +11,6 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
 from mbla.results.pictures.page import GROUPS, INK
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
 from mbla.sweeps.pictures.sheet import (
     MARKS,
     MOST_PANELS,
@@ -23,7 +22,7 @@ from mbla.sweeps.pictures.sheet import (
     panel_title,
     scale_axis,
 )
-from mbla.sweeps.pictures.view import Axis, View, value_words
+from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, View, pooled, value_words
 
 LEAST_CONTOURED = 5
 """values along each side from which contours tell more than the cells"""

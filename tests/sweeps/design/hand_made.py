@@ -10,10 +10,10 @@ from mbla.errors import Fault, Message, Place
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Design
 from mbla.sweeps.design.ways import Vector
-from mbla.sweeps.file import design_rules, rules
+from mbla.sweeps.file import rules
 from mbla.sweeps.file.content import SweepContent
 
-CHECKED_BY = (rules, design_rules)
+CHECKED_BY = (rules,)
 """register the checks of sweep files, so that what is made here is what a file could hold"""
 
 

@@ -6,11 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.sweeps.interaction.description import INTERACT_RECORD
 from mbla.sweeps.interaction.domain import Point
 from mbla.sweeps.interaction.picture import joined_runs
 from mbla.sweeps.interaction.question import TWO_LOADS
-from mbla.sweeps.interaction.study import study_json
+from mbla.sweeps.interaction.study import INTERACT_RECORD, study_json
 from mbla.sweeps.interaction.words import angle_words, conclusions, mark_words, study_lines
 from tests.sweeps.interaction.hand_made import around, point, study
 

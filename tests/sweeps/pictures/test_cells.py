@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.cells import NO_POINT, Cells, pooled
-from mbla.sweeps.pictures.view import chosen_results, view_of
+from mbla.sweeps.pictures.view import NO_POINT, Cells, chosen_results, pooled, view_of
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, table_of
 
 

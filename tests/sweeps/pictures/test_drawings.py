@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mbla.sweeps.answers import Answer
+from mbla.sweeps.pictures.polar import nearest_direction
 from mbla.sweeps.pictures.sheet import MARKS
-from mbla.sweeps.pictures.sphere import nearest_direction
 from tests.sweeps.pictures.drawing import draw, lines_with, words
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of
 
