@@ -1,4 +1,7 @@
-"""Flow rules other than the associative one, and the schemes that solve them: from the deck's words to a sequence."""
+"""Flow rules other than the associative one, and the schemes that solve them: from the deck's words to a sequence.
+
+A scheme is imported where it is asked for: a run needs one of them.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +17,9 @@ from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.nonassociative.dilatancy import solve_dilatancy
-from mbla.solution.nonassociative.interior_path.solve_interior import solve_interior
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
-from mbla.solution.nonassociative.livesley import solve_livesley
-from mbla.solution.nonassociative.load_path import solve_path
 from mbla.solution.nonassociative.proximal import SOLVED, is_rough_enough, solve_proximal
-from mbla.solution.nonassociative.published import solve_published
 from mbla.solution.nonassociative.refine_equilibrium import sharpened
-from mbla.solution.nonassociative.search_lower_factor import solve_lowest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
@@ -98,8 +95,11 @@ def _proximal(flow: Flow) -> SequenceResult:
     return solve_proximal(flow.program, flow.associative, flow.analysis.proximal.max_programs, flow.settings, flow.log)
 
 
-def _interior(flow: Flow) -> SequenceResult:
-    return solve_interior(flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log)
+def _interior(flow: Flow, start: SequenceResult | None = None) -> SequenceResult:
+    from mbla.solution.nonassociative.interior_path.solve_interior import solve_interior
+
+    wanted = flow.analysis.interior
+    return solve_interior(flow.program, flow.associative, wanted, flow.settings, flow.log, start=start)
 
 
 def _auto(flow: Flow) -> SequenceResult:
@@ -114,9 +114,7 @@ def _auto(flow: Flow) -> SequenceResult:
         return sequence
     if sequence.state is not None and len(flow.program.dead_load) > LARGE:
         return replace(sequence, remarks=(*sequence.remarks, NOT_FOLLOWED))
-    return solve_interior(
-        flow.program, flow.associative, flow.analysis.interior, flow.settings, flow.log, start=sequence
-    )
+    return _interior(flow, start=sequence)
 
 
 def _is_enough(flow: Flow, state: LawState) -> bool:
@@ -126,15 +124,21 @@ def _is_enough(flow: Flow, state: LawState) -> bool:
 
 
 def _lowest(flow: Flow) -> SequenceResult:
+    from mbla.solution.nonassociative.search_lower_factor import solve_lowest
+
     return solve_lowest(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
 
 
 def _path(flow: Flow) -> SequenceResult:
+    from mbla.solution.nonassociative.load_path import solve_path
+
     return solve_path(flow.program, flow.associative, flow.analysis.path, flow.settings, flow.log)
 
 
 def _published(flow: Flow) -> SequenceResult:
     """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
+    from mbla.solution.nonassociative.published import solve_published
+
     if flow.locked:
         sequence = _proximal(flow)
         return replace(sequence, remarks=(*sequence.remarks, NOT_PUBLISHED))
@@ -143,10 +147,14 @@ def _published(flow: Flow) -> SequenceResult:
 
 
 def _dilatancy(flow: Flow) -> SequenceResult:
+    from mbla.solution.nonassociative.dilatancy import solve_dilatancy
+
     return solve_dilatancy(flow.program, flow.associative, flow.analysis.proximal, flow.settings, flow.log)
 
 
 def _livesley(flow: Flow) -> SequenceResult:
+    from mbla.solution.nonassociative.livesley import solve_livesley
+
     facets = None
     if flow.analysis.friction_cone == "polyhedral" and flow.program.components == 3:
         facets = friction_polygon(flow.analysis.sides, circumscribed=False)

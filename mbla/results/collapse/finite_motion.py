@@ -23,6 +23,7 @@ from mbla.results.collapse.motion import (
     drawn_motion,
     movable_size,
     moved_vertices,
+    rotation_vectors,
     screw_matrices,
     screws,
 )
@@ -157,6 +158,8 @@ def _ways(pose: _Pose, leads: _Leads, size: float) -> sp.csr_array:
     Part 0 has nothing free, one that is led the advance along its screw, any other all six.
     """
     count = 6 * len(pose.places)
+    if not leads:
+        return sp.eye_array(count, count - 6, k=-6, format="csr")
     ways = sp.lil_array((count, count))
     free = np.arange(count) >= 6
     ways.setdiag(1.0)
@@ -200,13 +203,11 @@ def _step(joints: _Joints, pose: _Pose, leads: _Leads, size: float) -> tuple[Flo
 
 def _moved_with_parts(model: Model, motion: FloatArray, parts: IntArray, start: _Pose, end: _Pose) -> FloatArray:
     """The motion of blocks that went along their screws and then with their parts from one pose to another."""
-    from scipy.spatial.transform import Rotation
-
     rotations, travel = screws(motion)
     centroids = model.blocks.centroids
     further = (end.rotations @ start.rotations.transpose(0, 2, 1))[parts]
     arms = centroids + travel - start.places[parts]
     travel = end.places[parts] + np.einsum("nij,nj->ni", further, arms) - centroids
-    vectors = Rotation.from_matrix(further @ rotations).as_rotvec()
+    vectors = rotation_vectors(further @ rotations)
     moved = np.hstack([np.linalg.solve(screw_matrices(vectors)[1], travel[:, :, None])[:, :, 0], vectors])
     return np.where((parts > 0)[:, None], moved, motion)

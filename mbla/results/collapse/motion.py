@@ -114,6 +114,29 @@ def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     return rotation, np.einsum("nij,nj->ni", path, motion[:, :3])
 
 
+def rotation_vectors(rotations: FloatArray) -> FloatArray:
+    """Rotation vectors, (n, 3) rad up to π long, of rotation matrices, (n, 3, 3): the way back from ``screw_matrices``.
+
+    By the unit quaternion (w, v), from the largest of its four components: 2 atan2(‖v‖, w) v/‖v‖.
+    """
+    trace = np.trace(rotations, axis1=1, axis2=2)
+    squares = np.column_stack([trace, *rotations.diagonal(axis1=1, axis2=2).T])  # 4 q² = 1 + 2 square − trace
+    squares[:, 1:] = 2.0 * squares[:, 1:] - trace[:, None]
+    products = np.empty((len(rotations), 4, 4))  # 4 q_i q_j
+    for first, second, third in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        one, other = rotations[:, third, second], rotations[:, second, third]
+        products[:, 0, first + 1] = products[:, first + 1, 0] = one - other
+        products[:, second + 1, third + 1] = products[:, third + 1, second + 1] = one + other
+    products[:, range(4), range(4)] = 1.0 + squares
+    quaternion = products[np.arange(len(rotations)), squares.argmax(axis=1)]
+    quaternion /= np.linalg.norm(quaternion, axis=1)[:, None]
+    quaternion *= np.where(quaternion[:, :1] < 0.0, -1.0, 1.0)
+    size = np.linalg.norm(quaternion[:, 1:], axis=1)
+    angle = 2.0 * np.arctan2(size, quaternion[:, 0])
+    share = np.divide(angle, size, out=np.full(len(size), 2.0), where=size > 0.0)
+    return np.asarray(share[:, None] * quaternion[:, 1:])
+
+
 def screw_matrices(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
     """R and V of rotation vectors, (n, 3, 3) each.
 

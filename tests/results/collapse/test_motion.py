@@ -21,6 +21,8 @@ from mbla.results.collapse.motion import (
     movable_size,
     moved_contact_points,
     moved_vertices,
+    rotation_vectors,
+    screw_matrices,
     screws,
     vertex_displacements,
 )
@@ -214,3 +216,12 @@ def test_of_very_many_parts_each_follows_its_own(finite_results: Results, monkey
     monkeypatch.setattr("mbla.results.collapse.finite_motion.MOST_PARTS", 2)
     model, contacts, case = parts_of(finite_results)
     assert finite_motion(model, contacts, case) == pytest.approx(drawn_motion(model, case), abs=0)
+
+
+def test_rotation_vectors_are_the_way_back_from_rotation_matrices() -> None:
+    rng = np.random.default_rng(3)
+    axes = rng.normal(size=(60, 3))
+    vectors = axes / np.linalg.norm(axes, axis=1)[:, None] * np.linspace(0.0, np.pi * (1.0 - 1e-9), 60)[:, None]
+    small = 1e-9 * axes
+    for given in (vectors, small, np.pi * (1.0 - 1e-12) * np.eye(3)):
+        assert rotation_vectors(screw_matrices(given)[0]) == pytest.approx(given, abs=1e-14, rel=1e-9)
