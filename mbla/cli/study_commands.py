@@ -90,7 +90,7 @@ def add_tradeoff(commands: Any) -> None:
     command = commands.add_parser(
         "tradeoff",
         help="speed against accuracy on a deck: table, CSV and plot",
-        description="Run a deck under a ladder of settings, each in a process of its own, and hold time, memory and "
+        description="Run a deck under a ladder of settings, one after the other, and hold time and "
         "error against each other: table, STEM_tradeoff.csv, .json, and a picture of each load case (extra "
         "mbla[pictures]). Without --knob and --setting the ladder has everything that applies to the deck.",
         epilog="Exit status 0; 4 where no setting is verified that the others could be held against; 7 where the time "

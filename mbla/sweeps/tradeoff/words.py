@@ -126,7 +126,7 @@ def _unsolved(rows: Sequence[Row]) -> Iterator[str]:
     reasons: dict[str, list[str]] = {}
     for row in rows:
         if row.state != DONE:
-            same = row.reason.startswith("the same as ")
+            same = row.reason.startswith(("the same as ", "applies to "))
             lead = "does not apply: " if row.state == "unfit" and not same else ""
             reasons.setdefault(f"{lead}{row.reason}", []).append(row.name)
     for reason, names in reasons.items():
