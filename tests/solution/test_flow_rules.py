@@ -9,6 +9,7 @@ from mbla.solution import flow_rules as flow_module
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow_rules import NOT_FOLLOWED, NOT_PUBLISHED, NOT_REACHED, Flow, solve_flow
 from mbla.solution.nonassociative import proximal
+from mbla.solution.nonassociative.interior_path import solve_interior as interior_module
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -35,7 +36,7 @@ def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypat
         raise AssertionError("the interior scheme was begun")
 
     monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: found)
-    monkeypatch.setattr(flow_module, "solve_interior", elsewhere)
+    monkeypatch.setattr(interior_module, "solve_interior", elsewhere)
     monkeypatch.setattr(
         flow_module, "sharpened", lambda *arguments: arguments[-1]
     )  # the state has no forces to look at
@@ -56,7 +57,7 @@ def test_no_interior_path_is_followed_unasked_on_large_structures(
     exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
     monkeypatch.setattr(flow_module, "LARGE", large)
     monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: near)
-    monkeypatch.setattr(flow_module, "solve_interior", lambda *arguments, **more: exact)
+    monkeypatch.setattr(interior_module, "solve_interior", lambda *arguments, **more: exact)
     monkeypatch.setattr(flow_module, "sharpened", lambda *arguments: arguments[-1])
     nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
     settings = SolverSettings(1e-9, residual=1e-6)
@@ -75,7 +76,7 @@ def test_a_rough_state_is_enough_if_verification_sees_it_so(
     exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
     monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: closing)
     monkeypatch.setattr(flow_module, "solve_proximal", lambda *arguments: near)
-    monkeypatch.setattr(flow_module, "solve_interior", lambda *arguments, **more: exact)
+    monkeypatch.setattr(interior_module, "solve_interior", lambda *arguments, **more: exact)
     nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
     settings = SolverSettings(1e-9, residual=5e-3)
     result = solve_flow(Flow(line.program, nothing, line.deck.analysis, settings, lambda record: None))
