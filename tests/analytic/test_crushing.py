@@ -81,7 +81,7 @@ def stress_block(e1: float, e2: float) -> float:
     return float(found.fun)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1, 0.25, 0.4])
+@pytest.mark.parametrize("share", [0.0, 0.25, 0.4])
 def test_points_come_down_to_the_stress_block_within_their_bound(share: float) -> None:
     """ξ ≤ ν ≤ (ξ + √(ξ² + 1/n²))/2 with ξ = 1 − 2 e/b; corners alone give 1/(1 + 2 e/b)."""
     found = []
@@ -108,8 +108,7 @@ def test_the_bound_of_crushing_by_points_is_attained() -> None:
     assert worst > 0.95 / (8 * n**2)
 
 
-@pytest.mark.parametrize(("e1", "e2"), [(0.1, 0.1), (0.3, 0.1), (0.4, 0.25), (0.15, 0.3)])
-@pytest.mark.parametrize("n", [2, 5])
+@pytest.mark.parametrize(("e1", "e2", "n"), [(0.1, 0.1, 2), (0.3, 0.1, 5), (0.4, 0.25, 2), (0.15, 0.3, 5)])
 def test_points_under_both_eccentricities(e1: float, e2: float, n: int) -> None:
     """A force of the same size lies within f_c A b/(8 n²) and f_c A h/(8 n²) in the exact stress block."""
     force = factor_of(PIER, f"parameters.e1={e1}", f"parameters.e2={e2}", f"contacts.points.per_edge={n}", AT_POINTS)
@@ -156,8 +155,7 @@ def test_crushing_by_points_contains_the_stress_block_within_its_bound(
         assert -1e-12 <= excess <= factor * breadth * np.ptp(heights) ** 2 / n**2 + 1e-12
 
 
-@pytest.mark.parametrize("e1", [0.05, 0.25, 0.33])
-@pytest.mark.parametrize("e2", [0.0, 0.1, 0.25, 0.4])
+@pytest.mark.parametrize(("e1", "e2"), [(0.05, 0.0), (0.25, 0.1), (0.33, 0.25), (0.05, 0.4)])
 @pytest.mark.parametrize("rule", ["associative", "non_associative"])
 def test_interfaces_bear_the_exact_stress_block(e1: float, e2: float, rule: str) -> None:
     """Without points between the corners, by default."""

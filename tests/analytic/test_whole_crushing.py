@@ -40,7 +40,7 @@ load_cases:
 
 
 @pytest.mark.parametrize("flow_rule", FLOW_RULES)
-@pytest.mark.parametrize(("strength", "density"), [(1e5, 2e3), (1e8, 2e3), (1e12, 2e3), (1e12, 1.0)])
+@pytest.mark.parametrize(("strength", "density"), [(1e5, 2e3), (1e12, 1.0)])
 @pytest.mark.parametrize("outline", OUTLINES)
 def test_a_centred_force_crushes_the_whole_joint(outline: str, strength: float, density: float, flow_rule: str) -> None:
     ways = (f"materials.stone.density={density}", f"analysis.flow_rule={flow_rule}")

@@ -159,6 +159,7 @@ def test_arches_have_the_concave_factor() -> None:
     assert factor(ARCH) == pytest.approx(concave(line_of(ARCH)), rel=1e-6)
 
 
+@pytest.mark.long
 def test_wall_bent_between_its_ends_twists_its_bed_joints() -> None:
     """Ends held, pushed out of its plane: the bed joints twist, corners overstate it, and no more than they allow."""
     text = (
@@ -273,6 +274,7 @@ load_cases:
     assert values[1] == pytest.approx(values[0], rel=1e-7)
 
 
+@pytest.mark.long
 def test_damped_steps_of_the_exact_law_reach_it_on_a_wall() -> None:
     """Undamped they ended at their first, and forces and motions missed the law by 2e-3."""
     line = line_of(WALL, "parameters.n=6", "analysis.proximal.max_programs=30")

@@ -54,6 +54,7 @@ def test_ways_to_other_machines_are_refused_and_written_down(tmp_path: Path) -> 
     assert attempts_in(tmp_path) == ("socket.getaddrinfo 192.0.2.1",)
 
 
+@pytest.mark.long
 def test_a_run_and_its_report_need_no_network(tmp_path: Path) -> None:
     (tmp_path / "block.yaml").write_text(BLOCK, encoding="utf-8")
     for arguments in (("run", "block.yaml", "-q"), ("report", "block.out/block.h5", "-o", "block.html")):
@@ -63,6 +64,7 @@ def test_a_run_and_its_report_need_no_network(tmp_path: Path) -> None:
     assert loads_of((tmp_path / "block.html").read_text(encoding="utf-8")) == []
 
 
+@pytest.mark.long
 def test_a_sweep_in_two_processes_needs_no_network(tmp_path: Path) -> None:
     """Dask asks for the way to a well-known machine to find the address of its own, unless it is told."""
     (tmp_path / "block.yaml").write_text(BLOCK, encoding="utf-8")
