@@ -18,7 +18,7 @@ from mbla.program.build import build_program
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.resultants import convex_form
 from mbla.results.files import OutputFolder
-from mbla.results.needs import CaseNeeds
+from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.run_record import results_before
 from mbla.results.vtu.mesh_files import write_model_vtu

@@ -165,7 +165,7 @@ def export(options: argparse.Namespace) -> int:
     """Write tables and meshes; their paths are printed."""
     with loading():
         from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.tables.export import Formats, export_results
+        from mbla.results.tables.tables import Formats, export_results
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent

@@ -6,8 +6,7 @@ import os
 from pathlib import Path
 
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import file_errors
-from mbla.results.whole_file import write_whole
+from mbla.results.disk import file_errors, write_whole
 
 
 def write_starter(name: str, *, replace: bool) -> Path:

@@ -116,7 +116,7 @@ def _in_own_units(scaling: Scaling, model: Model, contacts: Contacts, dead: Floa
 
 LIGHT = 1e-8
 """Load of a block over the mean load, below which it gets a unit of its own: above it the common one is sharp enough
-(:mod:`mbla.results.magnitudes`)."""
+(:mod:`mbla.results.findings`)."""
 
 
 def own_units(loads: FloatArray, bodies: IntArray) -> FloatArray:

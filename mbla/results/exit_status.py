@@ -1,13 +1,19 @@
-"""Exit status of a run, from its cases."""
+"""Exit status of a run, and its cases against the deck's ``expected`` section."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
+from mbla.deck.sections.output import Expectation
 from mbla.errors import Notice
+from mbla.results.listing.answers import reaction_of
+from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
-from mbla.results.series import series_of
+from mbla.results.series import position_of, series_of
+from mbla.results.tilt_angle import angle_of
 from mbla.solution import Status
+from mbla.solution.solution import Mechanics
 from mbla.solution.verification.verify_points import meets_what_was_asked
 
 FAULTS = ("not-as-expected", "isolated-blocks")
@@ -46,3 +52,69 @@ EXIT_CODES = {
 }
 
 GRAVEST_FIRST = (7, 4, 5)
+
+
+def differences(cases: Sequence[CaseResult], expected: dict[str, Expectation]) -> list[str]:
+    """What differs in all cases, one sentence each; of a travelling load the worst position is compared."""
+    found = [text for case in cases if case.load_case.name in expected for text in _of_case(case, expected)]
+    for series in series_of(cases):
+        if series.name not in expected:
+            continue
+        wanted = expected[series.name]
+        if series.worst is None or not series.complete:
+            why = "no worst position is known" if series.complete else "not every position was solved"
+            found.append(f"{series.name}: {why} ({wanted.source})")
+            continue
+        found += compare_with_expected(series.worst, wanted)
+        worst = position_of(series.worst).number
+        if wanted.position is not None and worst != wanted.position:
+            found.append(f"{series.name}: worst at position {worst}, expected {wanted.position} ({wanted.source})")
+    return found
+
+
+def _of_case(case: CaseResult, expected: dict[str, Expectation]) -> list[str]:
+    return compare_with_expected(case, expected[case.load_case.name])
+
+
+def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
+    """What differs, one sentence each; nothing where the case is as expected."""
+    name = case.load_case.name
+    differences = []
+    if expected.status is not None and case.status.value != expected.status:
+        differences.append(f"{name}: status {case.status.value}, expected {expected.status} ({expected.source})")
+    found = {
+        "load_factor": _factor(result_of(case)),
+        "angle": _number(angle_of(case)),
+        "associative_load_factor": _factor(associative_of(case)),
+        "reaction": reaction_of(case),
+        "lower": _number(case.checks.lower),
+    }
+    for key, value in found.items():
+        wanted = getattr(expected, key)
+        if wanted is None:
+            continue
+        if value is None:
+            differences.append(f"{name}: no {key}, expected {wanted:g} ({expected.source})")
+        elif abs(value - wanted) > expected.tolerance * max(abs(wanted), _least(key, case)):
+            differences.append(
+                f"{name}: {key} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"
+            )
+    return differences
+
+
+def _factor(mechanics: Mechanics | None) -> float | None:
+    return None if mechanics is None else mechanics.load_factor
+
+
+def _number(value: float) -> float | None:
+    return None if math.isnan(value) else value
+
+
+ZERO_REACTION = 1e-3
+"""share of the weight of the free blocks below which a reaction is compared as if it were that share"""
+
+
+def _least(key: str, case: CaseResult) -> float:
+    """Size below which a figure counts as zero in the comparison."""
+    settlement = case.load_case.settlement
+    return ZERO_REACTION * settlement.unit if key == "reaction" and settlement is not None else 1e-12

@@ -6,7 +6,7 @@ flushed to the disk and renamed into place when the run has succeeded.
 A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
 :mod:`mbla.results.stopped_run`, which the next whole result removes); signals wait while it does that, and while it
 puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
-(:mod:`mbla.results.leftovers`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
+(:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
 """
 
 from __future__ import annotations
@@ -23,8 +23,17 @@ from typing import Any, TextIO
 
 from mbla.errors import FileError
 from mbla.process.signals import held_signals
-from mbla.results.disk import file_errors, flush_to_disk, missing_folders, remove_folders
-from mbla.results.leftovers import PREFIX, clear_leftovers, mark_as_new, remove_new, temporary_path
+from mbla.results.disk import (
+    PREFIX,
+    clear_leftovers,
+    file_errors,
+    flush_to_disk,
+    mark_as_new,
+    missing_folders,
+    remove_folders,
+    remove_new,
+    temporary_path,
+)
 from mbla.results.lock import locked
 
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")

@@ -1,12 +1,29 @@
-"""What solver and verification found wrong or remark, as notices of a run."""
+"""What solver and verification found wrong or remark, as notices of a run.
+
+There are also magnitudes in one model that lie so far apart that double precision is the cause of what is not verified.
+Sixteen digits hold the forces on a heavy block and what is left of them for a light neighbour. Measured: weights of
+neighbours 1e8 apart, and joints 1e7 times as strong as the loads, still give verified load factors; at 1e12 none does
+for sure, but of a light block that touches one heavier body only, whatever their ratio: a cube of 1e6 m under a block
+of 1 m. Of an interface that tips long before it slides, friction times slenderness is such a ratio: convex contacts
+with 1e8 are right to six digits, with 1e9 they are not solved. Likewise a load factor is exact to the rounding of the
+forces over the live load: one that is near zero beside dead over live load is zero as far as anything can tell.
+"""
 
 from __future__ import annotations
 
 from typing import Literal
 
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
+from mbla.model.model import Model
+from mbla.program.assemble import yield_limits
 from mbla.results.results import CaseResult
+from mbla.solution.associative.proofs import PROVED_RESIDUAL
 from mbla.solution.solution import Status
+from mbla.solution.verification.statics import bodies_of_points, load_scale, load_sizes
 
 UNSETTLED = {
     Status.APPROXIMATE: "approximate",
@@ -107,3 +124,95 @@ def _of_figures(case: CaseResult) -> list[Notice]:
     if solution.peak is not None and checks.peak_load_factor != checks.peak_load_factor:
         texts.append(("peak-not-verified", "a peak of the load path was found, but its forces are not verified"))
     return [Notice("warning", identifier, f"{name}: {text}", name) for identifier, text in texts]
+
+
+FAR_APART = 1e6
+"""Ratio of loads, or of strength and loads, from which it is named as the cause."""
+
+SMALL_FACTOR = 1e-5
+"""Load factor, over dead over live load, below which the rounding of forces is more than a ten thousandth of it."""
+
+LINE = 1e-9
+"""Width of an interface over its length below which it is a line, and its length is what counts."""
+
+NOT_SETTLED = (Status.APPROXIMATE, Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.NUMERICAL_ERROR)
+
+
+def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, doubtful: bool) -> list[Notice]:
+    """What lies too far apart in a case that is not settled, and a load factor that is rounding.
+
+    doubtful : solved, but forces and velocities miss the law by more than they should
+    """
+    if not len(model.free) or not np.any(case.load_case.live_load[model.free]):
+        return []
+    name = case.load_case.name
+    notices = []
+    if case.status in NOT_SETTLED or doubtful:
+        limits = yield_limits(model, contacts)
+        scale = load_scale(model, contacts, case.load_case, limits)
+        words = [*_loads(scale.own), *_strength(limits.cohesion + limits.tension, scale.mean)]
+        words += [*_slender(contacts, limits.friction, scale.arms), *_scant(limits.friction)]
+        text = f"{name}: {' and '.join(words)}: beyond what sixteen digits hold apart"
+        notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
+    rounding = rounding_of(model, case)
+    if rounding > 0.0:
+        text = f"{name}: the load factor is zero as far as forces can tell, to about {rounding:.1e}"
+        notices.append(Notice("notice", "load-factor-rounding", text, name))
+    return notices
+
+
+def rounding_of(model: Model, case: CaseResult) -> float:
+    """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter.
+
+    Next to nothing beside dead over live load, of the blocks that move where the others are heavier.
+    """
+    mechanics, free = case.solution.mechanics, model.free
+    dead, live = case.load_case.dead_load[free], case.load_case.live_load[free]
+    valued = case.status in (Status.SOLVED, Status.APPROXIMATE) and mechanics is not None
+    if not valued or mechanics is None or not dead.any() or not live.any():
+        return 0.0
+    sizes, u = model.blocks.sizes[free], mechanics.mechanism[free]
+    own = load_sizes(dead, sizes)
+    moved = float(own @ (np.linalg.norm(u[:, :3], axis=1) + sizes * np.linalg.norm(u[:, 3:], axis=1)))
+    unit = min(moved, float(np.linalg.norm(own) / np.linalg.norm(load_sizes(live, sizes))))
+    return PROVED_RESIDUAL * unit if abs(mechanics.load_factor) < SMALL_FACTOR * unit else 0.0
+
+
+def _loads(own: FloatArray) -> list[str]:
+    loads = own[own > 0]
+    ratio = float(loads.max() / loads.min()) if len(loads) else 1.0
+    return [f"loads of blocks lie {ratio:.0e} apart"] if ratio > FAR_APART else []
+
+
+def _strength(strength: FloatArray, mean: float) -> list[str]:
+    ratio = float(strength.max(initial=0.0)) / mean
+    return [f"a joint is {ratio:.0e} times as strong as the mean load of a block"] if ratio > FAR_APART else []
+
+
+def _scant(friction: FloatArray) -> list[str]:
+    least = float(friction[friction > 0].min(initial=np.inf))
+    return [f"friction of {least:.0e} is next to none beside the normal forces"] if least * FAR_APART < 1.0 else []
+
+
+def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list[str]:
+    """Friction times the lever arm of the lesser block over half the width of an interface, where that is large.
+
+    arms : (n_blocks,); of the ground, which does not tip, there is none
+    """
+    if not len(contacts):
+        return []
+    start, here = contacts.point_start[:-1], contacts.interface_of_point
+    offsets = contacts.points - contacts.centroids[here]
+    plane = np.einsum("pjx,px->pj", contacts.frames[:, 1:], offsets)
+    moments = (
+        np.add.reduceat(plane[:, :, None] * plane[:, None, :], start) / np.diff(contacts.point_start)[:, None, None]
+    )
+    least, greatest = np.sqrt(np.maximum(np.linalg.eigvalsh(moments), 0.0)).T
+    width = np.where(least > LINE * greatest, least, greatest)  # corners of a rectangle a x b: a/2 and b/2
+    bodies = bodies_of_points(contacts)[start]
+    arm = np.append(arms, np.inf)[np.minimum(bodies, len(arms))].min(axis=1)
+    mu = friction[start]
+    known = (width > 0) & np.isfinite(mu * arm)
+    ratio = float((mu[known] * arm[known] / width[known]).max(initial=0.0))
+    words = f"sliding on an interface takes {ratio:.0e} times the push that tips a block on it"
+    return [words] if ratio > FAR_APART else []

@@ -13,8 +13,7 @@ import numpy as np
 
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.findings import found_notices
-from mbla.results.magnitudes import magnitude_notices, rounding_of
+from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL

@@ -1,12 +1,29 @@
-"""What produced a result: versions of the program and of the libraries that its numbers depend on, and the platform."""
+"""What a result comes from.
+
+The deck with everything that it is made of and the way back to it, the analysis settings in
+effect, versions of the program and of the libraries that its numbers depend on, and what a load case needs.
+"""
 
 from __future__ import annotations
 
+import os
 import platform
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
 from mbla import __version__
+from mbla.deck import Deck, read_deck
+from mbla.deck.include import confined
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.errors import FileError
+from mbla.model.geometry.geometry import companions
+from mbla.program.reductions.steps import ReductionStep
+from mbla.results.results import CaseResult, DeckRecord
+from mbla.solution.settings import SolverSettings
 
 LIBRARIES = (
     "numpy",
@@ -44,3 +61,128 @@ def _found() -> dict[str, str]:
         except PackageNotFoundError:
             versions[library] = "not installed"
     return versions | {"platform": platform.platform(), "machine": platform.machine()}
+
+
+def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
+    """Analysis settings in effect, by name, for the result files."""
+    analysis = deck.analysis
+    words = {
+        "flow_rule": analysis.flow_rule,
+        "contact_model": analysis.contact_model,
+        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
+        "accuracy": analysis.accuracy,
+        "solver": analysis.solver,
+        "tolerance": f"{settings.tolerance:g}",
+        **_knobs_in_words(analysis, settings),
+        "max_iterations": str(settings.max_iterations),
+        "contact_points": _points_in_words(deck),
+        "contact_tolerance": f"{deck.contacts.tolerance:g}",
+    }
+    if analysis.flow_rule == "non_associative":
+        words["scheme"] = analysis.scheme
+        parameters = getattr(analysis, analysis.scheme, None)  # none for auto
+        if parameters is not None:
+            words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+    if not analysis.reductions:
+        words["reductions"] = _on(analysis.reductions)
+    if analysis.time_limit is not None:
+        words["time_limit"] = f"{analysis.time_limit:g} s"
+    return words
+
+
+def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict[str, str]:
+    """What accuracy sets, and the deck may set by itself, where it has an effect."""
+    knobs = knobs_of(analysis)
+    words = {}
+    if analysis.contact_model == "concave" and analysis.friction_cone == "circular":
+        words["gap"] = f"{settings.gap:g}"
+    if analysis.flow_rule in ("non_associative", "dilatancy") and analysis.scheme != "published":
+        words["residual"] = f"{settings.residual:g}"
+    if analysis.contact_model == "concave" and analysis.flow_rule != "associative":
+        words["range"] = _on(knobs.range)
+        if analysis.flow_rule == "non_associative":
+            words["peak"] = _on(knobs.peak)
+    return words | {"standing": _on(knobs.standing)}
+
+
+def threads_in_words(cases: Sequence[CaseResult]) -> str:
+    """Threads that factorisations of cone programs ran on, whatever was asked for: all are serial."""
+    used = {program.factorization for case in cases for program in case.solution.programs} - {""}
+    return f"1; factorisations by {', '.join(sorted(used))} are serial" if used else "1"
+
+
+def _on(switch: bool) -> str:
+    return "true" if switch else "false"
+
+
+def _points_in_words(deck: Deck) -> str:
+    """How an interface is represented."""
+    contacts = deck.contacts
+    if deck.analysis.contact_model == "convex":
+        return "resultants of each interface"
+    points, length = contacts.points, deck.units.length
+    words = "corners"
+    if points.spacing is not None:
+        words = f"at most {points.spacing:g} {length} apart along each edge, and inside"
+    elif (points.per_edge or 1) > 1:
+        words = f"{points.per_edge} along each edge, and inside"
+    inwards = f"{points.inset:g}" if points.inset else f"{points.rounding:g} {length}" if points.rounding else ""
+    return words + (f", inset by {inwards}" if inwards else "")
+
+
+def deck_record(deck: Deck) -> DeckRecord:
+    """Texts, overrides and side files of a deck; FileError where a side file has gone since it was read."""
+    return DeckRecord(
+        name=deck.path.name,
+        sources=tuple((source.name, source.text) for source in deck.sources),
+        overrides=deck.overrides,
+        sha256=deck.sha256,
+        files=tuple(dict(_side_files(deck)).items()),
+    )
+
+
+def _side_files(deck: Deck) -> Iterator[tuple[str, bytes]]:
+    """Name and content of each file that the deck names, and of those that belong to it."""
+    for side in deck.side_files:
+        file = deck.resolve_file(side.key, side.value)
+        for each in (file, *companions(file)):
+            beside = Path(os.path.relpath(each, file.parent)) if each != file else Path(Path(side.name).name)
+            try:
+                yield (Path(side.name).parent / beside).as_posix(), each.read_bytes()
+            except OSError as error:
+                raise FileError("file-unreadable", f"{each}: cannot be read: {error.strerror or error}") from error
+
+
+def deck_of(record: DeckRecord, folder: Path, *, expected: bool) -> Deck:
+    """The deck read again from its record, in an empty folder that holds nothing but what it is made of.
+
+    expected : whether its expectations are read
+
+    Raises
+    ------
+    DeckError
+        it is not valid
+    FileError
+        it is not complete, or the folder cannot be written
+    """
+    texts = ((name, text.encode()) for name, text in record.sources)
+    for name, content in (*texts, *record.files):
+        path = confined(folder, name)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        except (OSError, ValueError) as error:
+            raise FileError("file-unreadable", f"{name}: cannot be put in place: {error}") from error
+    return read_deck(folder / record.sources[0][0], record.overrides, expected=expected)
+
+
+@dataclass(frozen=True)
+class CaseNeeds:
+    """Of one load case.
+
+    counts     : what reaches the solver, by name; ``solver``: which takes its associative programs
+    reductions : what each reduction left out, in the order in which they are applied
+    """
+
+    counts: Mapping[str, int | str]
+    reductions: tuple[ReductionStep, ...] = ()

@@ -11,12 +11,9 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.process.stopwatch import Stopwatch
 from mbla.program.choice import program_notices
-from mbla.results.deck_record import deck_record
-from mbla.results.exit_status import exit_code
-from mbla.results.expected import differences
-from mbla.results.provenance import collect_provenance
+from mbla.results.exit_status import differences, exit_code
+from mbla.results.provenance import collect_provenance, deck_record, settings_in_words, threads_in_words
 from mbla.results.results import CaseResult, Results, now
-from mbla.results.settings_words import settings_in_words, threads_in_words
 from mbla.solution.settings import SolverSettings
 
 PARTS_OF_SOLVE = ("assemble", "programs", "repair", "standing", "verify")

@@ -1,4 +1,4 @@
-"""Load cases that are the positions of one travelling load: one load factor for each, and the worst."""
+"""Load cases of a result: those that are asked for by name, and those that are positions of one travelling load."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbla.arrays import FloatArray
+from mbla.errors import UsageError
 from mbla.model.model import TravelPosition
+from mbla.model.solids.blocks import Blocks
 from mbla.results.outcome import result_of
-from mbla.results.results import CaseResult
+from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
 
 SAME = 1e-6
@@ -73,3 +76,45 @@ def _worst(cases: Sequence[CaseResult]) -> CaseResult | None:
         return None
     least = min(factors)
     return next(case for case, factor in zip(cases, factors, strict=True) if factor <= least + SAME * abs(least))
+
+
+def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
+    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have.
+
+    The name of a load that travels stands for all its positions.
+    """
+    known = {name for case in results.cases for name in _names(case)}
+    for name in names or ():
+        if name not in known:
+            raise no_such_case(results, name)
+    return tuple(case for case in results.cases if names is None or not _names(case).isdisjoint(names))
+
+
+def _names(case: CaseResult) -> set[str]:
+    return {case.load_case.name, case.load_case.deck_name}
+
+
+def no_such_case(results: Results, name: str | None) -> UsageError:
+    """The error for a name that the result does not have, or for any case where it has none."""
+    if name is None:
+        return UsageError("unknown-load-case", "the result has no load case")
+    known = ", ".join(case.load_case.name for case in results.cases) or "none"
+    return UsageError("unknown-load-case", f"no load case {name} in the result; it has {known}")
+
+
+ROUNDING = 1e-12
+"""share of the load of the axles on a block below which what is left of its load is none"""
+
+
+def without_vehicle(blocks: Blocks, loads: FloatArray, travel: TravelPosition | None) -> FloatArray:
+    """Loads on blocks about their centroids less those of the axles that act, (n_blocks, 6) N and N m."""
+    if travel is None:
+        return loads
+    acting = travel.acting
+    forces, under = travel.forces[acting], travel.blocks[acting]
+    of_axles, sizes = np.zeros_like(loads), np.zeros_like(loads)
+    wrenches = np.hstack([forces, np.cross(travel.points[acting] - blocks.centroids[under], forces)])
+    np.add.at(of_axles, under, wrenches)
+    np.add.at(sizes, under, np.abs(wrenches))
+    rest = loads - of_axles
+    return np.where(np.abs(rest) <= ROUNDING * sizes.max(axis=1, keepdims=True), 0.0, rest)

@@ -11,7 +11,7 @@ from enum import IntEnum
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.solution.solution import Status
 from mbla.sweeps.plan import DONE
 from mbla.sweeps.results import FACTORS, STATUS, is_of_run

@@ -20,7 +20,7 @@ from mbla.results.failures import SIGNALS, words_of
 from mbla.results.files import OutputFolder
 from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.provenance import collect_provenance
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.results.results import now
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
 from mbla.sweeps.engine.engine import Engine

@@ -32,9 +32,9 @@ from types import FrameType
 from mbla.deck import read_deck
 from mbla.errors import MblaError
 from mbla.process.run_options import RunOptions
+from mbla.results.findings import rounding_of
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import notices_of, result_of
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results

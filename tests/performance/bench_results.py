@@ -24,10 +24,10 @@ from mbla.results.listing.listing import listing
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.tables.export import Formats, export_results
+from mbla.results.tables.tables import Formats, export_results
 from mbla.results.vtu.cells import block_cells
+from mbla.results.vtu.loads import write_supports_vtu
 from mbla.results.vtu.mesh_files import MESH_FILES, MeshFile
-from mbla.results.vtu.supports import write_supports_vtu
 from mbla.results.vtu.vtu import write_blocks_vtu, write_frame_vtu
 from mbla.results.write import write_outputs
 from mbla.solution.solution import Mechanics

@@ -13,7 +13,7 @@ import pytest
 import mbla
 from mbla.cli import main
 from mbla.process.threads import VARIABLES
-from mbla.results.settings_words import threads_in_words
+from mbla.results.provenance import threads_in_words
 from tests.line import BLOCK
 from tests.results.synthetic import tower_results
 

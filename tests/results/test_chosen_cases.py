@@ -1,7 +1,7 @@
 import pytest
 
 from mbla.errors import UsageError
-from mbla.results.chosen_cases import chosen_cases
+from mbla.results.series import chosen_cases
 from tests.results.synthetic import tower_results
 
 

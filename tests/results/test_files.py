@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.disk import PREFIX
 from mbla.results.files import OutputFolder, earlier_files
-from mbla.results.leftovers import PREFIX
 
 
 def run(folder: Path, force: bool = False, text: str = "new", extra: Sequence[str] = (), stem: str = "arch") -> None:
@@ -368,7 +368,7 @@ def test_earlier_files_that_cannot_be_put_back_wait_for_the_next_run(
         run(tmp_path, force=True, text="new")
     monkeypatch.undo()
     assert caught.value.__notes__ == [f"{tmp_path}: is not as it was before; the next run into it puts that right"]
-    monkeypatch.setattr("mbla.results.leftovers._process_exists", lambda _: False)
+    monkeypatch.setattr("mbla.results.disk._process_exists", lambda _: False)
     with pytest.raises(FileError, match="--force"):
         run(tmp_path)
     assert content(tmp_path) == before

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from mbla.results.leftovers import clear_leftovers, mark_as_new, remove_new, temporary_path
+from mbla.results.disk import clear_leftovers, mark_as_new, remove_new, temporary_path
 
 
 @pytest.fixture(autouse=True)
 def everybody_is_dead(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.results.leftovers._process_exists", lambda _: False)
+    monkeypatch.setattr("mbla.results.disk._process_exists", lambda _: False)
 
 
 def test_without_a_mark_the_new_files_are_the_valid_ones(tmp_path: Path) -> None:
@@ -56,10 +56,10 @@ def test_a_process_of_another_user_is_alive(
         if error is not None:
             raise error
 
-    monkeypatch.setattr("mbla.results.leftovers.os.getpid", lambda: 4242)
+    monkeypatch.setattr("mbla.results.disk.os.getpid", lambda: 4242)
     new = temporary_path(tmp_path / "a.h5", "new")
     new.touch()
     monkeypatch.undo()
-    monkeypatch.setattr("mbla.results.leftovers.os.kill", kill)
+    monkeypatch.setattr("mbla.results.disk.os.kill", kill)
     clear_leftovers(tmp_path)
     assert new.exists() is exists

@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.results.findings import found_notices
+from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.listing.verdict_words import uniqueness_words, verdict
-from mbla.results.magnitudes import magnitude_notices, rounding_of
 from mbla.results.outcome import extent_of, factor_unique, notices_of, range_of
 from mbla.results.results import Results
 from mbla.solution.solution import Status

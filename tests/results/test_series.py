@@ -14,8 +14,7 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.model.model import Tilt
-from mbla.results.exit_status import exit_code
-from mbla.results.expected import differences
+from mbla.results.exit_status import differences, exit_code
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import standing_words, worst_words
 from mbla.results.listing.listing import listing

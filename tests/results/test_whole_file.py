@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError, UsageError
+from mbla.results.disk import write_whole, writing_whole
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.plot import plot_results
-from mbla.results.whole_file import write_whole, writing_whole
 from tests.results.synthetic import tower_results
 
 

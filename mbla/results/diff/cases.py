@@ -10,11 +10,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
-from mbla.results.diff.figure import Figure, figure
-from mbla.results.diff.joints import ModeComparison, compare_modes
-from mbla.results.diff.matching import Matching
-from mbla.results.diff.mechanisms import angle_between
-from mbla.results.diff.units import Factors
+from mbla.results.diff.joints import ModeComparison, angle_between, compare_modes
+from mbla.results.diff.matching import Factors, Matching
 from mbla.results.listing.answers import reaction_of, reaction_unit
 from mbla.results.outcome import associative_of, extent_of, law_residual, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results
@@ -222,3 +219,29 @@ def _names_in(first: Model, second: Model, matching: Matching) -> dict[str, str]
     return {
         second.body_name(int(other)): first.body_name(body) for body, other in enumerate(matching.bodies) if other >= 0
     }
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Values in A and in B, both in the unit of A; nan where there is none.
+
+    difference : (B - A) over A, at least over ``least``, over B where A is zero; nan where one of them is missing
+    same       : within the tolerance, or missing in both
+    """
+
+    name: str
+    unit: str
+    first: float
+    second: float
+    difference: float
+    tolerance: float
+    same: bool
+
+
+def figure(name: str, unit: str, first: float, second: float, tolerance: float, least: float = 0.0) -> Figure:
+    """The difference of two values against a relative tolerance; ``least`` is the size below which they count as it."""
+    if math.isnan(first) or math.isnan(second):
+        return Figure(name, unit, first, second, math.nan, tolerance, math.isnan(first) and math.isnan(second))
+    size = max(abs(first), least) or abs(second)
+    difference = (second - first) / size if size > 0.0 else 0.0
+    return Figure(name, unit, first, second, difference, tolerance, abs(difference) <= tolerance)

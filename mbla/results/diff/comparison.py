@@ -11,10 +11,8 @@ from typing import TypeVar
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.results.diff.cases import CaseComparison, compare_cases
-from mbla.results.diff.figure import Figure, figure
-from mbla.results.diff.matching import SAME_PLACE, Matching, match_models
-from mbla.results.diff.units import Factors, factors_between
+from mbla.results.diff.cases import CaseComparison, Figure, compare_cases, figure
+from mbla.results.diff.matching import SAME_PLACE, Factors, Matching, factors_between, match_models
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.model.model import Model
-from mbla.results.diff.units import Factors
 
 SAME_PLACE = 1e-3
 """Distance of two points that are one, over the block size: the default tolerance of contacts."""
@@ -162,3 +162,26 @@ def _match(
     same = (other_pairs[rows] == pairs[:, None, :]).all(axis=2) & (distance <= tolerance[:, None])
     found = rows[np.arange(len(points)), same.argmax(axis=1)]
     return np.where(same.any(axis=1), found, -1).astype(np.int64)
+
+
+@dataclass(frozen=True)
+class Factors:
+    """What numbers in the units of B are multiplied with to be in those of A."""
+
+    length: float
+    force: float
+    mass: float
+
+    @property
+    def stress(self) -> float:
+        """Force per area."""
+        return self.force / self.length**2
+
+
+def factors_between(first: Units, second: Units) -> Factors:
+    """From the units of ``second`` to those of ``first``."""
+    return Factors(
+        METRES[second.length] / METRES[first.length],
+        NEWTONS[second.force] / NEWTONS[first.force],
+        KILOGRAMS[second.mass] / KILOGRAMS[first.mass],
+    )

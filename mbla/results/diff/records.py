@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mbla.results.diff.cases import CaseComparison
+from mbla.results.diff.cases import CaseComparison, Figure
 from mbla.results.diff.comparison import Comparison
-from mbla.results.diff.figure import Figure
 from mbla.results.diff.joints import ModeComparison
 from mbla.results.records.json_record import notice_json
 from mbla.results.records.numbers import number, numbers

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from mbla.results.diff.cases import CaseComparison
+from mbla.results.diff.cases import CaseComparison, Figure
 from mbla.results.diff.comparison import Comparison, ModelComparison
-from mbla.results.diff.figure import Figure
 from mbla.results.listing.answers import status_name, status_words
 from mbla.results.listing.text import counted, heading, number, sentence, small, table, vector
 

@@ -20,8 +20,8 @@ from mbla.results.listing.solving import reduction_lines
 from mbla.results.listing.summary import notice_lines, warning_lines
 from mbla.results.listing.text import WIDTH, counted, entry, heading, number, sentence, table
 from mbla.results.listing.verdict_words import verdict
-from mbla.results.needs import CaseNeeds
 from mbla.results.outcome import unproved_words
+from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.series import series_of, told_cases
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
+from mbla.results.findings import rounding_of
 from mbla.results.listing.answers import in_order, reaction_words, status_name
 from mbla.results.listing.text import number, small
-from mbla.results.magnitudes import rounding_of
 from mbla.results.outcome import (
     associative_of,
     best_iterate,

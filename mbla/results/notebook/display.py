@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 from mbla.errors import MblaError, UsageError
 from mbla.model.model import Model
+from mbla.results.disk import write_whole
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.verdict_words import bound_words, reasons
 from mbla.results.results import CaseResult, Results
-from mbla.results.whole_file import write_whole
 from mbla.solution.solution import Status
 
 if TYPE_CHECKING:

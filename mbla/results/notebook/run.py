@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice, UsageError
 from mbla.model.model import Model
-from mbla.results.chosen_cases import no_such_case
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.notebook.case import Case
 from mbla.results.notebook.display import Picture, View
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
-from mbla.results.series import series_of
+from mbla.results.series import no_such_case, series_of
 
 if TYPE_CHECKING:
     import pandas

@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model, TravelPosition
-from mbla.results.vehicle import without_vehicle
+from mbla.results.series import without_vehicle
 
 SAME = 1e-6
 """relative difference up to which blocks have the same acceleration, and up to which a load is nothing: results are

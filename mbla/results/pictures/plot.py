@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from mbla.errors import UsageError
-from mbla.results.chosen_cases import chosen_cases, no_such_case
+from mbla.results.disk import writing_whole
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of
@@ -17,8 +17,7 @@ from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of, told_cases
-from mbla.results.whole_file import writing_whole
+from mbla.results.series import chosen_cases, no_such_case, series_of, told_cases
 
 
 @dataclass(frozen=True)

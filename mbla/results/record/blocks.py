@@ -9,9 +9,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
-from mbla.results.record.column import FIGURES_TOLD, Column, Values, as_text, column, figures, masked
 from mbla.results.record.quantity import Quantity, flag, real, text, whole
-from mbla.results.record.scene import FIGURES, Scene
+from mbla.results.record.scene import FIGURES, FIGURES_TOLD, Column, Scene, Values, as_text, column, figures, masked
 
 BLOCKS = "table blocks frames"
 """files of what an animation has too"""

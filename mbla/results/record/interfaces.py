@@ -10,9 +10,8 @@ import numpy as np
 from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.interface_modes import InterfaceMode, relative_motion
 from mbla.results.collapse.thrust import Thrust
-from mbla.results.record.column import FIGURES_TOLD, Column, Values, as_text, column, figures
 from mbla.results.record.quantity import Quantity, UnitKind, flag, real, text, whole
-from mbla.results.record.scene import FIGURES, Scene
+from mbla.results.record.scene import FIGURES, FIGURES_TOLD, Column, Scene, Values, as_text, column, figures
 
 EVERYWHERE = "table interfaces thrust hinges"
 """what every file with interfaces has"""

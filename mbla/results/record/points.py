@@ -10,9 +10,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.thrust import point_friction_use
-from mbla.results.record.column import FIGURES_TOLD, Column, Values, column, figures
 from mbla.results.record.quantity import Quantity, real, whole
-from mbla.results.record.scene import FIGURES, Scene
+from mbla.results.record.scene import FIGURES, FIGURES_TOLD, Column, Scene, Values, column, figures
 from mbla.solution.solution import ContactMode
 
 BOTH = "table contacts"

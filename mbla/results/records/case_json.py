@@ -16,8 +16,7 @@ from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.solving import solver_json
 from mbla.results.outcome import associative_of, best_iterate, result_of
 from mbla.results.record.cases import CASE_COLUMNS
-from mbla.results.record.column import Column
-from mbla.results.record.scene import Scene
+from mbla.results.record.scene import Column, Scene
 from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
 from mbla.results.records.numbers import number, numbers
 from mbla.results.results import CaseResult

@@ -11,8 +11,8 @@ from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
-from mbla.results.needs import CaseNeeds
 from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
+from mbla.results.provenance import CaseNeeds
 from mbla.results.record.scene import scene_of
 from mbla.results.records.case_json import case_json, reductions_json, series_json
 from mbla.results.records.numbers import number, numbers

@@ -8,7 +8,7 @@ from typing import Any
 
 from mbla import __version__
 from mbla.errors import FileError, UsageError
-from mbla.results.chosen_cases import chosen_cases
+from mbla.results.disk import write_whole
 from mbla.results.listing.answers import series_lines
 from mbla.results.listing.contact_words import contact_lines, finding_lines
 from mbla.results.listing.listing import model_lines, settings_lines
@@ -20,8 +20,7 @@ from mbla.results.report.content import CaseContent, case_content, notice_kinds,
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.report.page import case_view, library, render
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of, told_cases
-from mbla.results.whole_file import write_whole
+from mbla.results.series import chosen_cases, series_of, told_cases
 
 SUFFIXES = (".html", ".htm")
 

@@ -1,17 +1,25 @@
-"""All tables of a result by name, and their description as a page of words."""
+"""All tables of a result by name, and the files of ``mbla export``: CSV and Parquet, put in place together.
+
+One file holds a table for all load cases, with a column ``case``: a spreadsheet filters it, pandas groups by it, and
+nothing has to be read from names of files. Tables without rows are written too, so that no earlier file stays behind.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.results.chosen_cases import chosen_cases
+from mbla.results.files import OutputFolder
 from mbla.results.record.blocks import BLOCK_COLUMNS
 from mbla.results.record.cases import CASE_COLUMNS
 from mbla.results.record.interfaces import INTERFACE_COLUMNS
 from mbla.results.record.points import POINT_COLUMNS
 from mbla.results.results import Results
+from mbla.results.series import chosen_cases
+from mbla.results.tables.csv_file import table_csv, table_parquet
 from mbla.results.tables.lists import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
 from mbla.results.tables.table import Table, TableKind, case_scenes, scene_columns, table_of
 
@@ -71,3 +79,52 @@ def tables_page() -> str:
             lines.append(f"| `{column.name}` | {column.kind} | {column.unit_in(Units()) or '–'} | {column.words} |")
         lines.append("")
     return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class Formats:
+    """What is written; CSV where nothing is asked for."""
+
+    csv: bool = False
+    parquet: bool = False
+
+
+def export_results(
+    results: Results,
+    folder: Path,
+    stem: str,
+    formats: Formats,
+    cases: Sequence[str] = (),
+    tables: Sequence[str] = (),
+    force: bool = False,
+) -> list[Path]:
+    """Write ``STEM_TABLE.csv`` and ``STEM_TABLE.parquet``; the paths written.
+
+    cases, tables : only these; all where none is named
+
+    Raises
+    ------
+    UsageError
+        No such load case or table, or the extra for Parquet is not installed.
+    FileError
+        A file is there already and ``force`` is not set, or cannot be written.
+    """
+    chosen = tables_of(results, tables or None, cases or None)
+    with OutputFolder(folder, stem, force, beside=True) as out:
+        if formats.csv or not formats.parquet:
+            for name, table in chosen.items():
+                out.write_text(f"{stem}_{name}.csv", table_csv(table))
+        if formats.parquet:
+            for name, table in chosen.items():
+                out.write_bytes(f"{stem}_{name}.parquet", table_parquet(table, _about(results, table)))
+    return [folder / name for name in out.names]
+
+
+def _about(results: Results, table: Table) -> dict[str, str]:
+    return {
+        "table": table.kind.name,
+        "deck": results.deck.name,
+        "deck_sha256": results.deck.sha256,
+        "mbla": results.provenance.get("mbla", ""),
+        "created": results.created,
+    }

@@ -23,11 +23,10 @@ from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
 from mbla.model.settlement import with_reference
-from mbla.results.deck_record import deck_of
 from mbla.results.hdf5.content import Content, Value, content_of
+from mbla.results.provenance import deck_of, settings_in_words
 from mbla.results.results import Results
 from mbla.results.run_record import as_expected, notices_of
-from mbla.results.settings_words import settings_in_words
 from mbla.solution.settings import solver_settings
 from mbla.solution.tilt_circle import chord
 

@@ -9,11 +9,10 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.results.record.blocks import BLOCK_COLUMNS
-from mbla.results.record.column import Column
 from mbla.results.record.interfaces import INTERFACE_COLUMNS
 from mbla.results.record.points import POINT_COLUMNS
 from mbla.results.record.quantity import Quantity, flag, real, unit_text, whole
-from mbla.results.record.scene import Scene
+from mbla.results.record.scene import Column, Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 

@@ -1,27 +1,34 @@
-"""``STEM_CASE_loads.vtu``: dead loads, live loads and reactions as vectors where they act.
+"""Files of what acts on the structure and what holds it.
+
+``STEM_CASE_loads.vtu``: dead loads, live loads and reactions as vectors where they act.
 
 A force F and a moment M about the centroid c of a block are, where M is across F, a single force on the line through
 c + F × M / F². It is drawn there, level with the centroid along its own direction; where that point lies outside the
 box around the block, or a moment along F is left, at the centroid with the moment beside it. The axles of a load that
 travels are drawn where they stand. Whatever the point, force and moment at it are statically the load of the deck.
+
+``STEM_supports.vtu``: ground planes as slabs under what stands on them, fixed blocks and guided blocks.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
+from mbla.results.pictures.geometry import ground_slab
 from mbla.results.record.scene import FIGURES, Scene
-from mbla.results.vehicle import without_vehicle
+from mbla.results.series import without_vehicle
 from mbla.solution.verification.statics import contact_resultants
 
 DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
@@ -163,3 +170,58 @@ def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
         acting = acting + case.load_case.dead_load + scene.mechanics.load_factor * case.load_case.live_load
     taken = -acting[bodies]
     return Vectors(GUIDE, bodies, model.blocks.centroids[bodies], taken[:, :3], taken[:, 3:])
+
+
+GROUND, FIXED, GUIDED = 0, 1, 2
+"""kinds of supports"""
+SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+"""of a box whose corners are listed with the first coordinate fastest, outwards where these axes are right-handed"""
+
+
+def support_slabs(model: Model, contacts: Contacts) -> tuple[tuple[int, FloatArray], ...]:
+    """Ground planes that carry something, with the corners of a slab for each, (8, 3) m."""
+    size = float(np.linalg.norm(np.ptp(model.blocks.vertices, axis=0)))
+    slabs = [(ground, ground_slab(model, contacts, ground, size)) for ground in range(len(model.grounds))]
+    return tuple((ground, slab) for ground, slab in slabs if slab is not None)
+
+
+def has_supports(model: Model, contacts: Contacts) -> bool:
+    """Whether there is a support to be seen."""
+    return bool(model.fixed.any() or len(model.guides) or support_slabs(model, contacts))
+
+
+def write_supports_vtu(path: Path, model: Model, contacts: Contacts) -> None:
+    """Supports as polyhedra."""
+    slabs = support_slabs(model, contacts)
+    guided = np.setdiff1d(model.guides.blocks, np.flatnonzero(model.fixed))
+    chosen = np.concatenate([np.flatnonzero(model.fixed), guided]).astype(np.int64)
+    cells, vertices = _cells_of_blocks(model, chosen)
+    for number, (_, slab) in enumerate(slabs):
+        cells.append(list(_outward_faces(slab) + 8 * number + len(vertices)))
+    kinds = [FIXED] * int(model.fixed.sum()) + [GUIDED] * len(guided) + [GROUND] * len(slabs)
+    bodies = np.append(chosen, [len(model.blocks) + ground for ground, _ in slabs]).astype(np.int64)
+    write_mesh(
+        path,
+        np.concatenate([vertices, *(slab for _, slab in slabs)]),
+        [("polyhedron", cells)],
+        point_data={},
+        cell_data={"kind": [np.array(kinds, dtype=np.int8)], "body": [bodies]},
+    )
+
+
+def _outward_faces(slab: FloatArray) -> IntArray:
+    """Faces of a slab, (6, 4), by rows of its corners."""
+    right_handed = np.linalg.det(slab[[1, 2, 4]] - slab[0]) > 0
+    return np.asarray(SLAB_FACES if right_handed else SLAB_FACES[:, ::-1])
+
+
+def _cells_of_blocks(model: Model, chosen: IntArray) -> tuple[list[Any], FloatArray]:
+    """Faces of each chosen block by rows of the vertices of these blocks alone, and these vertices, (n, 3) m."""
+    blocks = model.blocks
+    kept = np.isin(blocks.block_of_vertex, chosen)
+    row = np.cumsum(kept) - 1
+    cells = []
+    for block in chosen.tolist():
+        faces = range(int(blocks.face_start[block]), int(blocks.face_start[block + 1]))
+        cells.append([row[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]] for face in faces])
+    return cells, blocks.vertices[kept]

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import file_errors
+from mbla.results.disk import file_errors, writing_whole
 from mbla.results.pictures.options import LEAST_DPI, MOST_DPI, PictureOptions, format_of, parse_size
-from mbla.results.whole_file import writing_whole
 from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
 from mbla.sweeps.tables.read_table import JSON, read_sweep_table

@@ -12,7 +12,7 @@ from typing import Any
 
 from mbla.errors import FileError
 from mbla.results.disk import file_errors
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.results import OWN_COLUMNS

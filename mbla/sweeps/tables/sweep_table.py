@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension
 from mbla.sweeps.plan import Outcome, Plain
 

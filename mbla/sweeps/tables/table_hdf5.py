@@ -14,7 +14,7 @@ import numpy as np
 
 from mbla import __version__
 from mbla.results.hdf5.result_file import Labelled, LabelledFile, write_labelled_hdf5
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.sweeps.tables.sweep_json import VERSION, SweepRun, counts
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 

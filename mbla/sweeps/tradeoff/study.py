@@ -20,7 +20,7 @@ from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
 from mbla.results.listing.answers import reaction_unit
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.results.records.numbers import number
 from mbla.solution.solution import Status
 from mbla.sweeps.design.design import DesignColumn

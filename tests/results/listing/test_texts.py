@@ -19,7 +19,7 @@ from mbla.results.listing.case_words import case_sections
 from mbla.results.listing.listing import check_listing, listing, verification_lines
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
-from mbla.results.needs import CaseNeeds
+from mbla.results.provenance import CaseNeeds
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import PathPoint, Standing, StandingResult, Status
 from tests.results.synthetic import full_results, tower_mechanics, tower_results

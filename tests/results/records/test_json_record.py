@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from mbla.results.needs import CaseNeeds
+from mbla.results.provenance import CaseNeeds
 from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.records.case_json import powers_json
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json

@@ -18,8 +18,7 @@ from mbla.deck.units import Units
 from mbla.errors import FileError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
-from mbla.results.tables.export import Formats, export_results
-from mbla.results.tables.tables import TABLES, tables_of
+from mbla.results.tables.tables import TABLES, Formats, export_results, tables_of
 from tests.results.synthetic import full_results
 
 BOTH = Formats(csv=True, parquet=True)

@@ -13,10 +13,9 @@ from mbla.results.files import OutputFolder
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.arrays import CELLS, arrays_table, described
-from mbla.results.vtu.lines import LINE, POINT, write_hinges_vtu, write_thrust_vtu
 from mbla.results.vtu.loads import DEAD, GUIDE, LIVE, REACTION, load_vectors
-from mbla.results.vtu.mesh_files import MESH_FILES, write_model_vtu
-from mbla.results.vtu.script import case_record
+from mbla.results.vtu.mesh_files import MESH_FILES, case_record, write_model_vtu
+from mbla.results.vtu.vtu import LINE, POINT, write_hinges_vtu, write_thrust_vtu
 from mbla.run import RunOptions, run
 from mbla.solution.solution import ContactMode, Status
 from mbla.solution.verification.statics import contact_velocities

@@ -16,7 +16,7 @@ import xarray
 
 from mbla.deck.units import Units
 from mbla.errors import FileError, UsageError
-from mbla.results.record.column import Values
+from mbla.results.record.scene import Values
 from mbla.sweeps.fragility import fragility_of
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.read_table import read_sweep_table

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from mbla.process.run_options import RunOptions
-from mbla.results.hdf5.comparing import AGREEMENT, LINKS
+from mbla.results.hdf5.reading import AGREEMENT, LINKS
 from mbla.results.record.stored import STORED
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS

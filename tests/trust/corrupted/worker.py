@@ -27,7 +27,7 @@ def _imported(drawing: bool) -> None:
     import mbla.results.hdf5.result_file
     import mbla.results.listing.listing
     import mbla.results.records.json_record
-    import mbla.results.tables.export
+    import mbla.results.tables.tables
     import mbla.results.verify.rebuilt
     import mbla.results.verify.verify_file
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mbla.results.leftovers import PREFIX
+from mbla.results.disk import PREFIX
 from tests.line import BLOCK
 from tests.trust.faults.shim import CALLS, built
 

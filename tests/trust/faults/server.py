@@ -25,7 +25,7 @@ IMPORTED = (
     "mbla.results.listing.summary",
     "mbla.results.pictures.plot",
     "mbla.results.report.report",
-    "mbla.results.tables.export",
+    "mbla.results.tables.tables",
     "mbla.solution.resultants.solve_convex",
     "h5py",
     "meshio",
