@@ -34,7 +34,7 @@ DOORS = {
     "jinja2": "results/report/page.py",
     "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
-    "pyarrow": "results/tables/parquet_file.py",
+    "pyarrow": "results/tables/formats.py",
     "dask": "sweeps/engine/connection.py",
     "distributed": "sweeps/engine/connection.py",
 }

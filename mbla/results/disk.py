@@ -1,7 +1,7 @@
 """Files and folders: errors of the operating system in our words, and files that are there as a whole or not at all.
 
 A single file beside results, such as a picture, is written under a temporary name in the same folder, flushed to the
-disk and renamed into place. Temporary names in output folders, and how what killed runs left under them is cleared away.
+disk and renamed into place. What killed runs left under temporary names is cleared away:
 
     ``.mbla-HOST-PID-new-NAME``       a file that is being written
     ``.mbla-HOST-PID-earlier-NAME``   the file that NAME replaces, until the run is complete

@@ -15,7 +15,7 @@ from mbla.results.listing.listing import listing
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
-from mbla.results.tables.csv_file import table_csv
+from mbla.results.tables.formats import table_csv
 from mbla.results.tables.lists import SERIES
 from mbla.results.tables.tables import tables_of
 from mbla.results.vtu.mesh_files import write_mesh_files

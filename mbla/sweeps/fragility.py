@@ -30,7 +30,7 @@ from mbla.errors import UsageError
 from mbla.results.listing.text import sentence, table
 from mbla.results.records.description import Key
 from mbla.results.records.numbers import number, numbers
-from mbla.results.tables.csv_file import csv_text
+from mbla.results.tables.formats import csv_text
 from mbla.sweeps.answers import Answers, answers_of
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.results import FACTORS, STATUS

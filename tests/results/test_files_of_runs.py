@@ -22,7 +22,7 @@ from mbla.results.outcome import result_of
 from mbla.results.record.stored import STORED
 from mbla.results.records.description import RECORD, record_page
 from mbla.results.records.json_record import check_json, results_json
-from mbla.results.tables.csv_file import table_csv
+from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
 from tests.decks.folder import BENCHMARKS

@@ -10,8 +10,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
-from mbla.results.diff.joints import ModeComparison, angle_between, compare_modes
 from mbla.results.diff.matching import Factors, Matching
+from mbla.results.diff.motion import ModeComparison, angle_between, compare_modes
 from mbla.results.listing.answers import reaction_of, reaction_unit
 from mbla.results.outcome import associative_of, extent_of, law_residual, least_and_greatest, range_of, result_of
 from mbla.results.results import CaseResult, Results

@@ -7,7 +7,7 @@ from typing import Any
 
 from mbla.results.diff.cases import CaseComparison, Figure
 from mbla.results.diff.comparison import Comparison
-from mbla.results.diff.joints import ModeComparison
+from mbla.results.diff.motion import ModeComparison
 from mbla.results.records.json_record import notice_json
 from mbla.results.records.numbers import number, numbers
 

@@ -19,7 +19,7 @@ from mbla.results.record.interfaces import INTERFACE_COLUMNS
 from mbla.results.record.points import POINT_COLUMNS
 from mbla.results.results import Results
 from mbla.results.series import chosen_cases
-from mbla.results.tables.csv_file import table_csv, table_parquet
+from mbla.results.tables.formats import table_csv, table_parquet
 from mbla.results.tables.lists import ITERATIONS, NOTICES, PATH, PROGRAMS, REACTIONS, SERIES
 from mbla.results.tables.table import Table, TableKind, case_scenes, scene_columns, table_of
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from mbla import __version__
 from mbla.results.files import OutputFolder
-from mbla.results.tables.csv_file import ParquetColumn, csv_text, parquet_bytes, require_parquet
+from mbla.results.tables.formats import ParquetColumn, csv_text, parquet_bytes, require_parquet
 from mbla.sweeps.fragility import Fragility, fragility_csv, fragility_json
 from mbla.sweeps.tables.read_table import CSV, JSON
 from mbla.sweeps.tables.sweep_json import SweepRun, record_text, sweep_json

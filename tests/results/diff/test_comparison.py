@@ -13,8 +13,8 @@ import pytest
 from mbla.cli import main
 from mbla.results.diff.cases import CaseComparison
 from mbla.results.diff.comparison import compare_results
-from mbla.results.diff.joints import angle_between, inertia_tensors
 from mbla.results.diff.matching import factors_between, match_models
+from mbla.results.diff.motion import angle_between, inertia_tensors
 from mbla.results.diff.words import comparison_text
 from mbla.results.results import Results
 from mbla.run import RunOptions, run

@@ -10,8 +10,8 @@ import pytest
 from mbla.model.model import Ground
 from mbla.results.diff.cases import ReactionChange
 from mbla.results.diff.comparison import Comparison, compare_results
-from mbla.results.diff.joints import InterfaceChange, angle_between
 from mbla.results.diff.matching import factors_between, match_models
+from mbla.results.diff.motion import InterfaceChange, angle_between
 from mbla.results.diff.words import MOST_LINES, MOST_NAMED, comparison_text
 from tests.results.synthetic import tower_results
 

@@ -1,8 +1,8 @@
 """Columns as CSV and as Parquet.
 
 CSV is RFC 4180 in UTF-8, with units in the header and full precision; nothing but Python's own module is needed.
-Parquet (only importer of pyarrow; it comes with the extra ``mbla[tables]``) has plain names; each field carries ``unit``
-and ``description`` as metadata, which pandas finds in ``attrs`` of the frame that it reads.
+Parquet (only importer of pyarrow; it comes with the extra ``mbla[tables]``) has plain names; each field carries
+``unit`` and ``description`` as metadata, which pandas finds in ``attrs`` of the frame that it reads.
 """
 
 from __future__ import annotations
