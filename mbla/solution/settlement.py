@@ -18,7 +18,7 @@ from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import forces_of
 from mbla.solution.parts import at_rest

@@ -24,6 +24,10 @@ class Status(StrEnum):
     NUMERICAL_ERROR = "numerical_error"
 
 
+WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
+"""Statuses of programs and load cases that come with a load factor."""
+
+
 class ContactMode(IntEnum):
     """What a contact point does in the mechanism."""
 

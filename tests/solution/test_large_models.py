@@ -12,13 +12,13 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative import proofs, proved_answer
 from mbla.solution.associative.associative_form import associative_form
-from mbla.solution.associative.mechanism_repair import repaired_mechanisms
 from mbla.solution.associative.proved_answer import (
     AssociativeRun,
     ProvedAnswer,
     solve_until_proved,
     wanted_gap,
 )
+from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status

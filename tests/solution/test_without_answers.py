@@ -11,23 +11,22 @@ import scipy.sparse as sp
 
 from mbla.solution import flow_rules as flow
 from mbla.solution import verify
-from mbla.solution.associative import force_repair
-from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative import repair
 from mbla.solution.associative.polyhedral import _claim
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative import boundedness, lagged_limits, livesley
+from mbla.solution.nonassociative import boundedness, livesley
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
 from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.nonassociative.joint_law import exact_step
-from mbla.solution.nonassociative.lagged_limits import convex_minimum
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.standing import spring_newton
-from mbla.solution.standing.spring_newton import newton_step
+from mbla.solution.standing import spring_state
 from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
+from mbla.solution.standing.spring_state import convex_minimum, newton_step
 from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.line import BLOCK, line_of, solution_of
@@ -74,8 +73,8 @@ def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pyte
     assert state is not None
     assert repaired_forces(program, state.forces, state.load_factor) is not None
     nothing = np.full(len(program.live_load) + 1, np.nan)
-    monkeypatch.setattr(force_repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
-    assert force_repair._static_correction(program, state.forces, state.load_factor) is None
+    monkeypatch.setattr(repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
+    assert repair._static_correction(program, state.forces, state.load_factor) is None
     rough = state.forces + 1e-3
     assert repaired_forces(program, rough, state.load_factor) is None
 
@@ -90,7 +89,7 @@ def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.Mo
     problem = on_springs()
     joints = joints_at(problem, 1e-3, np.zeros(6), None)
     assert newton_step(problem, 1e-3, joints, lagged=False) is not None
-    monkeypatch.setattr(spring_newton, "factors_on_the_diagonal", lambda *arguments: None)
+    monkeypatch.setattr(spring_state, "factors_on_the_diagonal", lambda *arguments: None)
     assert newton_step(problem, 1e-3, joints, lagged=False) is None
     late = replace(problem, pattern=LatePattern(line_of(BLOCK).program))
     monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: None)
@@ -107,7 +106,7 @@ def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, mon
         right = newton_step(*arguments, lagged=lagged)  # type: ignore[arg-type]
         return None if share is None or right is None else share * right
 
-    monkeypatch.setattr(lagged_limits, "newton_step", step)
+    monkeypatch.setattr(spring_state, "newton_step", step)
     assert np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
 
 

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.associative.force_repair import carried_loads
+from mbla.solution.associative.repair import carried_loads
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 
 LIGHT = 1e-2

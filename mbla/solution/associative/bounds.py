@@ -1,8 +1,8 @@
 """Bounds of the associative load factor that forces and velocities prove once they are repaired.
 
-Static: ``force_repair``; kinematic: ``mechanism_repair``. Nothing there needs to
-be believed: what the repaired forces and velocities prove is evaluated by ``verify`` with its own statics and
-kinematics. ``certified_gap`` is the solver stage's own reckoning of the same, on the program alone.
+They are repaired in :mod:`mbla.solution.associative.repair`. Nothing there needs to be believed: what the repaired
+forces and velocities prove is evaluated by ``verify`` with its own statics and kinematics. ``certified_gap`` is the
+solver stage's own reckoning of the same, on the program alone.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
-from mbla.solution.associative.force_repair import repaired_forces
-from mbla.solution.associative.mechanism_repair import repaired_mechanisms
+from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.nonassociative.law_state import LawState
 
 CHARGED = 2.0
@@ -106,10 +105,20 @@ def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> 
 
 def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
     """Power of the joints by associative flow; incompatibility where they cannot crush costs ``charge`` as force."""
+    power, closing = point_dissipation(program, velocities)
+    return float(power.sum() + charge * closing.sum())
+
+
+def point_dissipation(program: Program, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Power that each point dissipates by associative flow, and by how much it is incompatible, both (n_points,).
+
+    velocities : (n_rows,); incompatible is μ s − v_N where that is positive and the point cannot crush
+    """
     limits = program.limits
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - limits.friction * sliding
-    resistance = np.where(np.isinf(limits.compression), charge, limits.compression)
-    opening = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0)
-    return float((opening + resistance * np.maximum(-surplus, 0.0)).sum())
+    crushes, short = np.isfinite(limits.compression), np.maximum(-surplus, 0.0)
+    crushed = np.where(crushes, limits.compression, 0.0) * short
+    power = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + crushed
+    return power, np.where(crushes, 0.0, short)

@@ -21,14 +21,14 @@ from scipy.sparse.csgraph import connected_components
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.associative.proofs import LOCKED_IN
+from mbla.solution.associative.bounds import LOCKED_IN, dissipation, point_dissipation
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing.weak_spring_continuation import springs_of
 
-TOLERANCE = 1e-12
+FALL_TOLERANCE = 1e-12
 """Of the program: a load that is not carried by 1e-6 of itself shows then, at 1e-10 only one by 1e-4."""
 
 AT_REST = 1e-7
@@ -58,7 +58,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
         n_equations=0,
         quadratic=quadratic,
     )
-    exact = replace(settings, tolerance=min(settings.tolerance, TOLERANCE))
+    exact = replace(settings, tolerance=min(settings.tolerance, FALL_TOLERANCE))
     solution = interior_point_solver(without_live_load, exact, log).solve(1, 0.0)
     velocities = form.velocities(solution.x)
     largest = float(np.abs(velocities).max(initial=0.0))
@@ -89,7 +89,7 @@ def failing_parts(program: Program, velocities: FloatArray) -> FloatArray:
     moving = part_of_row >= 0
     np.add.at(gain, part_of_row[moving], (program.dead_load * velocities)[moving])
     part_of_point, touched = _part_of_point(program, part_of_row)
-    np.add.at(gain, part_of_point[touched], -_dissipation(program, velocities)[touched])
+    np.add.at(gain, part_of_point[touched], -point_dissipation(program, velocities)[0][touched])
     kept = np.where(moving & (gain > 0)[part_of_row], velocities, 0.0)
     return kept if _proves(program, kept) else velocities
 
@@ -124,26 +124,7 @@ def _touches(program: Program) -> sp.csr_array:
     return sp.csr_array(sp.coo_array(entries, shape=(matrix.shape[0], program.n_points)))
 
 
-def _contact_velocities(program: Program, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sliding speed s, and opening velocity beyond what sliding asks for, v_N − μ s, (n_points,)."""
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
-    sliding = np.linalg.norm(v[:, 1:], axis=1)
-    return sliding, v[:, 0] - program.limits.friction * sliding
-
-
-def _dissipation(program: Program, velocities: FloatArray) -> FloatArray:
-    """Power that each contact point dissipates by associative flow, (n_points,)."""
-    limits = program.limits
-    sliding, surplus = _contact_velocities(program, velocities)
-    capacity = np.where(np.isfinite(limits.compression), limits.compression, 0.0)
-    return np.asarray(
-        limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + capacity * np.maximum(-surplus, 0.0)
-    )
-
-
 def _proves(program: Program, velocities: FloatArray) -> bool:
     """Whether the dead load does more work than the joints dissipate, closing charged as verification charges it."""
-    crushable = np.isfinite(program.limits.compression)
-    closing = np.where(crushable, 0.0, np.maximum(-_contact_velocities(program, velocities)[1], 0.0))
-    gain = float(program.dead_load @ velocities) - float(_dissipation(program, velocities).sum())
-    return gain > LOCKED_IN * float(np.abs(program.dead_load).sum()) * float(closing.sum())
+    charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
+    return float(program.dead_load @ velocities) > dissipation(program, velocities, charge)

@@ -24,6 +24,7 @@ from mbla.errors import Message
 from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, is_linear
 from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
@@ -38,14 +39,11 @@ ALL = 0.95
 """Share of the points that move from which on the mechanism alone is not trusted with the forces: rounding in the
 directions of sliding leaves hardly any."""
 
-TOLERANCE, REGULARIZATION = 1e-8, 1e-8
+FORCE_SET_TOLERANCE, FORCE_SET_REGULARIZATION = 1e-8, 1e-8
 """Of the cone solver: the set of forces has hardly an inside."""
 
 FALL = 2e-8
 """Share of the load factor (at least of dead over live load) by which that of the forces may be lower."""
-
-SMALL_FACTOR = 1e-3
-"""Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 WITHIN = 1e-5
 """Share of the largest normal force, or dead load of a block, by which a range may miss the forces found."""
@@ -81,7 +79,7 @@ def force_ranges(
     """
     sums = normal_sums(program, interface_of_point)
     form = fixed_mechanism_form(program, _trusted_motion(program, state))
-    settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION)
+    settings = replace(settings, tolerance=FORCE_SET_TOLERANCE, regularization=FORCE_SET_REGULARIZATION)
     solver = _solver(_with_factor(form, state), settings, log)
     ranges = np.full((sums.shape[0], 2), np.nan)
     records: list[ProgramRecord] = []
@@ -150,7 +148,7 @@ def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:
             n_equations=data.n_equations + 1,
         )
     dead, live = (float(np.linalg.norm(load)) for load in (program.dead_load, program.live_load))
-    least = state.load_factor - FALL * max(abs(state.load_factor), SMALL_FACTOR * dead / live)
+    least = state.load_factor - FALL * max(abs(state.load_factor), ZERO_FACTOR * dead / live)
     matrix, equations = sp.csr_array(data.matrix), data.n_equations
     return replace(
         data,

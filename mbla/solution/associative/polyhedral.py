@@ -19,14 +19,12 @@ from dataclasses import dataclass, replace
 from mbla.errors import Message
 from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
+from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
-
-SMALL_FACTOR = 1e-3
-"""Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 DECIDED = (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
 
@@ -90,7 +88,7 @@ def _claim(sides: int, inner: AssociativeResult, outer: AssociativeResult) -> As
 
 def _bracket(program: Program, sides: int, inner: LawState, outer: LawState) -> Message:
     least, greatest = (program.scaling.load_factor(state.load_factor) for state in (inner, outer))
-    width = (outer.load_factor - inner.load_factor) / max(abs(outer.load_factor), SMALL_FACTOR * program.dead_over_live)
+    width = (outer.load_factor - inner.load_factor) / max(abs(outer.load_factor), ZERO_FACTOR * program.dead_over_live)
     return Message(
         "polyhedral-bracket",
         f"with friction polyhedra of {sides} sides the load factor of the true cone lies between {least:.6g} "

@@ -21,8 +21,8 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program import Program, assemble
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative.force_repair import repaired_forces
-from mbla.solution.associative.mechanism_repair import repaired_mechanisms
+from mbla.solution.associative.bounds import LOCKED_IN
+from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.residuals import unbalanced_loads, unbalanced_wrenches
 from mbla.solution.verification.statics import LoadScale, allowed_motion, contact_velocities, power
@@ -30,7 +30,7 @@ from mbla.solution.verification.statics import LoadScale, allowed_motion, contac
 PROVED_RESIDUAL = 2e-9
 """Unbalanced force and excess over yield, relative to the scale of the block, with which forces still prove a bound."""
 
-ROUNDING = 1e-6
+PASSED_ON_ROUNDING = 1e-6
 """Share of the forces on a block that its scale is not less than there: thin light blocks pass on forces whose rounding
 is more than their weight."""
 
@@ -38,10 +38,6 @@ LARGE, LARGE_GAP = 30_000, 1e-5
 """Rows of equilibrium, 5,000 blocks in space, beyond which a mechanism that proves a load factor so close to the static
 bound is not repaired once more: the solver stage has done that. On a wall of 3,630 blocks it took seven eighths of the
 verification and changed neither bound."""
-
-LOCKED_IN = 1e4
-"""Normal force, over the whole dead load, that would have to be locked in to hold a structure that a certificate with
-rounding says to fall."""
 
 
 def associative_bounds(
@@ -159,7 +155,7 @@ def _forces_prove(
     """Whether forces balance the loads within the yield conditions up to rounding."""
     unbalanced = unbalanced_loads(model, contacts, load_case, forces, factor, scale)
     excess = yield_violation(forces, limits)
-    block_scale = scale.rounded_scale(contacts, forces, factor, ROUNDING)
+    block_scale = scale.rounded_scale(contacts, forces, factor, PASSED_ON_ROUNDING)
     point_scale = scale.of_lighter(contacts, block_scale)
     return bool(np.all(unbalanced <= PROVED_RESIDUAL * block_scale) and np.all(excess <= PROVED_RESIDUAL * point_scale))
 

@@ -23,7 +23,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPoint
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
@@ -65,8 +65,6 @@ planar wall of 19,951 blocks came to it in 76 iterations, bounds 1.7e-8 apart; i
 
 CLOSE = 1e-7
 """A wanted distance of the bounds below this is worth every try, at any size."""
-
-WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 
 @dataclass

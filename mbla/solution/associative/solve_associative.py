@@ -24,11 +24,9 @@ from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form
 from mbla.solution.associative.bounds import falling_motion
-from mbla.solution.associative.force_repair import repaired_forces
 from mbla.solution.associative.proved_answer import (
     ACCEPTED_GAP,
     STANDS_MARGIN,
-    WITH_VALUE,
     AssociativeRun,
     ProvedAnswer,
     better,
@@ -38,12 +36,13 @@ from mbla.solution.associative.proved_answer import (
     solve_until_proved,
     solved_once,
 )
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import stress_free_state
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 

@@ -95,13 +95,6 @@ def is_linear(cone_program: ConeProgram) -> bool:
     return cone_program.n_cones == 0 and cone_program.quadratic is None and not cone_program.further_cones
 
 
-def other_solver(solver: str, cone_program: ConeProgram) -> str:
-    """The solver that gives the second opinion on what another one solved."""
-    if is_linear(cone_program) and solver != "highs":
-        return "highs"
-    return "mbla" if solver == "clarabel" and fits(cone_program) else "clarabel"
-
-
 @dataclass
 class _OneThenOther:
     """The condensed method, and clarabel where it breaks down."""

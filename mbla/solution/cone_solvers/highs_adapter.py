@@ -1,4 +1,4 @@
-"""Linear programs solved by HiGHS (only importer of highspy): the second opinion on every polyhedral program.
+"""Linear programs solved by HiGHS (only importer of highspy): an answer by another route.
 
 Huangfu and Hall 2018, doi:10.1007/s12532-017-0130-5. Its interior-point method with crossover to a vertex is taken:
 on spatial walls with an 8-sided friction polyhedron it took 0.6 s for 105 blocks and 9 s for 410 where simplex took 1.9

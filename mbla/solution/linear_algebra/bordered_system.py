@@ -25,7 +25,7 @@ ROUNDS = 6
 PROGRESS = 0.2
 """Share of what is wrong that a round may leave and still be followed by another."""
 
-REGULARIZATION = 1e-15
+DIAGONAL_REGULARIZATION = 1e-15
 """On the unit diagonal of the factorised matrix; refinement removes its trace."""
 
 STRONGER = (1.0, 1e2, 1e4)
@@ -76,7 +76,12 @@ def _bordered(normal: sp.csc_array, scale: FloatArray, border: FloatArray, corne
     row, column = normal.indices.astype(np.int64), np.repeat(np.arange(n), np.diff(normal.indptr))
     every, there = np.arange(n), np.flatnonzero(border)
     last, end = np.full(len(there), n), np.full(1 if corner else 0, n)
-    entries = [scale[row] * normal.data * scale[column], np.full(n, REGULARIZATION), border[there], border[there]]
+    entries = [
+        scale[row] * normal.data * scale[column],
+        np.full(n, DIAGONAL_REGULARIZATION),
+        border[there],
+        border[there],
+    ]
     rows: list[IntArray] = [row, every, there, last, end]
     columns: list[IntArray] = [column, every, last, there, end]
     entries.append(np.full(len(end), corner))
@@ -120,8 +125,8 @@ def _scaled(normal: sp.csc_array, scale: FloatArray) -> sp.csc_array:
     held.data = scale[held.indices] * held.data * scale[column]
     on_diagonal = np.flatnonzero(held.indices == column)
     if len(on_diagonal) < n:
-        return sp.csc_array(held + REGULARIZATION * sp.eye_array(n))
-    held.data[on_diagonal] += REGULARIZATION
+        return sp.csc_array(held + DIAGONAL_REGULARIZATION * sp.eye_array(n))
+    held.data[on_diagonal] += DIAGONAL_REGULARIZATION
     held.eliminate_zeros()
     return held
 
@@ -146,7 +151,7 @@ def _factors(scaled: sp.csc_array) -> Factorization | None:
     factors = factorization(pattern)
     for stronger in STRONGER:
         shifted = values.copy()
-        shifted[pattern.pointers[:-1]] += (stronger - 1.0) * REGULARIZATION
+        shifted[pattern.pointers[:-1]] += (stronger - 1.0) * DIAGONAL_REGULARIZATION
         if factors.factorize(shifted):
             return factors
     return None

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.errors import Message
-from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state

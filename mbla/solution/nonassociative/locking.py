@@ -21,7 +21,7 @@ from mbla.program.program import Program
 from mbla.program.reductions.guided import guided_program
 from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.associative.force_repair import repaired_forces
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.boundedness import lasting_limits

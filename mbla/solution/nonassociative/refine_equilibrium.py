@@ -23,7 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.bounds import ZERO_FACTOR
-from mbla.solution.associative.force_repair import carried_loads
+from mbla.solution.associative.repair import carried_loads
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.mechanics import lifted

@@ -30,7 +30,7 @@ from mbla.solution.resultants.convex_units import (
     units_of_unknowns,
 )
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
@@ -39,7 +39,7 @@ DOUBTFUL = 1e-4
 """Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A factor
 itself need not be solved to tolerance: its verified bounds tell what it is worth."""
 
-REGULARIZATION = 1e-8
+KKT_REGULARIZATION = 1e-8
 """Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
 
 MOVED = 1e-4
@@ -57,7 +57,6 @@ OWN_UNITS = 2
 FAR, CHANGES = 10.0, 3
 """How far from the load at collapse a unit of force is not good, and how often it is changed."""
 
-WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 DECIDED = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
 BROKEN = (Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
 
@@ -124,7 +123,7 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
     Conditions on crushing are taken in where the forces without them need them: most interfaces are far from crushing.
     """
     everything = np.isin(np.arange(len(convex.shapes.radii)), convex.crushing.interfaces)
-    run = _Run(convex, replace(settings, regularization=REGULARIZATION), log, [])
+    run = _Run(convex, replace(settings, regularization=KKT_REGULARIZATION), log, [])
     crushing = np.zeros(len(convex.shapes.radii), dtype=bool)
     for _ in range(ROUNDS):
         run.convex = with_crushing_of(convex, crushing)

@@ -32,8 +32,7 @@ from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION
 from mbla.solution.resultants.convex_state import with_motions
-from mbla.solution.resultants.full_stress import StressFields
-from mbla.solution.resultants.nearest_stress import nearest_stress
+from mbla.solution.resultants.stress_fields import StressFields, nearest_stress
 
 MOST_STEPS = 80
 """Factorisations of one step."""

@@ -38,7 +38,7 @@ MOVE = 0.7
 FIRST_TRY, TRY_EVERY = 4, 3
 """The exact law is tried at the fourth step and every third after it."""
 
-NEAR = 0.2
+NEAR_LAW = 0.2
 """Residual below which it is tried at all."""
 
 MOST_WORK = 600
@@ -148,7 +148,7 @@ def solve_convex_proximal(
         run.add("convex step", solution, state.load_factor)
         if state.residual <= EXACT or _is_enough(run):
             break
-        due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR
+        due = step >= FIRST_TRY and (step - FIRST_TRY) % TRY_EVERY == 0 and state.residual < NEAR_LAW
         if due and (_exact(run, law, anchor, rho, state) or _is_nearly_exact(run)):
             break
         if _is_stuck(run):

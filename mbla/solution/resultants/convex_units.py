@@ -21,7 +21,7 @@ from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram, KinematicForm
 from mbla.program.resultants import ConvexProgram
 from mbla.solution.associative.associative_form import LIGHT, LIGHTEST
-from mbla.solution.associative.force_repair import carried_loads
+from mbla.solution.associative.repair import carried_loads
 
 LOST = 1e-6
 """Unbalanced force of a row, over what it carries, from which the program deserves units of its own."""

@@ -34,7 +34,7 @@ NEARLY = 0.3
 """Share of what the springs carry that may be left unbalanced in a state that is only on the way: the next one, on
 springs a tenth as strong, changes by ten times as much. Of 97 factorisations for a house of 1,105 blocks 30 went."""
 
-ROUNDING = 64 * np.finfo(float).eps
+DISPLACEMENT_ROUNDING = 64 * np.finfo(float).eps
 """Unbalanced force, per unit of the largest displacement, that rounding leaves: falling blocks go as far as 1/κ."""
 
 PATTERN_FROM = 8
@@ -131,7 +131,9 @@ def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints
     """Whether the joints and the springs balance the load of every block."""
     furthest = float(np.abs(u).max(initial=0.0))
     share = max(BALANCED, NEARLY * kappa * furthest) if problem.on_the_way else BALANCED
-    return bool(np.all(np.abs(joints.unbalanced) <= np.maximum(share * problem.sizes, ROUNDING * furthest)))
+    return bool(
+        np.all(np.abs(joints.unbalanced) <= np.maximum(share * problem.sizes, DISPLACEMENT_ROUNDING * furthest))
+    )
 
 
 def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None) -> Joints:

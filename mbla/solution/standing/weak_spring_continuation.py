@@ -23,7 +23,6 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.standing.spring_newton import newton_step
 from mbla.solution.standing.spring_problem import (
     LatePattern,
     SpringProblem,
@@ -32,7 +31,7 @@ from mbla.solution.standing.spring_problem import (
     joints_at,
     spring_problem,
 )
-from mbla.solution.standing.spring_state import spring_state
+from mbla.solution.standing.spring_state import newton_step, spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
 """Shear over normal stiffness of a joint. How forces share between joints before anything slides depends on it, and so
@@ -53,7 +52,7 @@ PLATEAU_FROM = 1e-5
 STAYS = 0.9
 """Least ratio of shares two decades apart on a plateau."""
 
-DECADE, SHORTEST = 0.1, 0.8
+DECADE, CLOSEST_RATIO = 0.1, 0.8
 """Ratio of one κ to the one before, and the ratio closest to 1 that is tried where no state is found; in between each
 is the square root of the one before."""
 
@@ -63,7 +62,7 @@ LENGTHENING = 1.5
 MOST_FAILURES = 5
 """Times that no state is found before it is given up: each costs some 200 factorisations."""
 
-ROUNDING = 1e-9
+KAPPA_ROUNDING = 1e-9
 """Relative, in comparisons of one κ with another."""
 
 PROPORTION = 1.25
@@ -207,13 +206,13 @@ def _weaken(problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatA
     step, leaps, failures = DECADE, True, 0
     while True:
         state = _state_at(problem, blocks, kappa, states or [last])
-        leapt = bool(states) and kappa < step * (1 - ROUNDING) * last.kappa
+        leapt = bool(states) and kappa < step * (1 - KAPPA_ROUNDING) * last.kappa
         if leapt and not problem.late and (state is None or state.share >= CARRIED_SHARE):
             kappa, leaps = step * last.kappa, False  # too early: what the share does on the way decides
             continue
         if state is None:
             step, failures = float(np.sqrt(step)), failures + 1
-            if problem.late or not states or step > SHORTEST or failures > MOST_FAILURES:
+            if problem.late or not states or step > CLOSEST_RATIO or failures > MOST_FAILURES:
                 why = "the time limit was reached" if problem.late else "no state on weak springs was found"
                 return _outcome(Outcome.UNDECIDED, last, why), last
             kappa = step * last.kappa
@@ -259,7 +258,7 @@ def _state_at(problem: SpringProblem, blocks: _Blocks, kappa: float, states: lis
         before, last = states[-2:]
         share = (1 / kappa - 1 / last.kappa) / (1 / last.kappa - 1 / before.kappa)
         starts.append(last.displacements + share * (last.displacements - before.displacements))
-    on_the_way = replace(problem, on_the_way=kappa > PLATEAU_FROM * (1 + ROUNDING))
+    on_the_way = replace(problem, on_the_way=kappa > PLATEAU_FROM * (1 + KAPPA_ROUNDING))
     u = spring_state(on_the_way, kappa, starts)
     if u is not None and on_the_way.on_the_way and blocks.shares(kappa, u).max() < CARRIED_SHARE:
         u = spring_state(problem, kappa, [u])  # it is the last
@@ -277,7 +276,9 @@ def _on_plateau(states: list[_State]) -> bool:
     """Whether the share stayed over the last two decades of springs that are weak enough."""
     last = states[-1]
     weak = [
-        state for state in states if 100 * (1 - ROUNDING) * last.kappa <= state.kappa <= PLATEAU_FROM * (1 + ROUNDING)
+        state
+        for state in states
+        if 100 * (1 - KAPPA_ROUNDING) * last.kappa <= state.kappa <= PLATEAU_FROM * (1 + KAPPA_ROUNDING)
     ]
     return bool(weak) and last.share >= STAYS * weak[-1].share
 

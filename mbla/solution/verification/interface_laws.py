@@ -37,8 +37,8 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.resultants.friction_curve import rectangle_curve
 from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes
-from mbla.solution.resultants.full_stress import (
-    HALVINGS,
+from mbla.solution.resultants.stress_fields import (
+    BISECTIONS,
     Fan,
     corner_weights,
     mean_positive,
@@ -236,7 +236,7 @@ def _exact_excess(
     beyond = np.stack([_beyond(outlines, wanted, np.full(len(rows), angle))[0] for angle in angles])
     middle = angles[beyond.argmax(axis=0)]
     lower, upper = middle - angles[1], middle + angles[1]
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (lower + upper)
         rises = _beyond(outlines, wanted, middle)[1] > 0.0
         lower, upper = np.where(rises, middle, lower), np.where(rises, upper, middle)
@@ -260,7 +260,7 @@ def _moment_of_end(outlines: _Outlines, along: FloatArray) -> FloatArray:
     lower, upper = np.full(n, np.inf), np.full(n, -np.inf)
     np.minimum.at(lower, outlines.owner, of_corner)
     np.maximum.at(upper, outlines.owner, of_corner)
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (lower + upper)
         beyond = of_corner[fan.corners] - middle[fan.interface][:, None]
         area = np.bincount(fan.interface, fan.share * positive_share(beyond), n)

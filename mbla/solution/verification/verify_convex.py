@@ -19,7 +19,8 @@ from mbla.program.assemble import yield_limits
 from mbla.program.resultants import ConvexProgram, assemble_convex
 from mbla.program.resultants.assemble import near_crushing, with_crushing_of, without_crushing
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative.proofs import LOCKED_IN, PROVED_RESIDUAL, ROUNDING
+from mbla.solution.associative.bounds import LOCKED_IN
+from mbla.solution.associative.proofs import PASSED_ON_ROUNDING, PROVED_RESIDUAL
 from mbla.solution.resultants.convex_repair import repaired_convex_forces, repaired_convex_motions
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.verification.further_claims import LASTING
@@ -172,7 +173,7 @@ def _forces_prove(case: _Case, forces: FloatArray, factor: float) -> bool:
     """Whether forces balance the loads within all conditions up to rounding."""
     scale, contacts = case.scale, case.contacts
     unbalanced = unbalanced_loads(case.model, contacts, case.load_case, forces, factor, scale)
-    block_scale = scale.rounded_scale(contacts, forces, factor, ROUNDING)
+    block_scale = scale.rounded_scale(contacts, forces, factor, PASSED_ON_ROUNDING)
     point_scale = scale.of_lighter(contacts, block_scale)
     allowed = PROVED_RESIDUAL * point_scale
     pressed = np.maximum(np.add.reduceat(forces[:, 0], contacts.point_start[:-1]), 0.0)

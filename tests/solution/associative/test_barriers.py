@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.associative.barriers import force_metric, velocity_hessian
+from mbla.solution.associative.repair import force_metric, velocity_hessian
 
 Array = NDArray[np.float64]
 both_spaces = pytest.mark.parametrize("components", [2, 3])

@@ -9,8 +9,7 @@ import scipy.sparse as sp
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.associative.bounds import certified_gap, falling_motion, kinematic_value
-from mbla.solution.associative.force_repair import repaired_forces
-from mbla.solution.associative.mechanism_repair import incompatibility, repaired_mechanisms
+from mbla.solution.associative.repair import incompatibility, repaired_forces, repaired_mechanisms
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.bordered_system import bordered_solver
 from mbla.solution.nonassociative.law_state import LawState

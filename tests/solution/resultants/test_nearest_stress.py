@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.solution.resultants.full_stress import StressFields
-from mbla.solution.resultants.nearest_stress import nearest_stress
+from mbla.solution.resultants.stress_fields import StressFields, nearest_stress
 from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.solution.outlines import OUTLINES, STRENGTH, full_stress, laws_of, random_closing
 

@@ -9,9 +9,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.solution.nonassociative.lagged_limits import convex_minimum
 from mbla.solution.settings import SolverSettings
-from mbla.solution.standing.spring_newton import newton_step
 from mbla.solution.standing.spring_problem import (
     PATTERN_FROM,
     Joints,
@@ -21,7 +19,7 @@ from mbla.solution.standing.spring_problem import (
     spring_problem,
     stiffness_at,
 )
-from mbla.solution.standing.spring_state import spring_state
+from mbla.solution.standing.spring_state import convex_minimum, newton_step, spring_state
 from mbla.solution.standing.weak_spring_continuation import Outcome, is_diagonal, springs_of, weaken_springs
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.standing_structures import arch, overhang, rafters, wall_with_opening
@@ -103,14 +101,14 @@ def test_detours_find_the_state_where_newtons_method_does_not(
     direct = spring_state(problem, 1e-3, start)
     assert direct is not None
     for name, value in (
-        ("standing.spring_newton.NEWTON_STEPS", 2),
-        ("nonassociative.lagged_limits.LAGS", 0),
-        ("standing.dashpots.DASHPOT_STEPS", 0),
+        ("standing.spring_state.NEWTON_STEPS", 2),
+        ("standing.spring_state.LAGS", 0),
+        ("standing.spring_state.DASHPOT_STEPS", 0),
     ):
         monkeypatch.setattr(f"mbla.solution.{name}", value)
     assert spring_state(problem, 1e-3, start) is None
-    monkeypatch.setattr("mbla.solution.nonassociative.lagged_limits.LAGS", lags)
-    monkeypatch.setattr("mbla.solution.standing.dashpots.DASHPOT_STEPS", dashpot_steps)
+    monkeypatch.setattr("mbla.solution.standing.spring_state.LAGS", lags)
+    monkeypatch.setattr("mbla.solution.standing.spring_state.DASHPOT_STEPS", dashpot_steps)
     assert spring_state(problem, 1e-3, start) == pytest.approx(direct, abs=1e-9)
 
 
@@ -182,6 +180,6 @@ def counted_steps(monkeypatch: pytest.MonkeyPatch) -> list[float]:
         steps.append(kappa)
         return newton_step(problem, kappa, joints, lagged=lagged)
 
-    for module in ("standing.spring_newton", "nonassociative.lagged_limits", "standing.weak_spring_continuation"):
+    for module in ("standing.spring_state", "standing.weak_spring_continuation"):
         monkeypatch.setattr(f"mbla.solution.{module}.newton_step", counted)
     return steps

@@ -142,7 +142,7 @@ def warm_start(data: ConeData, x: FloatArray, y: FloatArray, z: FloatArray) -> P
     return Point(x, y, *inside)
 
 
-SHORTEST = 1e-8
+SHORTEST_STEP = 1e-8
 """Length of steps below which the method no longer gets on."""
 
 STALLED, BETTER = 15, 0.8
@@ -231,7 +231,7 @@ def best_of_run(
         if run.deadline is not None and time.monotonic() > run.deadline:
             outcome = Outcome.TIME
             break
-        if kept.stalled(number) or length < SHORTEST:
+        if kept.stalled(number) or length < SHORTEST_STEP:
             outcome = Outcome.STALLED
             break
         if number == run.max_iterations:

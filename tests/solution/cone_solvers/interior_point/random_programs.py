@@ -197,7 +197,7 @@ def contradiction(program: Program, first: Outcome, second: Outcome) -> str:
 
 
 ROUNDING = 1e-9
-"""Share of a load factor that the residual of repaired forces (force_repair.EQUILIBRIUM_TOLERANCE) leaves open."""
+"""Share of a load factor that the residual of repaired forces (repair.EQUILIBRIUM_TOLERANCE) leaves open."""
 
 
 @dataclass

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution.associative import least_step
-from mbla.solution.associative.least_step import Equilibrium, augmented_step, normal_step
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
+from mbla.solution.resultants import least_step
+from mbla.solution.resultants.least_step import Equilibrium, augmented_step, normal_step
 from tests.line import line_of_file
 from tests.solution.convex_structures import DECKS, convex
 

@@ -1,16 +1,23 @@
-"""Forces repaired so that they prove a static bound of the associative load factor.
+"""Forces and mechanisms repaired so that they prove bounds of the associative load factor.
 
-Forces in equilibrium with λ and within the yield conditions prove that collapse needs at least λ. The solver's forces
-are inside their cones but balance the loads only to its tolerance. They are corrected in the metric of the cones' own
-barrier, so that a force near the border of its cone moves little: the least Δ in
+*Static:* forces in equilibrium with λ and within the yield conditions prove that collapse needs at least λ. The
+solver's forces are inside their cones but balance the loads only to its tolerance. They are corrected in the metric of
+the cones' own barrier, so that a force near the border of its cone moves little: the least Δ in
 
     A Δx + f_L Δλ = −(A x + f_D + λ f_L),    weighted by the barrier's Hessian at x
 
 stays inside all cones if it is short (Dikin's ellipsoid; Nesterov and Nemirovskii 1994, theorem 2.1.1).
+
+*Kinematic:* velocities compatible with the yield conditions give a load factor at or above the collapse value. The
+solver's mechanism is moved, in the metric of the cones' own barrier, towards contact velocities strictly inside them.
+
+The barrier of a cone ‖T‖ ≤ s is −log(s² − ‖T‖²), that of a half-line −log of its slack. Forces and velocities have two
+or three components.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -19,9 +26,64 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
-from mbla.program.yield_conditions import yield_violation
-from mbla.solution.associative.barriers import force_metric
+from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
+from mbla.solution.linear_algebra.small_blocks import block_diagonal, inverses
+
+TINY = 1e-100
+"""Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
+    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
+
+    Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
+    """
+    mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
+    t = x[:, 1:]
+    shearless = (mu == 0) & (limits.cohesion == 0)
+    s = np.where(shearless, 1.0, s)
+    det = np.maximum(s**2 - (t**2).sum(axis=1), TINY)
+    hessian = _cone_hessian(np.column_stack([-mu * s, t]), det)
+    hessian[:, 0, 0] -= 2.0 * mu**2 / det
+    hessian[:, range(1, x.shape[1]), range(1, x.shape[1])] += (2.0 / det)[:, None]
+    slack = np.maximum(x[:, 0] + limits.tension, TINY)
+    cut_off = (limits.cohesion > 0) | (mu == 0)
+    hessian[:, 0, 0] += np.where(cut_off, slack**-2, 0.0)
+    finite = np.isfinite(limits.compression)
+    hessian[finite, 0, 0] += np.maximum(limits.compression[finite] - x[finite, 0], TINY) ** -2
+    inverse = _inverse(hessian)
+    inverse[shearless, 1:, :] = 0.0
+    inverse[shearless, :, 1:] = 0.0
+    return block_diagonal(inverse)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def velocity_hessian(friction: FloatArray, v: FloatArray) -> FloatArray:
+    """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside; −log v_N² where μ = 0.
+
+    Not finite where squares of velocities are beyond the range of numbers.
+    """
+    squared = friction**2
+    det = np.maximum(v[:, 0] ** 2 - squared * (v[:, 1:] ** 2).sum(axis=1), TINY)
+    hessian = _cone_hessian(np.column_stack([-v[:, 0], squared[:, None] * v[:, 1:]]), det)
+    hessian[:, 0, 0] -= 2.0 / det
+    hessian[:, range(1, v.shape[1]), range(1, v.shape[1])] += (2.0 * squared / det)[:, None]
+    return hessian
+
+
+def _cone_hessian(gradient: FloatArray, det: FloatArray) -> FloatArray:
+    gradient = gradient * (2.0 / det)[:, None]
+    return np.asarray(gradient[:, :, None] * gradient[:, None, :])
+
+
+def _inverse(hessian: FloatArray) -> FloatArray:
+    """Inverse of each block; scaled to unit diagonal, so that points with forces 1e-12 of the others keep accuracy."""
+    size = 1.0 / np.sqrt(np.maximum(np.einsum("nii->ni", hessian), TINY))
+    unit = hessian * size[:, :, None] * size[:, None, :] + 1e-14 * np.eye(hessian.shape[1])[None]
+    return np.asarray(inverses(unit) * size[:, :, None] * size[:, None, :])
+
 
 EQUILIBRIUM_TOLERANCE = 1e-9
 """Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
@@ -138,3 +200,58 @@ def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[
         delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
         delta_factor += float(y[-1])
     return delta, delta_factor
+
+
+OPENINGS = (1e-13, 1e-11, 1e-9)
+"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is
+compatible; the best one counts. Confined joints cannot open at all: there the smallest leaves least to be charged."""
+
+
+def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
+    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility.
+
+    Each is found when it is asked for.
+    """
+    yield velocities
+    for opening in OPENINGS:
+        u, lack = velocities, np.inf
+        for _ in range(ROUNDS):
+            moved = _kinematic_correction(program, u, opening)
+            if moved is None:
+                break
+            yield moved
+            u, before, lack = moved, lack, incompatibility(program, moved)
+            if lack == 0.0:
+                return
+            if lack > PROGRESS * before:
+                break
+
+
+def incompatibility(program: Program, velocities: FloatArray) -> float:
+    """Sum of μ s − v_N over points that cannot crush, where that is positive."""
+    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
+    return float(lack[np.isinf(program.limits.compression)].sum())
+
+
+@timed("repair")
+def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
+    """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
+    mu, matrix = program.limits.friction, program.equilibrium_matrix
+    v = (matrix.T @ u).reshape(-1, program.components)
+    speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
+    target = v.copy()
+    target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
+    weights = velocity_hessian(mu, target)
+    # joints that can crush need not open: they only keep the velocity from straying
+    weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
+    weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
+    metric = block_diagonal(weights)
+    solve = bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
+    if solve is None:
+        return None
+    delta = np.zeros_like(u)
+    for _ in range(3):
+        misfit = target.ravel() - matrix.T @ (u + delta)
+        delta = delta + solve(matrix @ (metric @ misfit))[:-1]
+    return u + delta if np.isfinite(delta).all() else None
