@@ -27,15 +27,11 @@ PREFIX = "bench_"
 
 ESTIMATED = {
     "accuracy": 2.0,
-    "cone_solvers": 15.0,
     "contacts": 0.2,
     "deck": 0.3,
-    "factorization": 0.5,
     "growth": 60.0,
     "line": 3.0,
     "model": 0.3,
-    "proximal": 10.0,
-    "reductions": 1.5,
     "results": 0.5,
     "rivals": 30.0,
     "run": 0.5,
@@ -43,7 +39,6 @@ ESTIMATED = {
     "structures": 0.5,
     "sweep": 10.0,
     "sweep_memory": 6.0,
-    "warm_start": 1.0,
 }
 """Minutes on an idle core, at most where there is a limit, before the first run by this command."""
 

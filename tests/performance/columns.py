@@ -17,19 +17,14 @@ class Columns:
 COLUMNS = {
     "accuracy": Columns(("structure", "flow_rule", "setting"), ("processor_seconds",)),
     "all": Columns(("benchmark",), ("processor", "clock")),
-    "cone_solvers": Columns(("model", "solver", "library"), ("seconds",)),
     "deck": Columns(("case", "blocks"), ("seconds", "processor_seconds", "events_processor_seconds")),
-    "factorization": Columns(("case", "library"), ("analysis", "factorization", "solution")),
     "growth": Columns(("family", "flow_rule", "blocks"), ("solver", "total", "clock")),
     "growth_exponents": Columns(("family", "flow_rule", "time"), ()),
     "line": Columns(("structure", "flow_rule"), ("processor", "clock", "outside")),
-    "proximal": Columns(("case", "what", "solver", "tolerance", "installed"), ("seconds",)),
-    "reductions": Columns(("structure", "flow_rule", "without"), ("processor_seconds", "processor_seconds_without")),
     "rivals": Columns(("structure", "rival"), ("processor", "clock", "solver")),
     "solver": Columns(("case", "dimension"), ("reducing", "associative", "first_program", "non_associative")),
     "sweep": Columns(("sweep", "way", "points"), ("seconds", "processor_seconds")),
     "sweep_memory": Columns(("workers", "process", "points"), ("processor_seconds",)),
-    "warm_start": Columns(("model", "sequence"), ("cold", "warm")),
 }
 """Benchmarks whose columns do not tell by their names, as those of the others do: see ``columns_of``."""
 

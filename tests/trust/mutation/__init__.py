@@ -1,8 +1,7 @@
 """Mutants: the program with one thing made wrong, and whether a test next to it notices.
 
 ``python -m tests.trust.mutation [GROUP ...]`` makes a sample of mutants of the modules in :mod:`.groups` and runs the
-tests next to them; what survives is printed with file, line and change. Survivors that no test can kill stand in
-:mod:`.explained` with the reason.
+tests next to them; what survives is printed with file, line and change.
 
 The driver is our own. Tools start pytest for each mutant (mutmut, cosmic-ray, mutatest), and many fixtures here solve
 structures, which takes longer than the tests. Here pytest runs once: the fixtures of a test are made by the right

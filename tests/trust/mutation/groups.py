@@ -57,12 +57,9 @@ GROUPS = {
         modules=(
             "mbla/model/geometry/*.py",
             "mbla/model/solids/measures.py",
-            "mbla/model/solids/measures.py",
             "mbla/model/solids/polyhedra.py",
-            "mbla/model/solids/measures.py",
             "mbla/model/solids/defects.py",
             "mbla/model/solids/facets.py",
-            "mbla/model/solids/measures.py",
             "mbla/model/solids/self_intersection.py",
             "mbla/model/transform.py",
         ),

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.trust.mutation.explained import EXPLAINED
 from tests.trust.mutation.forks import Forks
 from tests.trust.mutation.groups import GROUPS, ROOT, Group
 from tests.trust.mutation.mutants import Mutant, mutants_of
@@ -34,11 +33,6 @@ class Survivor:
     change: str
     reached: bool
 
-    @property
-    def explained(self) -> bool:
-        """Whether no test can kill it."""
-        return (self.module, self.text, self.change) in EXPLAINED
-
 
 @dataclass(frozen=True)
 class Judged:
@@ -53,11 +47,6 @@ class Judged:
     survivors: tuple[Survivor, ...]
     left_out: tuple[str, ...]
     whole: bool
-
-    @property
-    def explained(self) -> int:
-        """Survivors that no test can kill."""
-        return sum(survivor.explained for survivor in self.survivors)
 
 
 def sampled(group: Group, sample: int, seed: int) -> list[Mutant]:
