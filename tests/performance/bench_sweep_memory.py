@@ -31,7 +31,7 @@ import yaml
 from mbla.sweeps.engine.line_process import PACKAGES
 from tests.line import BLOCK
 from tests.performance.recording import record
-from tests.sweeps.killed_sweeps import descendants, kind_of
+from tests.sweeps.killed_sweeps import descendants
 
 POINTS = 10_000
 PART = 10
@@ -116,8 +116,9 @@ def watched(folder: Path, points: int, workers: int) -> Watched:
 
 def solves_points(pid: int) -> bool:
     """Whether a process was begun for points, by a command that gives each a group of its own: no helper of one."""
-    with suppress(ProcessLookupError):
-        return kind_of(pid) == "points" and os.getpgid(pid) == pid
+    with suppress(OSError):
+        command = Path(f"/proc/{pid}/cmdline").read_bytes()
+        return b"mbla.sweeps.engine.child" in command and os.getpgid(pid) == pid
     return False
 
 

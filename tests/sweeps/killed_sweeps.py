@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
-import socket
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +14,6 @@ from random import Random
 from mbla.cli import main
 from mbla.sweeps.command import Prepared, SweepOptions, prepare, run_sweep
 from mbla.sweeps.engine.engine import EngineOptions
-from mbla.sweeps.engine.line_process import PACKAGES
 from mbla.sweeps.file.read import read_sweep
 from mbla.sweeps.journal import journals_in
 from tests.line import BLOCK
@@ -27,17 +23,6 @@ HOW_IT_WENT = b",tries,seconds [s]"
 """the last columns, which say how a point was solved, not what its answer is"""
 GONE = 30.0
 """seconds in which processes must have ended whose parent was killed, or be there; it takes hundredths, or one"""
-BEGUN = 180.0
-"""seconds in which a killed process of a cluster must have been begun again; importing Dask alone may take tens of them
-on a busy machine"""
-CLIENT, SCHEDULER = "client", "scheduler"
-KINDS = {
-    SCHEDULER: "distributed.cli.dask_scheduler",
-    "nanny": "distributed.cli.dask_worker",
-    "worker": "multiprocessing.spawn",
-    "points": "mbla.sweeps.engine.child",
-}
-"""kinds of processes of a cluster, and by what their command lines are known"""
 
 
 def written(folder: Path, points: int) -> Path:
@@ -171,122 +156,3 @@ def finish(scene: Scene) -> str:
     command = ["sweep", str(scene.prepared.sweep.path), "-o", str(scene.folder), "--resume", "-q"]
     with forked(lambda report: report(f"exit {main(command)}")) as client:
         return client.lines()[-1]
-
-
-def kind_of(pid: int) -> str:
-    """What a process of a cluster is: scheduler, nanny (which begins a worker anew), worker, or points."""
-    with suppress(OSError):
-        command = Path(f"/proc/{pid}/cmdline").read_bytes().decode().replace("\0", " ")
-        for kind, sign in KINDS.items():
-            if sign in command:
-                return kind
-    return ""
-
-
-class Cluster:
-    """Context manager: a Dask scheduler and workers on loopback, each of which is begun again where it has ended."""
-
-    def __init__(self, folder: Path, workers: int, tls: Mapping[str, Path] | None = None) -> None:
-        """
-        tls : files ``ca``, ``cert`` and ``key``, for encrypted connections
-        """
-        self.file = folder / "scheduler.json"
-        protocol, port = "tls" if tls else "tcp", _free_port()
-        self.address = f"{protocol}://127.0.0.1:{port}"
-        self._workers = workers
-        self._place = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--protocol", protocol)
-        names = {"ca": "--tls-ca-file", "cert": "--tls-cert", "key": "--tls-key"}
-        self._tls = [part for kind, name in names.items() if tls for part in (name, str(tls[kind]))]
-        self._processes: dict[str, subprocess.Popen[bytes]] = {}
-        paths = [str(PACKAGES), os.environ.get("PYTHONPATH", "")]
-        self._environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in paths if path)}
-
-    def __enter__(self) -> Cluster:
-        self.mend()
-        return self
-
-    def __exit__(self, *what: object) -> None:
-        for name in sorted(self._processes, reverse=True):  # workers first
-            self.end(name)
-
-    def mend(self) -> None:
-        """Begin what is not there; a scheduler is ready when this returns."""
-        ended = [name for name, process in self._processes.items() if process.poll() is not None]
-        if SCHEDULER in ended or not self._processes:
-            for name in sorted(self._processes, reverse=True):
-                self.end(name)  # workers of a scheduler that is gone are ended by whoever runs the cluster
-            self._processes.clear()
-            self.file.unlink(missing_ok=True)
-            self._begin(SCHEDULER, "dask_scheduler", *self._place)
-            until = time.monotonic() + GONE
-            while not self.file.exists():
-                assert time.monotonic() < until, "no scheduler"
-                time.sleep(0.05)
-        for name in [f"worker {number}" for number in range(self._workers)]:
-            if name in ended or name not in self._processes:
-                self._begin(name, "dask_worker", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1")
-
-    def _begin(self, name: str, module: str, *options: str) -> None:
-        command = [sys.executable, "-P", "-m", f"distributed.cli.{module}", "--scheduler-file", str(self.file)]
-        self._processes[name] = subprocess.Popen(
-            [*command, *options, *self._tls],
-            env=self._environment,
-            cwd=self.file.parent,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-
-    def end(self, name: str) -> None:
-        """Kill a process and all that it has begun."""
-        process = self._processes[name]
-        for pid in (process.pid, *descendants(process.pid)):
-            with suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-        process.wait()
-
-    def kill_one(self, kind: str, draw: Random) -> None:
-        """Kill one process of that kind, as soon as there is one."""
-        until = time.monotonic() + BEGUN
-        while True:
-            roots = [process.pid for process in self._processes.values()]
-            found = [pid for root in roots for pid in (root, *descendants(root)) if kind_of(pid) == kind]
-            with suppress(ProcessLookupError):
-                if found:
-                    return os.kill(draw.choice(found), signal.SIGKILL)
-            assert time.monotonic() < until, f"no process of kind {kind}"
-            time.sleep(0.01)
-
-
-def _free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return int(server.getsockname()[1])
-
-
-def with_cluster_kills(scene: Scene, cluster: Cluster, times: int, draw: Random, wait: float) -> int:
-    """Go on with a sweep on a cluster while its client and each kind of its processes is killed so many times.
-
-    What an earlier kill took is begun again before the next, and two more points are solved; a client that a kill
-    left without its scheduler ends by itself, and another one goes on. Returns the number of kills.
-    """
-    wanted = [CLIENT, *KINDS] * times
-    draw.shuffle(wanted)
-    done, said = 0, ""
-    while done < len(wanted) and not said.startswith("finished"):
-        cluster.mend()
-        with forked(scene.goes_on()) as client:
-            said = client.line()
-            while done < len(wanted) and said and not said.startswith("finished"):
-                time.sleep(draw.random() ** 3 * wait)
-                kind, done = wanted[done], done + 1
-                if kind == CLIENT:
-                    client.kill()
-                else:
-                    cluster.kill_one(kind, draw)
-                if kind in (CLIENT, SCHEDULER):  # what it had said before may still be read, but it will end
-                    client.lines()
-                    break
-                cluster.mend()
-                for _ in range(2):
-                    said = client.line()
-    cluster.mend()
-    return done

@@ -60,12 +60,3 @@ def test_refusals(sweep: Path) -> None:
     with pytest.raises(mbla.DeckError) as refused:
         mbla.sweep(sweep, force=True)
     assert [fault.key for fault in refused.value.faults] == ["parameters.mu.valves"]
-
-
-def test_out_of_memory(sweep: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object) -> None:
-        raise MemoryError
-
-    monkeypatch.setattr("mbla.sweeps.api.run_sweep", fail)
-    with pytest.raises(mbla.LimitError, match=r"^out of memory$"):
-        mbla.sweep(sweep)

@@ -15,7 +15,7 @@ from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
 from mbla.sweeps.identity import fingerprint_of, key_hash
 from mbla.sweeps.plan import override_texts
-from tests.deck.decks import BLOCK, write
+from tests.deck.decks import write
 from tests.sweeps.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
 
 
@@ -48,10 +48,6 @@ def test_paths_units_vectors(base: Base) -> None:
     assert base.deck.content.blocks[0].arch.width == 0.4
 
 
-def test_all_load_cases_unless_some_are_named(tmp_path: Path) -> None:
-    assert base_of(tmp_path).cases == ("push_x", "down")
-
-
 @pytest.mark.parametrize(
     ("key", "unit"),
     [
@@ -79,11 +75,6 @@ def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
     assert unit_at(path_of_key(base.tree.data, key), base.deck.units) == unit
 
 
-def test_a_vector_with_expressions_is_evaluated(tmp_path: Path) -> None:
-    deck = ARCH.replace("acceleration: [1, 0, 0]", 'acceleration: ["=2*radius", 0, -0.5]')
-    assert base_of(tmp_path, ALL_WAYS, deck).vectors["d"] == (2.0, 0.0, -0.5)
-
-
 @pytest.mark.parametrize(
     ("override", "expected"),
     [
@@ -101,14 +92,6 @@ def test_faults_of_the_command_line_are_told_there(tmp_path: Path, override: str
     with pytest.raises(DeckError) as caught:
         base_of(tmp_path, text, ARCH, "blocks.0.arch.voussoirs=10", override)
     assert [str(fault).split("; did")[0] for fault in caught.value.faults] == [expected]
-
-
-def test_faults_of_the_deck_are_its_own(tmp_path: Path) -> None:
-    with pytest.raises(DeckError) as caught:
-        base_of(tmp_path, GOOD, ARCH.replace("width: 0.3", "width: 0"))
-    assert [str(fault) for fault in caught.value.faults] == [
-        f"{tmp_path}/deck.yaml:17:14 blocks[0].arch.width = 0: must be > 0"
-    ]
 
 
 def test_what_another_parameter_brings_into_use_has_an_effect(tmp_path: Path) -> None:
@@ -150,14 +133,6 @@ def test_a_sweep_with_a_corner_that_cannot_be_read_begins(tmp_path: Path) -> Non
         check_points(base, points[:1])
 
 
-EXPECTING = ARCH + 'expected: {push_x: {load_factor: "=sqrt(t - 0.12)/spare", source: "closed form", tolerance: 1.}}\n'
-
-
-def test_a_parameter_that_only_an_expectation_uses_has_no_effect(tmp_path: Path) -> None:
-    with pytest.raises(DeckError, match=r"parameters\.spare: has no effect: the deck does not use parameters\.spare"):
-        base_of(tmp_path, GOOD.replace("  t: {", "  spare: {"), EXPECTING)
-
-
 # --- fingerprint --------------------------------------------------------------------------------------------------
 
 
@@ -194,11 +169,6 @@ def test_what_does_not_count(tmp_path: Path, change: Callable[[str], str]) -> No
 def test_what_counts(tmp_path: Path, change: Callable[[str], str]) -> None:
     assert change(ARCH) != ARCH
     assert fingerprint(tmp_path, change(ARCH)) != fingerprint(tmp_path, ARCH)
-
-
-def test_a_deck_has_the_same_fingerprint_for_good(tmp_path: Path) -> None:
-    """A journal names it: another value here is another format of journals, to be said in the release notes."""
-    assert fingerprint(tmp_path, BLOCK) == "d8ee98c44b2103e6d825a239e2921eb677d4c780a913f510f9c85ff282ca98fe"
 
 
 # --- keys of points -----------------------------------------------------------------------------------------------
@@ -258,14 +228,6 @@ def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, obje
     assert a.fingerprint == b.fingerprint
     assert a.key_of(settings) != b.key_of(settings)  # type: ignore[arg-type]
     assert a.key_of({"parameters.mu": 1.0}) == b.key_of({"parameters.mu": 1.0})
-
-
-def test_a_file_that_is_missing_is_a_fault_of_its_point(tmp_path: Path) -> None:
-    base = with_tables(tmp_path, -1, -2)
-    settings = {"load_cases.push_x.live.0.table": "none.csv"}
-    assert base.key_of(settings) != base.key_of({"load_cases.push_x.live.0.table": "more.csv"})
-    with pytest.raises(DeckError):
-        fingerprint_of(base.path, ("load_cases.push_x.live.0.table=none.csv",))
 
 
 @pytest.mark.parametrize("text", ["\N{GRINNING FACE}", "a\x85b", "a\u2028b", 'q"\\', "tab\tx", "=mu", "no", "1e3", "é"])

@@ -64,21 +64,6 @@ def test_a_full_disk(path: Path, clean: Path, tmp_path: Path) -> None:
     check_clean(tmp_path / "full", clean)
 
 
-def test_a_disk_that_is_full_when_the_table_is_written(path: Path, clean: Path, tmp_path: Path) -> None:
-    """Every point is in the journal then, and none is solved again."""
-    size = (clean / "journal.csv").stat().st_size
-    assert (clean / "sweep.json").stat().st_size < size  # else this test would need another sweep
-    folder = tmp_path / "full"
-    folder.mkdir()
-    (folder / "journal.csv").write_bytes((clean / "journal.csv").read_bytes())
-    ended = run(path, folder, "-q", "--resume", file_size=1000)
-    assert ended.status == 6
-    assert re.search(r"^mbla: \S+/sweep\.(csv|json): File too large", ended.said, re.M), ended.said
-    assert [each.name for each in folder.iterdir()] == ["journal.csv"]
-    assert go_on(path, folder) == 8
-    check_clean(folder, clean)
-
-
 def lengths(clean: Path, count: int) -> Iterator[int]:
     """Where a journal is cut off, at random, behind its header."""
     whole = (clean / "journal.csv").read_bytes()
@@ -89,11 +74,6 @@ def lengths(clean: Path, count: int) -> Iterator[int]:
 
 def test_a_loss_of_power(path: Path, clean: Path, tmp_path: Path) -> None:
     check_cut(path, clean, tmp_path / "cut", next(lengths(clean, 1)), b"\0" * 300)
-
-
-def test_losses_of_power(path: Path, clean: Path, tmp_path: Path) -> None:
-    for number, length in enumerate(lengths(clean, 20)):
-        check_cut(path, clean, tmp_path / str(number), length, b"\0" * (number % 3 * 100))
 
 
 def check_cut(path: Path, clean: Path, folder: Path, length: int, after: bytes) -> None:

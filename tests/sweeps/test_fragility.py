@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -165,13 +164,6 @@ def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
     assert found.below.tolist() == [1]
 
 
-def test_points_that_constraints_leave_out_are_counted() -> None:
-    table = table_of([solved([0.1, 0.2])])
-    found = fragility_of(replace(table, dimensions=(Dimension("sample", 5),)), "load_factor", (0.15,), 0.95)
-    assert found[0].left_out == 3
-    assert fragility_json(found)[0]["left_out"] == 3  # in words it is a remark of the design
-
-
 @pytest.mark.parametrize(
     ("result", "words"),
     [
@@ -182,8 +174,3 @@ def test_points_that_constraints_leave_out_are_counted() -> None:
 def test_a_result_that_is_none_is_refused(result: str, words: str) -> None:
     with pytest.raises(UsageError, match=words):
         fragility_of(table_of([solved([0.1])]), result, (0.1,), 0.95)
-
-
-def test_a_design_without_a_sample_is_refused() -> None:
-    with pytest.raises(UsageError, match="random design"):
-        fragility_of(replace(table_of([solved([0.1])]), samples=""), "load_factor", (0.1,), 0.95)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.sweeps.words import WINDOW, Progress, duration_words, rate_words
+from mbla.sweeps.words import Progress, duration_words, rate_words
 
 
 def test_a_line_has_counts_rate_and_time_left() -> None:
@@ -13,23 +13,6 @@ def test_a_line_has_counts_rate_and_time_left() -> None:
         progress.add(failed=number == 3, seconds=0.5 * number)
     assert progress.words() == "10 of 100 points, 1 failed, 2 points/s, 45 s left"
     assert progress.bar() == "[##......................] 10 of 100 points, 1 failed, 2 points/s, 45 s left"
-
-
-def test_nothing_is_left_at_the_end() -> None:
-    progress = Progress(total=2)
-    progress.add(failed=False, seconds=1.0)
-    progress.add(failed=False, seconds=2.0)
-    assert progress.words() == "2 of 2 points, 1 points/s"
-    assert progress.bar().startswith("[########################]")
-
-
-def test_the_rate_follows_the_last_points() -> None:
-    progress = Progress(total=2000)
-    for number in range(1, 1001):
-        progress.add(failed=False, seconds=0.01 * number)
-    for number in range(1, WINDOW + 1):
-        progress.add(failed=False, seconds=10 + number)
-    assert progress.rate == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(

@@ -93,11 +93,6 @@ def test_values_of_a_case_and_of_the_run(record: dict[str, Any]) -> None:
     assert list(found.values()) == [0.5, 1.0, None, 3]  # those of the run come last
 
 
-def test_names_with_full_stops_are_found() -> None:
-    record = {"cases": [{"name": "c", "supports": {"ground z = 0.5": {"force": [1.0, 2.0]}}}], "series": []}
-    assert values(record, "supports.ground z = 0.5.force.1", cases=("c",)) == {"supports.ground z = 0.5.force.1": 2.0}
-
-
 def series(*positions: tuple[str, float | None], worst: int | None) -> dict[str, Any]:
     """A travelling load and its cases."""
     found = [
@@ -151,10 +146,3 @@ def test_a_reason_names_its_load_cases_where_there_are_several() -> None:
     assert reason_of({"cases": cases, "notices": []}) == f"a and d: {falls}; c: {late}"
     assert reason_of({"cases": cases[:1], "notices": []}) == falls
     assert reason_of({"cases": cases[1:2], "notices": []}) == ""
-
-
-@pytest.mark.parametrize(("severity", "reason"), [("warning", "block a[0] is apart; it falls"), ("notice", "it falls")])
-def test_blocks_that_touch_nothing_are_the_first_reason(severity: str, reason: str) -> None:
-    notice = {"severity": severity, "identifier": "isolated-blocks", "message": "block a[0] is apart"}
-    record = {"cases": [{"name": "a", "reason": "it falls"}], "notices": [notice]}
-    assert reason_of(record) == reason

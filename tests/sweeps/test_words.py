@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from mbla.sweeps.tables.sweep_table import sweep_table
-from mbla.sweeps.words import failure_lines, result_lines, sweep_lines
+from mbla.sweeps.words import failure_lines, result_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic
 
@@ -43,17 +43,6 @@ def test_values_that_are_shown_alike_have_no_least_and_no_greatest_point() -> No
     lines = [" ".join(line.split()) for line in result_lines(table)]
     assert "load_factor 0.25 all 0.25 all" in lines
     assert not any(line.startswith("point ") for line in lines)
-
-
-def test_notices_of_the_deck_stand_between_results_and_time() -> None:
-    notice = {"severity": "warning", "message": "joint dry of the deck is not used"}
-    points = {"all": 5, "done": 4, "failed": 1, "unfinished": 0, "left_out": 1}
-    record = {"sweep": "wall.sweep.yaml", "title": "", "deck": "wall.yaml", "points": points, "notices": [notice],
-              "time": {"total": 4.0}}  # fmt: skip
-    lines = [" ".join(line.split()) for line in sweep_lines(record, synthetic.table())]
-    assert lines[:2] == ["wall.sweep.yaml: wall.yaml", "points 5: 4 done, 1 failed; constraints left out 1 more"]
-    assert lines[-3:-1] == ["failed: point 4: mu 0.7, t 0.1 m, seed 4: not verified", f"warning: {notice['message']}"]
-    assert lines[-1] == "time 4 s"
 
 
 def test_of_many_failures_the_first_are_told_and_the_others_counted() -> None:

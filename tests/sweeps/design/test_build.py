@@ -50,7 +50,6 @@ def test_a_value_goes_to_every_key_and_to_the_parameter_of_the_deck_where_none_i
 
 
 NORMAL = {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}
-LINEAR = {"key": "l", "linear": {"from": 0, "to": 1}}
 
 
 @pytest.mark.parametrize("kind", ["random", "latin_hypercube", "sobol"])
@@ -59,30 +58,6 @@ def test_a_sample_of_distributions_is_told_as_one(kind: str) -> None:
     assert (found.samples, found.sampling) == (kind, kind)
     assert [column.random for column in found.columns] == [True, False]
     assert found.remarks == ()
-
-
-def test_a_range_that_is_drawn_has_no_probability() -> None:
-    found = design({"n": NORMAL, "l": LINEAR}, design=[{"random": {"points": 4}}])
-    assert (found.samples, found.sampling) == ("", "")
-    assert [column.random for column in found.columns] == [True, False]
-    [remark] = found.remarks
-    assert remark.startswith("random: l has no distribution")
-    assert design({"l": LINEAR}, design=[{"random": {"points": 4}}]).remarks == ()
-
-
-def test_two_samples_that_are_combined_are_no_sample() -> None:
-    parts = [{"random": {"of": ["n"], "points": 4}}, {"random": {"of": ["m"], "points": 4}}]
-    found = design({"n": NORMAL, "m": {**NORMAL, "key": "m"}}, design=parts)
-    assert (found.samples, found.sampling) == ("", "")
-    assert found.remarks[0].startswith("random and random_2 are combined point by point")
-    assert column(found, "n")[:4] == [column(found, "n")[0]] * 4
-    assert set(column(found, "n")).isdisjoint(column(found, "m"))  # one seed, and yet numbers of their own
-
-
-def test_a_number_of_sobol_points_that_is_no_power_of_two_is_remarked_on() -> None:
-    [remark] = design({"n": NORMAL}, design=[{"sobol": {"points": 100}}]).remarks
-    assert remark.endswith("64 or 128")
-    assert design({"n": NORMAL}, design=[{"sobol": {"points": 128}}]).remarks == ()
 
 
 def test_the_order_of_parameters_does_not_change_what_is_drawn() -> None:

@@ -45,10 +45,6 @@ def test_points_that_break_a_constraint_are_left_out() -> None:
     assert kept("t < 0.2*radius") == {(0.2, 2), (0.2, 3), (0.4, 3)}
 
 
-def test_comparisons_may_be_chained() -> None:
-    assert kept("0.3 < t <= 0.6") == {(t, r) for t, r in ALL if t in (0.4, 0.6)}
-
-
 def test_equal_numbers_are_equal_whatever_their_rounding() -> None:
     """3 x 0.2 is 0.6000000000000001 in binary, and 0.6 is the thickness that was meant."""
     assert 3 * 0.2 != 0.6
@@ -87,15 +83,6 @@ def test_how_many_points_break_each_constraint() -> None:
     assert found.left_out == 48
     assert [point.number for point in found.points] == list(range(1, 17))
     assert found.points[-1].position == (0, 1, 1, 3)
-
-
-def test_a_sample_of_which_constraints_leave_out_points_is_remarked_on() -> None:
-    parameters = {"n": {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}, "t": {"key": "t", "values": [1, 2]}}
-    parts = [{"grid": {"of": ["t"]}}, {"random": {"points": 20}}]
-    cut = design(parameters, design=parts, constraints=["n < t"])
-    assert cut.remarks == ("constraints leave out points of random: shares of its points are of those that stay",)
-    # Leaving out a whole level of the grid leaves every sample as it is.
-    assert design(parameters, design=parts, constraints=["t < 1.5"]).remarks == ()
 
 
 @pytest.mark.parametrize(

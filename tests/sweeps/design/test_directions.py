@@ -32,25 +32,11 @@ def test_sine_and_cosine_are_exact_along_the_axes(turns: float) -> None:
     assert not any(math.copysign(1, value) < 0 for pair in found for value in pair if value == 0)
 
 
-def test_sine_and_cosine_of_the_common_angles() -> None:
-    half, root = math.sqrt(0.5), math.sqrt(0.75)
-    assert [sine_cosine(angle) for angle in (30, 45, 60, 120)] == [(0.5, root), (half, half), (root, 0.5), (root, -0.5)]
-    assert [sine_cosine(angle) for angle in (135, 225, 315)] == [(half, -half), (-half, -half), (-half, half)]
-
-
 def test_the_horizon_turns_the_horizontal_part_and_keeps_the_vertical_one() -> None:
     found = directions({"horizon": {"points": 4}})
     assert vectors_of(found).tolist() == [[5, 0, -12], [0, 5, -12], [-5, 0, -12], [0, -5, -12]]
     assert column(found, "x") == [0, 90, 180, 270]  # the full circle has its end left out
     assert (found.columns[0].role, found.columns[0].unit, found.columns[0].random) == ("azimuth", "degree", False)
-
-
-def test_an_arc_has_both_ends() -> None:
-    assert column(directions({"horizon": {"from": -90, "to": 90, "points": 5}}), "x") == [-90, -45, 0, 45, 90]
-
-
-def test_a_full_circle_may_begin_anywhere() -> None:
-    assert column(directions({"horizon": {"from": -60, "to": 300, "points": 6}}), "x") == [-60, 0, 60, 120, 180, 240]
 
 
 def test_drawn_azimuths_are_uniform() -> None:
@@ -78,13 +64,6 @@ def test_a_band_of_the_sphere_is_filled_evenly() -> None:
     assert counts.tolist() == [20] * 15
     assert np.linalg.norm(vectors_of(found), axis=1) == pytest.approx(np.full(300, 13))
     assert [column.role for column in found.columns] == ["azimuth", "elevation"]
-
-
-def test_azimuth_and_elevation_of_the_table_are_those_of_the_vector() -> None:
-    found = directions({"sphere": {"points": 50, "size": 1}})
-    x, y, z = vectors_of(found).T
-    assert np.degrees(np.arcsin(z)) == pytest.approx(column(found, "x_elevation"), abs=1e-9)
-    assert np.degrees(np.arctan2(y, x)) % 360 == pytest.approx(column(found, "x_azimuth"), abs=1e-9)
 
 
 def test_drawn_directions_are_uniform_over_the_sphere() -> None:

@@ -15,7 +15,7 @@ import pytest
 from scipy import stats
 
 from mbla.arrays import FloatArray
-from mbla.sweeps.design.ways import WAYS, WayError, cut_normal, rounded_within
+from mbla.sweeps.design.ways import WAYS, cut_normal
 from mbla.sweeps.file.content import Parameter
 from mbla.sweeps.file.parts import way_of
 from tests.sweeps.design.hand_made import column, drawn
@@ -55,16 +55,6 @@ def test_a_tail_far_from_the_mean_keeps_its_shape() -> None:
     assert found.mean() - 10 == pytest.approx(0.0981, abs=2e-4)
 
 
-def test_values_beyond_what_numbers_hold_are_refused() -> None:
-    with pytest.raises(WayError, match="has values beyond what a number holds"):
-        rounded_within([1.0, np.inf], 0.0, np.inf)
-
-
-def test_a_lognormal_of_any_deviation_has_values() -> None:
-    """Its variance is worked out without the square of the deviation, which is no number here."""
-    assert min(column(drawn({"lognormal": {"mean": 1, "deviation": 1e200}}, 64), "x")) > 0
-
-
 def test_lognormal_has_the_mean_and_deviation_of_the_value() -> None:
     u = (np.arange(100_000) + 0.5) / 100_000
     found = at({"lognormal": {"mean": 20, "deviation": 5}}, u)
@@ -92,13 +82,6 @@ def test_triangular() -> None:
     rising = (found - 1) ** 2 / (2 * 0.5)
     falling = 1 - (3 - found) ** 2 / (2 * 1.5)
     assert np.where(found <= 1.5, rising, falling) == pytest.approx(U, abs=1e-11)
-
-
-@pytest.mark.parametrize("mode", [1, 3])
-def test_triangular_with_its_mode_at_an_end(mode: float) -> None:
-    found = at({"triangular": {"from": 1, "mode": mode, "to": 3}}, U)
-    share = 1 - ((3 - found) / 2) ** 2 if mode == 1 else ((found - 1) / 2) ** 2
-    assert share == pytest.approx(U, abs=1e-11)
 
 
 LARGE: list[tuple[dict[str, Any], Any]] = [

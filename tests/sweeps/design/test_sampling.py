@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import pytest
 from scipy.stats import qmc
@@ -21,11 +19,6 @@ def test_the_same_seed_gives_the_same_numbers(kind: str) -> None:
     assert not np.any(first == other)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_the_order_of_the_names_does_not_matter(kind: str) -> None:
-    assert np.array_equal(quantiles(kind, 33, 5, ["a", "b", "c"]), quantiles(kind, 33, 5, ["c", "b", "a"])[:, ::-1])
-
-
 @pytest.mark.parametrize("kind", ["random", "latin_hypercube"])
 def test_a_further_name_does_not_change_the_others(kind: str) -> None:
     assert np.array_equal(quantiles(kind, 33, 5, ["a", "b"]), quantiles(kind, 33, 5, ["new", "a", "b"])[:, 1:])
@@ -39,12 +32,6 @@ def test_numbers_are_those_of_every_machine() -> None:
     assert quantiles("random", 2, 1, ["mu"])[:, 0].tolist() == RANDOM
     assert quantiles("latin_hypercube", 2, 1, ["mu"])[:, 0].tolist() == LATIN_HYPERCUBE
     assert quantiles("sobol", 2, 1, ["mu"])[:, 0].tolist() == SOBOL
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_columns_are_independent(kind: str) -> None:
-    correlation = np.corrcoef(quantiles(kind, 4096, 3, ["a", "b", "c"]).T)
-    assert abs(correlation - np.eye(3)).max() < 3 / 64  # three deviations of an estimate from 4096 points
 
 
 @pytest.mark.parametrize("points", [1, 7, 100])
@@ -63,12 +50,6 @@ def test_sobol_is_spread_more_evenly_than_a_latin_hypercube_and_that_than_chance
     names = ["a", "b", "c"]
     spread = [np.mean([qmc.discrepancy(quantiles(kind, 256, seed, names)) for seed in range(5)]) for kind in KINDS]
     assert spread[0] > 2 * spread[1] > 4 * spread[2]
-
-
-def test_sobol_with_any_number_of_points_gives_no_warning_and_the_beginning_of_the_sequence() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert np.array_equal(quantiles("sobol", 100, 1, ["a", "b"]), quantiles("sobol", 128, 1, ["a", "b"])[:100])
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ from mbla.sweeps.engine.on_worker import describe
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.scripted import ADDRESS, Script, scripted_engine
 
-GONE = f"the scheduler {ADDRESS} is gone; finished points are in the journal, --resume goes on with the rest"
 NO_WORKER = (
     f"the scheduler {ADDRESS} has had no worker for 0.2 s: start some with `dask worker`; "
     "what was solved is in the journal, --resume goes on from it"
@@ -40,12 +38,6 @@ def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     script = Script(threads=(0,))
     assert refusal(monkeypatch, script) == NO_WORKER
     assert script.asked == ["close"]
-
-
-def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    script = Script(refusal=OSError("Timed out\n  during handshake"))
-    words = f"no connection to the scheduler {ADDRESS}: Timed out during handshake"
-    assert refusal(monkeypatch, script) == words
 
 
 def test_certificates_are_handed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -98,16 +90,3 @@ def test_a_scheduler_file_that_is_none(monkeypatch: pytest.MonkeyPatch, tmp_path
     path.write_text(content, encoding="utf-8")
     words = refusal(monkeypatch, Script(), scheduler="", scheduler_file=path)
     assert words == f"--scheduler-file {path}: not a file that `dask scheduler --scheduler-file` wrote"
-
-
-def test_what_takes_too_long_is_not_waited_for() -> None:
-    def fail() -> None:
-        raise KeyError("none")
-
-    assert connection.within(5.0, lambda: 7) == 7
-    with pytest.raises(KeyError):
-        connection.within(5.0, fail)
-    over = threading.Event()
-    with pytest.raises(TimeoutError):
-        connection.within(0.01, over.wait)
-    over.set()

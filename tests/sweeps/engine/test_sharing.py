@@ -85,19 +85,6 @@ def test_a_point_whose_memory_earlier_ones_took_is_solved_without_them(monkeypat
     assert "structure" not in runner.memory.found, "it starts anew"
 
 
-def test_a_point_that_takes_too_much_memory_by_itself_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-
-    def too_large(*args: Any) -> Results:
-        asked.append(args)
-        raise MemoryError
-
-    monkeypatch.setattr(runner_module, "solve_deck", too_large)
-    outcome = runner_of_an_arch().run(Task("1", 1, SMALL_ARCH))
-    assert (outcome.state, outcome.exit_code) == ("failed", 7)
-    assert len(asked) <= 2
-
-
 def test_faults_name_the_settings_of_their_own_point() -> None:
     runner = runner_of_an_arch()
     assert runner.run(Task("1", 1, SMALL_ARCH)).state == "done"

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
-from mbla.sweeps.engine.supervised import GROWTH, STARTS, StoppedError, SupervisedRunner
+from mbla.sweeps.engine.supervised import GROWTH, StoppedError, SupervisedRunner
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task, record_of
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over
@@ -153,18 +153,6 @@ def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
         pytest.raises(UsageError, match=r"^another deck$"),
     ):
         runner.run(TASK)
-
-
-def test_killed_while_it_starts_is_no_fault_of_the_point(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Killed in each start but the last; the point is tried once."""
-    mark = tmp_path / "starts"
-    code = (
-        f"import os\nfile = open({str(mark)!r}, 'a'); file.write('+'); file.close()\n"
-        f"if os.path.getsize({str(mark)!r}) < {STARTS}: os.kill(os.getpid(), 9)\n"
-    )
-    with runner_that(monkeypatch, plan_over(tmp_path), "pass", before=code) as runner:
-        assert runner.run(TASK).tries == 1
-        assert runner.started == STARTS
 
 
 def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:

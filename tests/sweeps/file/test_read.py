@@ -100,29 +100,6 @@ def test_the_number_of_points_is_that_of_the_product(tmp_path: Path, points: str
         ]
 
 
-def test_all_faults_at_once(tmp_path: Path) -> None:
-    text = GOOD.replace("to: 0.7", "to: 0.3").replace("values: [", "vlues: [") + "results: 3\n"
-    assert [line.split(" ")[0] for line in faults(tmp_path, text)] == ["5:32", "6:7", "7:10"]
-
-
-@pytest.mark.parametrize(
-    ("content", "expected"),
-    [
-        (GOOD.encode() + b"# \xff", "7:3 byte 0xFF is not UTF-8: save the sweep file as UTF-8"),
-        (GOOD.encode("utf-16"), "1:1 is UTF-16 text: save it as UTF-8"),
-        (GOOD.encode() + b"# \x07", "7:3 control character U+0007 is not allowed in a sweep file"),
-    ],
-)
-def test_bytes_that_are_no_text(tmp_path: Path, content: bytes, expected: str) -> None:
-    assert faults(tmp_path, content) == [expected]
-
-
-def test_nothing_is_included(tmp_path: Path) -> None:
-    write(tmp_path, "cases: [push]\n", "more.yaml")
-    (line,) = faults(tmp_path, "include: [more.yaml]\n" + GOOD)
-    assert line.startswith("1:1 include = [more.yaml]: unknown key")
-
-
 def test_a_sweep_file_is_no_deck(tmp_path: Path) -> None:
     path = write(tmp_path, GOOD, "sweep.yaml")
     with pytest.raises(DeckError) as caught:

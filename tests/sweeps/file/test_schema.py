@@ -16,14 +16,10 @@ from mbla.errors import DeckError
 from mbla.sweeps.file import content
 from mbla.sweeps.file.read import read_sweep
 from mbla.sweeps.file.schema import (
-    main as write_main,
-)
-from mbla.sweeps.file.schema import (
     sweep_key_reference,
     sweep_schema,
     sweep_schema_text,
     with_sweep_key_reference,
-    write_sweep_schema,
 )
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD, INVALID
 
@@ -48,15 +44,6 @@ def test_schema_is_a_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(sweep_schema())
 
 
-def test_every_key_is_described_and_none_may_be_null() -> None:
-    schema = sweep_schema()
-    for name, section in {"": schema, **schema["$defs"]}.items():
-        for key, value in section["properties"].items():
-            assert "description" in value, f"{name}.{key}"
-    assert '"null"' not in sweep_schema_text()
-    assert ": null" not in sweep_schema_text()
-
-
 @pytest.mark.parametrize("text", [GOOD, ALL_WAYS])
 def test_good_files_pass_both(tmp_path: Path, text: str) -> None:
     path = tmp_path / "sweep.yaml"
@@ -79,19 +66,6 @@ def test_expressions_are_not_numbers_but_times_have_units() -> None:
     assert not schema_accepts(GOOD.replace("to: 0.7", 'to: "=0.7"'))
     assert schema_accepts(GOOD + 'limits: {time: "10 min"}\n')
     assert not schema_accepts(GOOD + 'limits: {time: "=10"}\n')
-
-
-def test_write(tmp_path: Path) -> None:
-    (tmp_path / "schemas").mkdir()
-    page = tmp_path / "schemas" / "sweep.md"
-    page.write_text("a\n<!-- sweep keys:begin -->\nold\n<!-- sweep keys:end -->\nz\n", encoding="utf-8")
-    assert write_sweep_schema(tmp_path) == [tmp_path / "schemas" / "sweep.schema.json", page]
-    text = page.read_text(encoding="utf-8")
-    assert text.startswith("a\n<!-- sweep keys:begin -->\n\nNumbers are plain")
-    assert text.endswith("\n<!-- sweep keys:end -->\nz\n")
-    assert "\nold\n" not in text
-    with pytest.raises(SystemExit):
-        write_main([])
 
 
 def test_the_key_reference_is_up_to_date() -> None:

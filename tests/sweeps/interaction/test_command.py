@@ -12,12 +12,10 @@ import pytest
 
 import mbla
 from mbla.cli import main
-from mbla.deck import read_deck
 from mbla.process.signals import Terminated
-from mbla.sweeps.interaction.study import factor_ratio, question_of
 from mbla.sweeps.interaction.words import conclusions
 from mbla.sweeps.plan import Outcome, Plan, Task
-from tests.sweeps.interaction.hand_made import Asked, ThisProcess, solved, written
+from tests.sweeps.interaction.hand_made import ThisProcess, solved, written
 
 
 def test_files_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -147,33 +145,6 @@ def test_refusals_write_nothing(
     assert main(["interact", str(written(tmp_path)), *arguments]) == status
     assert words in capsys.readouterr().err
     assert not (tmp_path / "block.out").exists()
-
-
-@pytest.mark.long
-def test_two_processes_give_the_same_table(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
-    deck = written(tmp_path)
-    tables = []
-    for workers in ("1", "2"):
-        out = tmp_path / workers
-        assert (
-            main(["interact", str(deck), "--case", "top", "--directions", "6", "-j", workers, "-o", str(out), "-q"])
-            == 0
-        )
-        with (out / "block_interact.csv").open(newline="", encoding="utf-8") as file:
-            tables.append([{k: v for k, v in row.items() if k != "seconds [s]"} for row in csv.DictReader(file)])
-    assert tables[0] == tables[1]
-
-
-def test_points_of_two_loads_of_different_size_lie_evenly(tmp_path: Path) -> None:
-    """One load brings the block down at 0.4, the other at some multiple of it: the angles are those of that ratio."""
-    deck = read_deck(written(tmp_path), ["parameters.mu=0.4"])
-    asked = Asked(loads=("push", "top"), directions=3)
-    ratio = factor_ratio(deck, ["parameters.mu=0.4"], asked, ThisProcess())
-    alone = solved(tmp_path, ["parameters.mu=0.4"], loads=("push", "top"), directions=2)
-    assert ratio == pytest.approx(alone.points[1].load_factor / alone.points[0].load_factor, rel=1e-12)
-    angles = question_of(deck, asked, ratio).angles
-    assert angles == pytest.approx((0.0, math.degrees(math.atan(ratio)), 90.0), rel=1e-12)
 
 
 def test_vertical_parts_leave_no_domain_and_that_is_told(tmp_path: Path) -> None:

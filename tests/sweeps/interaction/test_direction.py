@@ -29,12 +29,6 @@ def test_azimuths_are_absolute_whatever_the_direction_of_the_deck(tmp_path: Path
         assert load == pytest.approx([*np.multiply(horizontal(azimuth, 1.0), WEIGHT), vertical, 0, 0, 0], abs=1e-9)
 
 
-def test_a_force_keeps_its_point_and_so_its_arm(tmp_path: Path) -> None:
-    asked = question(tmp_path, case="top", directions=4)
-    load, _ = live_load(tmp_path, override_texts(asked.settings[1]), "top")
-    assert load == pytest.approx([0, WEIGHT, 0, -WEIGHT * 1.0, 0, 0], abs=1e-9)
-
-
 def test_loads_that_point_apart_are_turned_together_from_where_they_are(tmp_path: Path) -> None:
     asked = question(tmp_path, case="apart", directions=4)
     assert not asked.absolute
@@ -53,12 +47,6 @@ def test_the_axis_cases_add_up_to_every_point(tmp_path: Path) -> None:
         load, _ = live_load(tmp_path, override_texts(settings), "top")
         cosine, sine = horizontal(azimuth, 1.0)
         assert load == pytest.approx(cosine * axes[0] + sine * axes[1], abs=1e-9)
-
-
-def test_with_vertical_parts_there_is_no_plane_of_two_loads(tmp_path: Path) -> None:
-    asked = question(tmp_path, case="slanted", directions=4)
-    assert asked.pair == ()
-    assert "vertical parts stay as they are" in asked.words[0]
 
 
 def test_the_names_of_a_deck_are_left_alone(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.sweeps.interaction.domain import area, clipped, convex_hull, domain_of, everywhere, reach_along
+from mbla.sweeps.interaction.domain import area, clipped, convex_hull, domain_of, everywhere
 from tests.sweeps.interaction.hand_made import around, point, study
 
 PAIR = ("A", "B")
@@ -24,12 +24,6 @@ def test_clipping() -> None:
     assert area(clipped(SQUARE, np.array([1.0, 1.0, 0.0]))) == pytest.approx(2.0)
     assert area(clipped(SQUARE, np.array([1.0, 0.0, 5.0]))) == 4.0
     assert len(clipped(SQUARE, np.array([1.0, 0.0, -5.0]))) == 0
-
-
-def test_reach_along_rays() -> None:
-    assert reach_along(SQUARE, (1.0, 0.0)) == pytest.approx(1.0)
-    assert reach_along(SQUARE, (0.6, 0.8)) == pytest.approx(1.25)
-    assert reach_along(SQUARE + 5.0, (1.0, 0.0)) == -np.inf
 
 
 def test_tangents_and_chords_of_a_circle() -> None:
@@ -66,14 +60,6 @@ def test_a_point_that_its_neighbours_leave_behind_is_an_error_without_any_mechan
     (crossing,) = domain.crossings
     assert crossing.angle == 60.0
     assert crossing.share == pytest.approx(0.05 / 0.25)
-
-
-def test_points_within_the_gap_of_their_bounds_do_not_cross() -> None:
-    points = around(6)
-    points[0] = replace(points[0], static_bound=0.5 * (1 + 5e-6))
-    domain = domain_of(points, PAIR, closed=True)
-    assert domain is not None
-    assert not domain.crossings
 
 
 def test_the_origin_is_safe_only_where_the_structure_stands() -> None:

@@ -76,15 +76,6 @@ def test_what_never_collapses_is_marked_at_the_edge(
     assert "never collapses (at the rim)" in names_in_legend(figure)
 
 
-def test_a_point_without_an_answer_is_crossed_where_its_bound_is(tmp_path: Path, figures: list[Any]) -> None:
-    doubtful = replace(point(90.0), answered=False, exit_code=4, status="not_verified", load_factor=NAN,
-                       static_bound=0.2, kinematic_bound=0.3)  # fmt: skip
-    figure = drawn(tmp_path, figures, [point(0.0, 0.4), doubtful], TWO_LOADS)
-    (mark,) = [line for line in figure.axes[0].lines if line.get_marker() == "x"]
-    assert places(mark) == pytest.approx(np.array([(0.0, 0.2)]), abs=1e-15)
-    assert "NOT VERIFIED at 1 point of 2" in [text.get_text() for text in figure.texts]
-
-
 @pytest.mark.parametrize(
     ("doubt", "told"),
     [

@@ -24,14 +24,6 @@ def test_both_act_with_cosine_and_sine(tmp_path: Path) -> None:
         assert dead == pytest.approx(live_load(tmp_path, (), "top")[1])
 
 
-def test_a_load_without_a_share_is_left_out(tmp_path: Path) -> None:
-    """A live load times 0 would be refused as one without effect."""
-    asked = question(tmp_path, loads=("push", "top"), directions=3)
-    cases: list[Any] = [settings["load_cases.interact"] for settings in asked.settings]
-    lives = [case["live"] for case in cases]
-    assert [len(live) for live in lives] == [1, 2, 1]
-
-
 def test_a_dead_load_of_their_own_goes_along(tmp_path: Path) -> None:
     overrides = ["load_cases.push.dead=[{gravity: [0, 0, -5]}]"]
     asked = question(tmp_path, overrides, loads=("push", "weighed"), directions=2)

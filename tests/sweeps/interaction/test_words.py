@@ -8,9 +8,8 @@ import pytest
 
 from mbla.sweeps.interaction.domain import Point
 from mbla.sweeps.interaction.picture import joined_runs
-from mbla.sweeps.interaction.question import TWO_LOADS
 from mbla.sweeps.interaction.study import INTERACT_RECORD, study_json
-from mbla.sweeps.interaction.words import angle_words, conclusions, mark_words, study_lines
+from mbla.sweeps.interaction.words import conclusions, mark_words, study_lines
 from tests.sweeps.interaction.hand_made import around, point, study
 
 NAN = float("nan")
@@ -69,13 +68,6 @@ def test_extremes_name_their_angles() -> None:
     words = conclusions(study(points))
     assert words[0] == "least load factor: 0.25 at azimuth 90 and 270 degrees"
     assert words[1] == "greatest: 0.5 at azimuth 0, 45, 135, 180 and 2 more degrees"
-
-
-def test_of_two_loads_each_alone_is_told() -> None:
-    points = [point(0.0, 0.4), point(45.0), point(90.0, 0.25)]
-    made = study(points, TWO_LOADS)
-    assert conclusions(made)[0] == "A alone: 0.4; B alone: 0.25"
-    assert angle_words(made.question, [45.0]) == "45 degrees"
 
 
 def test_contradicting_bounds_are_an_error_of_verification() -> None:

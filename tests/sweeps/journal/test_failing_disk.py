@@ -66,19 +66,6 @@ def test_a_write_fails(tmp_path: Path, at: int, part: int) -> None:
 
 
 @pytest.mark.parametrize("at", [1, 2, 7])
-def test_a_part_of_a_row_cannot_even_be_taken_back(tmp_path: Path, at: int) -> None:
-    path = tmp_path / "journal.csv"
-    write, cut = failing(os.write, at, errno.ENOSPC, part=9), failing(os.ftruncate, 1, errno.EIO)
-    added, said = add_all(path, {"write": write, "ftruncate": cut})
-    assert said == f"{path}: No space left on device"
-    rows = read_journal(path, HEADER)
-    assert (set(rows.finished), rows.torn) == (added, 9)
-    assert add_all(path, {})[1] == ""
-    rows = read_journal(path, HEADER)
-    assert (len(rows.finished), rows.torn) == (len(POINTS), 0)
-
-
-@pytest.mark.parametrize("at", [1, 2, 7])
 def test_the_disk_does_not_take_what_was_written(tmp_path: Path, at: int) -> None:
     path = tmp_path / "journal.csv"
     added, said = add_all(path, {"fsync": failing(os.fsync, at, errno.EIO)})

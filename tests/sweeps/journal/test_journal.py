@@ -112,11 +112,6 @@ def test_a_journal_of_something_else_is_refused_and_told_why(path: Path, other: 
     assert re.fullmatch(rf".*journal\.csv: {words}: it cannot be gone on with; --force begins anew .*", said)
 
 
-def test_another_title_is_no_other_sweep(path: Path) -> None:
-    with gone_on(path, replace(HEADER, title="")) as journal:
-        assert journal.finished == EXPECTED
-
-
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -182,14 +177,6 @@ def test_failed_points_are_begun_anew_on_request_and_their_last_row_counts(path:
         assert journal.finished[better.key] == as_read(better)
         assert journal.finished[failed[1][0].key].tries == 2
         assert journal.finished.keys() == EXPECTED.keys()
-
-
-def test_a_failed_row_never_stands_for_a_point_that_is_done(path: Path) -> None:
-    task, outcome = next((task, outcome) for task, outcome in POINTS if outcome.state == DONE)
-    failed = replace(outcome, state=FAILED, exit_code=4, results={})
-    path.write_bytes(path.read_bytes() + row_bytes(HEADER, task, failed))
-    with gone_on(path, retry_failed=True) as journal:
-        assert journal.finished[task.key] == as_read(outcome)
 
 
 def test_what_is_cut_off_is_told(path: Path) -> None:

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from mbla.errors import FileError
 from mbla.results.lock import lock_path
 from mbla.sweeps.journal import WHOLE, Journal, journal_name, journals_in, merged, shard_of
 from mbla.sweeps.plan import Task
@@ -67,13 +66,6 @@ def test_a_torn_row_of_a_shard_is_solved_again_and_its_journal_left_alone(tmp_pa
     run(tmp_path, "journal.csv", tuple(TASKS[:3]), resume=True)
     assert shard.read_bytes() == before
     assert merged([tmp_path / "journal.csv"], HEADER).keys() == {TASKS[2].key}
-
-
-def test_a_whole_run_does_not_begin_beside_journals_of_shards_unasked(tmp_path: Path) -> None:
-    run(tmp_path, journal_name(2, 2), tuple(TASKS[:3]))
-    with pytest.raises(FileError, match=r"journal\.2-of-2\.csv: exists already; --resume goes on with it"):
-        run(tmp_path, "journal.csv", tuple(TASKS))
-    assert [path.name for path in journals_in(tmp_path)] == [journal_name(2, 2)]
 
 
 def test_to_begin_anew_removes_what_shards_left_and_a_shard_only_its_own(tmp_path: Path) -> None:

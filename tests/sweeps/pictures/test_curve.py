@@ -3,12 +3,9 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import pytest
-
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, names_along, words
-from tests.sweeps.pictures.hand_made import FAILED, Row, grid, sphere
+from tests.sweeps.pictures.drawing import draw, words
+from tests.sweeps.pictures.hand_made import Row, grid, sphere
 
 
 def curves(axes: Any) -> list[Any]:
@@ -26,34 +23,6 @@ def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures
         [mu + 10 * height + 100 * 0.1 for mu in levels["mu"]] for height in levels["height"]
     ]
     assert names_in_legend(figures[0]) == ["height 1", "height 2", "height 3", "height 4"]
-
-
-def test_more_lines_than_a_legend_names_have_a_scale(tmp_path: Path, figures: list[Any]) -> None:
-    """Of 20 values every second is named, each in the middle of its step."""
-    levels = {"mu": list(np.linspace(0, 1, 21)), "thickness": [float(i) for i in range(20)]}
-    draw(grid(levels, lambda mu, thickness: mu + thickness), tmp_path, "curve")
-    axes, bar = figures[0].axes
-    assert len(curves(axes)) == 20
-    assert bar.get_ylabel() == "thickness [m]"
-    assert names_along(bar, "y") == [str(i) for i in range(0, 20, 2)]
-    assert bar.get_yticks().tolist() == list(range(0, 20, 2))
-    assert bar.get_ylim() == (-0.5, 19.5)
-    assert names_in_legend(figures[0]) == []
-
-
-@pytest.mark.parametrize(
-    ("failed", "marker"),
-    [((), "none"), ((30,), "none"), ((30, 32), ".")],
-)
-def test_points_of_long_lines_have_a_marker_where_no_line_leads_to_one(
-    tmp_path: Path, figures: list[Any], failed: tuple[int, ...], marker: str
-) -> None:
-    """The point between two failed ones would be seen by nothing else."""
-    table = grid({"mu": [float(i) for i in range(61)]}, lambda mu: FAILED if mu in failed else mu)
-    draw(table, tmp_path, "curve")
-    (line,) = curves(figures[0].axes[0])
-    assert line.get_marker() == marker
-    assert np.flatnonzero(np.isnan(line.get_ydata())).tolist() == list(failed)
 
 
 def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_path: Path, figures: list[Any]) -> None:

@@ -47,15 +47,6 @@ def test_marks_stand_where_points_have_no_value(tmp_path: Path, figures: list[An
     assert named[-3:] == ["no equilibrium (does not stand)", "unbounded (no collapse)", "failed"]
 
 
-def test_bounds_are_a_band(tmp_path: Path, figures: list[Any]) -> None:
-    def solve(mu: float) -> Row:
-        return {"status": "solved", "load_factor": mu, "static_bound": 0.9 * mu, "kinematic_bound": 1.2 * mu}
-
-    draw(grid({"mu": [1.0, 2.0]}, solve), tmp_path, "curve")
-    band = figures[0].axes[0].collections[0].get_paths()[0].vertices
-    assert {tuple(np.round(each, 12)) for each in band} == {(1.0, 0.9), (1.0, 1.2), (2.0, 1.8), (2.0, 2.4)}
-
-
 def test_cells_of_a_map_are_the_table(tmp_path: Path, figures: list[Any]) -> None:
     draw(grid(ARCH, arch), tmp_path, "map")
     axes = figures[0].axes[0]
@@ -70,15 +61,6 @@ def test_cells_of_a_map_are_the_table(tmp_path: Path, figures: list[Any]) -> Non
     corners = axes.collections[3].get_paths()[0].vertices
     assert corners.min(axis=0).tolist() == pytest.approx([0.3, 0.15])  # mu 0.4, thickness 0.2: half way around
     assert corners.max(axis=0).tolist() == pytest.approx([0.5, 0.25])
-
-
-def test_a_map_of_classes_names_them(tmp_path: Path, figures: list[Any]) -> None:
-    def solve(mu: float, thickness: float) -> Row:
-        return {"status": "solved", "load_factor": mu, "mechanism.class": "sliding" if mu < 0.5 else "hinging"}
-
-    draw(grid(ARCH, solve), tmp_path, "map", result="mechanism.class")
-    assert [text.get_text() for text in figures[0].legends[0].get_texts()] == ["hinging", "sliding"]
-    assert figures[0].axes[0].collections[0].get_array()[0].tolist() == [1, 1, 0, 0]
 
 
 def test_scatter_shows_each_point_once_in_each_diagram(tmp_path: Path, figures: list[Any]) -> None:

@@ -6,12 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.errors import UsageError
-from mbla.results.pictures.page import GROUPS
-from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.view import value_words
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, names_along, words
+from tests.sweeps.pictures.drawing import draw, words
 from tests.sweeps.pictures.hand_made import FAILED, Row, grid
 
 FINE = list(np.linspace(0.1, 1.6, 16))
@@ -70,22 +67,3 @@ def test_contours_are_lines_of_equal_value(tmp_path: Path, figures: list[Any]) -
     assert set(texts(axes)) <= {value_words(float(level)) for level in found.levels}
     assert texts(axes)
     assert bar.get_ylabel() == "load factor"
-
-
-def test_edges_of_cells_lie_half_way_in_ratio_on_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:
-    """Of one value alone, which a user may put first, the cell is as wide as the unit."""
-    table = grid({"mu": [0.5], "k": [1e6, 1e7, 1e8]}, lambda mu, k: k)
-    draw(table, tmp_path, "map", by="mu")
-    axes = figures[0].axes[0]
-    assert axes.get_xlim() == (0.0, 1.0)
-    assert names_along(axes, "x") == ["0.5"]
-    assert axes.get_yscale() == "log"
-    assert axes.get_ylim() == pytest.approx((10**5.5, 10**8.5))
-    assert texts(axes) == ["1e+06", "1e+07", "1e+08"]
-
-
-def test_more_texts_than_tints_are_refused() -> None:
-    levels = {"mu": [float(i) for i in range(len(GROUPS) + 1)], "thickness": [1.0, 2.0]}
-    table = grid(levels, lambda mu, thickness: mechanism(f"class {mu:.0f}"))
-    with pytest.raises(UsageError, match="9 different texts; 8 can be told apart"):
-        pictures_of(table, SweepPictures(("map",), result="mechanism.class"))

@@ -1,6 +1,5 @@
 """Which pictures are made, refused, and where they go."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.fragility import Fragility
-from mbla.sweeps.pictures.plot import KINDS, SweepPictures, pictures_of, plot_sweep
+from mbla.sweeps.pictures.plot import SweepPictures, pictures_of, plot_sweep
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import TableFiles, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample
@@ -46,12 +45,6 @@ def test_kinds_suit_the_table() -> None:
     assert names(grid({"mu": [0.1, 0.2, 0.3]}, lambda mu: FAILED)) == ["curve_load_factor"]  # seen to have failed
 
 
-def test_all_is_all_that_fit() -> None:
-    assert names(drawn(), kinds=tuple(KINDS), every=True) == [
-        "scatter_load_factor", "distribution_load_factor", "tornado_load_factor",
-    ]  # fmt: skip
-
-
 @pytest.mark.parametrize(
     ("swept", "changes", "told"),
     [
@@ -71,13 +64,6 @@ def test_all_is_all_that_fit() -> None:
 def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes: Any, told: str) -> None:
     with pytest.raises(UsageError, match=told):
         pictures_of(swept, SweepPictures(**changes))
-
-
-def test_by_puts_a_parameter_first() -> None:
-    swept = grid({"mu": [0.1, 0.2, 0.3], "thickness": [1.0, 2.0]}, lambda mu, thickness: mu)
-    for by in ("mu", "thickness"):
-        (picture,) = pictures_of(swept, SweepPictures(("curve",), by=by))
-        assert picture.view.axes[0].column.name == by
 
 
 def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
@@ -128,11 +114,3 @@ def test_refusals_of_the_command(
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1
     assert told in lines[0]
-
-
-def test_a_record_whose_fragility_is_none_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    record = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
-    record["fragility"] = [{"result": "load_factor"}]
-    (folder / "sweep.json").write_text(json.dumps(record), encoding="utf-8")
-    assert main(["sweep-plot", str(folder)]) == 6
-    assert "sweep.json: its fragility cannot be read" in capsys.readouterr().err

@@ -9,8 +9,8 @@ from mbla.errors import UsageError
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, names_along
-from tests.sweeps.pictures.hand_made import Row, grid, sample, sphere, table_of
+from tests.sweeps.pictures.drawing import draw
+from tests.sweeps.pictures.hand_made import Row, grid, sample, sphere
 
 QUARTERS = [0.0, 90.0, 180.0, 270.0]
 OVER = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0)]
@@ -29,15 +29,6 @@ def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures
     for axes, thickness in zip(figures[0].axes, levels["thickness"], strict=False):
         assert [set(line.get_ydata()) for line in curves(axes)] == [{height + thickness} for height in (1, 2, 3, 4)]
     assert names_in_legend(figures[0]) == ["height 1", "height 2", "height 3", "height 4"]
-
-
-def test_more_curves_than_a_legend_names_have_a_scale(tmp_path: Path, figures: list[Any]) -> None:
-    levels = {"azimuth": QUARTERS, "mu": [float(i) for i in range(1, 12)]}
-    draw(grid(levels, lambda azimuth, mu: mu), tmp_path, "polar")
-    axes, bar = figures[0].axes
-    assert [line.get_ydata()[0] for line in curves(axes)] == levels["mu"]
-    assert bar.get_ylabel() == "mu"
-    assert names_along(bar, "y") == [str(i) for i in range(1, 12)]
 
 
 def text_of(**values: float) -> Row:
@@ -62,16 +53,3 @@ def text_of(**values: float) -> Row:
 def test_what_is_not_drawn_is_refused_with_the_reason(swept: SweepTable, result: str | None, told: str) -> None:
     with pytest.raises(UsageError, match=told):
         pictures_of(swept, SweepPictures(("polar",), result=result))
-
-
-def test_of_two_directions_the_one_over_a_sphere_is_the_map(tmp_path: Path, figures: list[Any]) -> None:
-    """The other, around the horizon, has one value; it is no part of the sphere."""
-    rows = [{"push_azimuth": 45.0, "to_azimuth": azimuth, "to_elevation": elevation} for azimuth, elevation in OVER]
-    table = table_of(rows, lambda push_azimuth, to_azimuth, to_elevation: to_azimuth, [("push", 1), ("to", 4)],
-                     [(0, i) for i in range(4)],
-                     {"push_azimuth": "push", "to_azimuth": "to", "to_elevation": "to"})  # fmt: skip
-    draw(table, tmp_path, "polar")
-    (dots,) = [line for line in figures[0].axes[0].lines if line.get_marker() == "."]
-    assert list(zip(*dots.get_data(), strict=True)) == OVER
-    with pytest.raises(UsageError, match="the result is text; scatter shows it"):
-        pictures_of(table, SweepPictures(("polar",), result="mechanism.class"))

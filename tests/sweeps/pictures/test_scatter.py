@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.results.pictures.page import BLUE, CASES
+from mbla.results.pictures.page import CASES
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, names_along, words
 from tests.sweeps.pictures.hand_made import FALLEN, Row, sample
@@ -31,21 +31,6 @@ def test_texts_and_truth_values_are_columns_of_points(tmp_path: Path, figures: l
         assert points.get_ydata().tolist() == table["load_factor"].tolist()
         assert axes.get_title() == ""
     assert "rank correlation" not in words(figures[0])
-
-
-def test_a_result_that_is_text_has_a_row_for_each(tmp_path: Path, figures: list[Any]) -> None:
-    def solve(mu: float) -> Row:
-        return {"status": "solved", "load_factor": mu, "mechanism.class": "sliding" if mu < 0.5 else "hinging"}
-
-    mu = np.linspace(0.0, 1.0, 12)
-    draw(sample({"mu": mu.tolist()}, solve), tmp_path, "scatter", result="mechanism.class")
-    (axes,) = figures[0].axes
-    assert names_along(axes, "y") == ["hinging", "sliding"]
-    (points,) = dots(axes)
-    assert points.get_color() == BLUE
-    assert points.get_xdata().tolist() == mu.tolist()
-    assert np.abs(points.get_ydata() - (mu < 0.5)).max() < 0.3
-    assert axes.get_title() == ""
 
 
 def test_mechanism_classes_have_their_colours(tmp_path: Path, figures: list[Any]) -> None:

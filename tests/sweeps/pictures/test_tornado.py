@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.sweeps.pictures.drawing import draw, names_along, words
-from tests.sweeps.pictures.hand_made import sample, table_of
+from tests.sweeps.pictures.hand_made import sample
 
 UP = list(np.linspace(0.1, 0.9, 12))
 MIXED = [0.1 * ((5 * i) % 12) for i in range(12)]
@@ -47,16 +47,3 @@ def test_parameters_of_a_sample_that_go_together_are_told(tmp_path: Path, figure
          "tornado")  # fmt: skip
     told = words(figures[0])
     assert told.endswith("parameters that go together, so that their bars cannot be told apart: mu with thickness")
-
-
-def test_samples_over_a_grid_have_no_interval(tmp_path: Path, figures: list[Any]) -> None:
-    rows = [{"height": height, "mu": mu} for height in (1.0, 2.0) for mu in UP]
-    places = [(i, j) for i in range(2) for j in range(12)]
-    table = table_of(rows, lambda height, mu: mu, [("height", 2), ("random", 12)], places,
-                     {"height": "height", "mu": "random"}, samples="random", sampling="random")  # fmt: skip
-    draw(table, tmp_path, "tornado")
-    axes = figures[0].axes[0]
-    assert names_along(axes, "y") == ["mu", "height"]
-    assert bars(axes) == pytest.approx([1.0, 0.0], abs=1e-12)
-    assert whiskers(axes) == {}
-    assert "24 points with a verified value; no interval, as samples that are repeated over a grid" in words(figures[0])

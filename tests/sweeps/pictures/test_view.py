@@ -2,10 +2,8 @@
 
 import pytest
 
-from mbla.errors import UsageError
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.view import chosen_results
-from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.sweeps.pictures.hand_made import Row, grid
 
 
@@ -26,14 +24,6 @@ def test_without_a_load_factor_the_first_number_is_drawn_or_else_the_first_text(
 ) -> None:
     table = grid({"mu": [1.0, 2.0]}, lambda mu: over(mu, **results))
     assert [column.name for column in chosen_results(table, None)] == [chosen]
-
-
-def test_without_points_there_is_nothing_to_draw() -> None:
-    table = grid({"mu": [1.0]}, lambda mu: mu)
-    none = SweepTable(table.title, table.columns, tuple(values[:0] for values in table.values), table.dimensions,
-                      table.position[:0])  # fmt: skip
-    with pytest.raises(UsageError, match="the sweep has no points to draw"):
-        pictures_of(none, SweepPictures())
 
 
 def test_the_map_of_classes_is_made_of_itself_alone_where_no_result_is_named() -> None:

@@ -6,7 +6,6 @@ import csv
 import json
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,19 +13,15 @@ import pandas
 import pytest
 import xarray
 
-from mbla.deck.units import Units
 from mbla.errors import FileError, UsageError
 from mbla.results.record.scene import Values
 from mbla.sweeps.fragility import fragility_of
-from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.read_table import read_sweep_table
-from mbla.sweeps.tables.sweep_table import SweepTable, column_values, sweep_table
-from mbla.sweeps.tables.table_hdf5 import sweep_hdf5
-from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, sweep_csv, table_names, write_tables
+from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
+from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
 from tests.sweeps.tables.synthetic import (
     FRICTION,
     LEFT_OUT,
-    RESULTS,
     RUN,
     THICKNESS,
     design,
@@ -82,12 +77,6 @@ def test_points_of_one_key_share_their_outcome() -> None:
     one = outcomes()["key1"]
     found = sweep_table("", design(), table().of_role("result"), {"same": one}, ["same"] * 5)
     assert found["load_factor"].tolist() == [0.1 + 0.2] * 5
-
-
-@pytest.mark.parametrize(("kind", "value"), [("int", 0.5), ("float", True), ("bool", 1), ("float", "0.5")])
-def test_values_of_another_kind_are_refused(kind: str, value: object) -> None:
-    with pytest.raises(ValueError, match=f"column of kind {kind}"):
-        column_values(kind, [None, value])  # type: ignore[list-item]
 
 
 # --- files --------------------------------------------------------------------------------------------------------
@@ -147,26 +136,6 @@ def test_xarray_opens_the_file_along_the_axes_of_the_design(folder: Path) -> Non
         assert (verified[0, 0], verified[1, 0], np.isnan(verified[LEFT_OUT])) == (1, 0, True)
         assert data.attrs["filetype"] == "mbla sweep"
         assert (data.attrs["complete"], data.attrs["created"], data.attrs["title"]) == (1, RUN.created, "Wände")
-
-
-def test_a_level_of_which_constraints_leave_no_point_keeps_its_value(tmp_path: Path) -> None:
-    """The scale of a dimension has no gaps: xarray could not select along it."""
-    whole = design()
-    points = tuple(point for point in whole.points if point.position[0] == 1)
-    kept = [key for key, point in zip(keys(), whole.points, strict=True) if point in points]
-    found = sweep_table(
-        "", replace(whole, points=points), result_columns(RESULTS, ("push",), Units()), outcomes(), kept
-    )
-    (tmp_path / "sweep.h5").write_bytes(sweep_hdf5(RUN, found))
-    with xarray.open_dataset(tmp_path / "sweep.h5", engine="h5netcdf") as data:
-        assert data.indexes["mu"].tolist() == list(FRICTION)
-        assert data["t"].values.tolist() == list(THICKNESS)
-        assert np.isnan(data["load_factor"].sel(mu=FRICTION[0])).all()
-
-
-def test_the_same_table_gives_the_same_bytes() -> None:
-    assert sweep_hdf5(RUN, table()) == sweep_hdf5(RUN, table())
-    assert sweep_csv(table()) == sweep_csv(table())
 
 
 def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, tmp_path: Path) -> None:
