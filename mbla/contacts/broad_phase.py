@@ -109,7 +109,7 @@ def find_facet_pairs(blocks: Blocks, facets: Facets, pairs: BlockPairs, toleranc
 
 
 def opposite(normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:
-    """True where two outward normals face each other, coarsely."""
+    """True (n,) where two outward normals (n, 3) face each other, coarsely."""
     facing: BoolArray = np.einsum("ki,ki->k", normals_a, normals_b) < -_COARSE_ANGLE
     return facing
 

@@ -50,7 +50,7 @@ class Corners:
         return self.polygon_of_ring[self.ring_of_corner]
 
     def take(self, keep: BoolArray) -> Corners:
-        """Only the corners marked, rings that lose all of them left out."""
+        """Only the corners marked, (n_corners,), rings that lose all of them left out."""
         counts = np.bincount(self.ring_of_corner[keep], minlength=len(self.polygon_of_ring))
         left = counts > 0
         return Corners(self.points[keep], starts(counts[left].astype(np.int64)), self.polygon_of_ring[left])

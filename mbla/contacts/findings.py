@@ -139,7 +139,7 @@ def bent_faults(deck: Deck, model: Model, contacts: Contacts) -> list[Fault]:
 
 
 def bent_contacts(model: Model, contacts: Contacts, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Rows of the bent faces of a model that are in contact, ascending, and the body that each touches."""
+    """Rows of the bent faces of a model that are in contact, (n,) ascending, and the body that each touches."""
     bent = model.bent
     triangle_start = np.searchsorted(bent.blocks[bent.row], np.arange(len(model.blocks) + 1))
     found: list[tuple[IntArray, IntArray]] = []
@@ -174,7 +174,13 @@ def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, rea
 
 
 def contacts_of(deck: Deck, model: Model) -> Contacts:
-    """Contacts of a model; blocks that overlap, bent faces in contact, glue that leaves nothing to move are faults."""
+    """Contacts of a model.
+
+    Raises
+    ------
+    DeckError
+        for blocks that overlap, bent faces in contact, glue that leaves nothing to move, and what no search can handle
+    """
     try:
         contacts = find_contacts(model, deck.contacts)
     except PairsRefused as refused:

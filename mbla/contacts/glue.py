@@ -46,7 +46,7 @@ class Glue:
 
     @property
     def sizes(self) -> IntArray:
-        """How many blocks the solids of several blocks have."""
+        """How many blocks the solids of several blocks have, (n,)."""
         return solid_sizes(self.solid_of_block)
 
 

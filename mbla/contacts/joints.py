@@ -26,6 +26,7 @@ from mbla.deck.sections.selectors import Selector
 from mbla.errors import Fault, Notice
 from mbla.model.model import Model
 from mbla.model.selectors import Roster, bodies_selected, build_roster, selector_words
+from mbla.model.solids.plane import unit
 from mbla.model.wording import vector
 
 BED = math.cos(math.radians(45))
@@ -68,7 +69,7 @@ class Laws:
         return self.are(GLUED)
 
     def in_use(self, chosen: IntArray) -> tuple[IntArray, tuple[str, ...]]:
-        """Joint law of the chosen interfaces as row of the names in use, and those names in the order of the deck."""
+        """Joint law of the chosen interfaces, (n,), as row of the names in use; and these, in the deck's order."""
         used, rows = np.unique(self.rows[chosen], return_inverse=True)
         return rows.astype(np.int64), tuple(self.names[law] for law in used)
 
@@ -122,9 +123,7 @@ def _between(model: Model, roster: Roster, bodies: IntArray, between: tuple[Sele
 
 def _oriented(normals: FloatArray, override: ContactOverride) -> BoolArray:
     if isinstance(override.orientation, AboutNormal):
-        direction = np.array(override.orientation.normal)
-        direction = direction / np.abs(direction).max()  # so that squares neither overflow nor vanish
-        direction = direction / np.linalg.norm(direction)
+        direction = unit(override.orientation.normal)
         least = math.cos(math.radians(override.orientation.within))
         return np.asarray(np.abs(normals @ direction) >= least - ROUNDING)
     bed = np.abs(normals[:, 2]) > BED + ROUNDING

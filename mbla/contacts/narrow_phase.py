@@ -69,7 +69,7 @@ class Patches:
         return len(self.widths)
 
     def take(self, rows: IntArray | BoolArray) -> Patches:
-        """The given rows."""
+        """The given rows, (n,)."""
         index = np.arange(len(self))[rows]
         return Patches(
             self.overlays.take(index),

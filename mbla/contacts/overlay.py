@@ -67,7 +67,7 @@ class Overlays:
         return len(self.sizes)
 
     def take(self, rows: IntArray) -> Overlays:
-        """The given rows, repeated where named twice."""
+        """The given rows, (n,), repeated where named twice."""
         return Overlays(
             self.bodies[rows],
             self.facets[rows],

@@ -278,7 +278,7 @@ def overlapping(
 
 
 def common_area(outline: FloatArray, other: FloatArray, normal: FloatArray) -> float:
-    """Area that two outlines, both counter-clockwise about a unit normal, have in common as seen along it."""
+    """Area that two outlines (n, 3), both counter-clockwise about a unit normal, have in common as seen along it."""
     frame = plane_axes(normal[None])[0].T
     origin = outline.mean(axis=0)
     own, others = _fan((outline - origin) @ frame), _fan((other - origin) @ frame)

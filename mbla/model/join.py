@@ -83,7 +83,7 @@ def polyhedra_of(blocks: Blocks) -> Polyhedra:
 
 
 def reflected(polyhedra: Polyhedra, point: FloatArray, normal: FloatArray) -> Polyhedra:
-    """Mirror images, faces outwards."""
+    """Mirror images in the plane through a point (3,) with a unit normal (3,), faces outwards."""
     heights = (polyhedra.vertices - point) @ normal
     vertices = polyhedra.vertices - 2.0 * heights[:, None] * normal
     image = Polyhedra(vertices, polyhedra.vertex_start, polyhedra.loops, polyhedra.loop_start, polyhedra.face_start)

@@ -24,8 +24,9 @@ from mbla.errors import Fault, Message
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.supports.build import Supports
-from mbla.model.supports.guides import slide, turn, unit
+from mbla.model.supports.guides import slide, turn
 from mbla.model.wording import counted, named, vector
 
 

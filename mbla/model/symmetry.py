@@ -28,9 +28,10 @@ from mbla.model.selectors import build_roster, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
 from mbla.model.solids.build import Labels, build_blocks
+from mbla.model.solids.plane import unit
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.supports.guides import Guides, unit
+from mbla.model.supports.guides import Guides
 from mbla.model.wording import counted, named
 
 ON_MASSES = ("gravity", "acceleration")

@@ -17,6 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.item import Reflection, Repetition, Rotation, TransformStep
 from mbla.model.generators.generator import Generated, GroundPart, Part
+from mbla.model.solids.plane import unit
 from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 
 
@@ -122,25 +123,19 @@ def _step(step: TransformStep) -> AffineMap:
 
 
 def _rotation(rotation: Rotation) -> AffineMap:
-    x, y, z = _unit(rotation.axis)
+    x, y, z = unit(rotation.axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     sine, cosine = _sine_and_cosine(rotation.angle)
     return _about(np.eye(3) + sine * cross + (1 - cosine) * cross @ cross, rotation.about)
 
 
 def _reflection(reflection: Reflection) -> AffineMap:
-    normal = _unit(reflection.normal)
+    normal = unit(reflection.normal)
     return _about(np.eye(3) - 2 * np.outer(normal, normal), reflection.point)
 
 
 def _about(matrix: FloatArray, point: tuple[float, float, float]) -> AffineMap:
     return AffineMap(matrix, np.array(point) - matrix @ np.array(point))
-
-
-def _unit(direction: tuple[float, float, float]) -> FloatArray:
-    vector = np.array(direction)
-    vector = vector / np.abs(vector).max()  # so that squares neither overflow nor vanish
-    return np.asarray(vector / np.linalg.norm(vector), dtype=np.float64)
 
 
 def _sine_and_cosine(degrees: float) -> tuple[float, float]:

@@ -1,6 +1,9 @@
+"""Guides and settlements of structures with glued blocks."""
+
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +13,8 @@ from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
 from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.polyhedra import take_polyhedra
+from mbla.results.listing.answers import reaction_of
+from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
 
 TOWER = boxes(*(([0, 0, i], [1, 1, i + 1]) for i in range(5)))
@@ -169,3 +174,40 @@ def test_without_glue_every_block_is_the_first_of_its_own_solid() -> None:
     assert solids.first_blocks.tolist() == [0, 1, 2, 3, 4]
     held, contacts = glued(("a", "b"), ("d", "e"))
     assert solids_of(held, contacts).first_blocks.tolist() == [0, 2, 3]
+
+
+DECK = """
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, -1], max: [3, 1, 0]}
+  - box: {group: far, material: stone, min: [4, 0, -1], max: [5, 1, 0]}
+  - box: {group: lower, material: stone, min: [0.5, 0, 0], max: [1.5, 1, 1]}
+  - box: {group: upper, material: stone, min: [0.5, 0, 1], max: [1.5, 1, 2]}
+  - box: {group: beam, material: stone, min: [2, 0, 0], max: [3.5, 1, 0.5]}
+  - box: {group: beam, material: stone, min: [3.5, 0, 0], max: [5, 1, 0.5]}
+contacts: {joint: dry, overrides: [{between: [lower, upper], joint: glued}, {between: [beam, beam], joint: glued}%s]}
+supports:
+  - {blocks: [base, far]}
+  - {blocks: %s, turn: {axis: [0, 1, 0], about: [1.5, 0, 0]}}%s
+load_cases:
+  push: {live: [{acceleration: [1, 0, 0], on: [lower, upper]}]}
+  settle: {settlement: {on: far, direction: [0, 0, -1]}}
+analysis: {flow_rule: associative}
+output: {vtu: false}
+"""
+
+
+@pytest.mark.parametrize("blocks", ["lower", "upper", "[lower, upper]"])
+def test_a_solid_moves_as_its_guided_block_may(tmp_path: Path, blocks: str) -> None:
+    together = ", together: true" if "[" in blocks else ""
+    path = tmp_path / "deck.yaml"
+    path.write_text((DECK % ("", blocks, "")).replace("0, 0]}}", f"0, 0]}}{together}}}", 1), encoding="utf-8")
+    results = run(path, RunOptions(folder=tmp_path / "out", force=True))
+    push, settle = results.case("push"), results.case("settle")
+    assert push.checks.verified
+    assert push.solution.mechanics is not None
+    assert push.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-7)  # b/h, about the hinge at its edge
+    # the beam of 3 m turns about the edge of the base, 0.5 m from its middle and 2 m from the far end
+    assert reaction_of(settle) == pytest.approx(3 * 0.5 * 2000 * 9.81 / 4, rel=1e-7)

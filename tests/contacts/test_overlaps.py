@@ -98,18 +98,6 @@ def test_a_turned_wall_has_no_overlaps() -> None:
     assert len(overlaps_of(moved(running_bond(6, 6), turn=any_rotation(5))).pairs) == 0
 
 
-def test_overlaps_are_in_the_report_in_words() -> None:
-    contacts = contacts_of(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.98], [1, 1, 1.98])), fixed=[0])
-    report = contacts.report
-    assert report.overlaps.tolist() == [[0, 1]]
-    assert report.overlap_depths == pytest.approx([0.04 / 2.08])
-    words = {notice.identifier: notice.message for notice in report.notices}
-    assert words["blocks-overlap"] == (
-        "block[0] and block[1] overlap by 0.0192 m, 0.019 of the block size: move them apart, or set "
-        "contacts.tolerance above 0.02 if they are meant to touch"
-    )
-
-
 def test_block_that_is_no_closed_solid_is_said_to_be_unchecked() -> None:
     blocks = blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.5], [1, 1, 1.5])))
     loops = blocks.loops.copy()

@@ -1,3 +1,8 @@
+"""Surfaces that can crush are divided into parallelograms and triangles, and nothing of them is lost.
+
+A block on a ring whose hole touches the block's edge between two corners: every point of it has an area.
+"""
+
 from __future__ import annotations
 
 import math
@@ -9,13 +14,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.points import MOST_PARTS, PointsRefused, interface_points
+from mbla.contacts.points import MOST_PARTS, PointsRefused, in_pieces, interface_points
 from mbla.contacts.refine import InterfacePoints, point_areas, point_starts
 from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
+from mbla.solution.solution import Status
 from tests.analytic.cases import ASSOCIATIVE, answer, answers
 from tests.contacts.structures import boxes, contacts_of, ground, section
-from tests.line import BLOCK, WALL, line_of, load_factor
+from tests.contacts.test_shapes import ring
+from tests.line import BLOCK, WALL, case_of, line_of, load_factor
 
 SQUARE = shapely.box(0, 0, 2, 2)
 L_SHAPE = shapely.Polygon([[0, 0], [4, 0], [4, 1], [1, 1], [1, 4], [0, 4]])
@@ -182,10 +189,6 @@ def test_inset_gives_a_square_its_torsion_under_uniform_pressure_at_a_price_in_r
         assert case.load_factor == pytest.approx((1 - share) * exact[case.name], rel=1e-7)
 
 
-def test_more_points_do_not_change_a_wall_under_associative_flow() -> None:
-    assert load_factor(WALL, "contacts.points.per_edge=3") == pytest.approx(load_factor(WALL), rel=1e-7)
-
-
 def test_spacing_divides_each_edge_of_a_parallelogram_by_itself() -> None:
     points, _ = asked(ContactPoints(spacing=0.25), shapely.box(0, 0, 2, 0.3))
     assert points.outline.tolist() == [2 * (8 + 2)]
@@ -208,14 +211,6 @@ def test_an_edge_that_is_a_multiple_of_the_spacing_is_divided_evenly() -> None:
     """0.3 is a little more than three times 0.1 in binary."""
     points, _ = asked(ContactPoints(spacing=0.1), shapely.box(0, 0, 0.3, 0.1))
     assert points.outline.tolist() == [2 * (3 + 1)]
-
-
-def test_the_spacing_is_a_length_of_the_deck() -> None:
-    """The search works in coordinates relative to block size."""
-    line = line_of(WALL, "contacts.points.spacing=0.1")
-    inner = np.flatnonzero(np.isclose(line.contacts.areas, 0.2 * 0.2))
-    assert len(inner)
-    assert (np.diff(line.contacts.point_start)[inner] == 9).all()
 
 
 def test_a_spacing_that_gives_too_many_points_is_refused_with_one_that_does_not() -> None:
@@ -251,3 +246,136 @@ def test_where_rounding_leaves_nothing_points_stay_and_a_warning_says_so() -> No
 def test_rounding_weakens_rocking_by_the_breadth_it_takes() -> None:
     """b = 1, h = 2: (b − 2 d)/h."""
     assert load_factor(BLOCK, "contacts.points.rounding=0.05") == pytest.approx(0.9 / 2, rel=1e-7)
+
+
+L_SHAPE_POINT_AREAS = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+
+
+def shares(*polygons: shapely.Polygon) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Corners, their polygon, their shares, and areas with centroids of polygons."""
+    corners = needed_corners(np.array(polygons, dtype=object), 1e-6)
+    area, centroid = areas_and_centroids(corners, len(polygons))
+    found = point_areas(corners, len(polygons))
+    total = np.bincount(corners.polygon_of_corner, weights=found)
+    np.testing.assert_allclose(total, area, rtol=1e-12)
+    for axis in (0, 1):
+        moment = np.bincount(corners.polygon_of_corner, weights=found * corners.points[:, axis])
+        np.testing.assert_allclose(moment, area * centroid[:, axis], atol=1e-12)
+    assert (found > 0).all()
+    return corners.points, corners.polygon_of_corner, found, area
+
+
+def test_a_rectangle_gives_a_quarter_to_each_corner() -> None:
+    _, _, found, _ = shares(shapely.box(0, 0, 3, 0.5))
+    np.testing.assert_allclose(found, 0.375, rtol=1e-14)
+
+
+def test_a_triangle_gives_a_third_to_each_corner() -> None:
+    _, _, found, _ = shares(shapely.Polygon([[0, 0], [3, 0], [1, 2]]))
+    np.testing.assert_allclose(found, 1.0, rtol=1e-14)
+
+
+def test_a_regular_polygon_gives_the_same_to_all() -> None:
+    angles = np.arange(7) * 2 * np.pi / 7
+    _, _, found, area = shares(shapely.Polygon(np.stack([np.cos(angles), np.sin(angles)], axis=1)))
+    np.testing.assert_allclose(found, area[0] / 7, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "polygon",
+    [
+        shapely.Polygon(L_SHAPE_POINT_AREAS),
+        shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]]),
+        shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[0, 2], [1, 1], [1, 3]]]),
+    ],
+    ids=["not convex", "with a hole", "hole that touches the outline"],
+)
+def test_other_polygons(polygon: shapely.Polygon) -> None:
+    shares(polygon)
+
+
+def test_polygons_of_all_kinds_together() -> None:
+    ring = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]])
+    kinds = [
+        shapely.Polygon(L_SHAPE_POINT_AREAS),
+        shapely.box(0, 0, 1, 1),
+        ring,
+        shapely.box(1, 1, 2, 3),
+        shapely.Polygon(L_SHAPE_POINT_AREAS),
+    ]
+    _, polygon, together, _ = shares(*kinds)
+    for i, kind in enumerate(kinds):
+        np.testing.assert_allclose(together[polygon == i], shares(kind)[2], rtol=1e-12)
+
+
+@settings(max_examples=50)
+@given(st.integers(0, 10**6), st.integers(4, 30))
+def test_random_convex_polygons_for_point_areas(seed: int, count: int) -> None:
+    points = np.random.default_rng(seed).normal(size=(count, 2))
+    shares(shapely.convex_hull(shapely.multipoints(points)))
+
+
+OUTLINES = {
+    "rectangle": (shapely.box(0, 0, 2, 1), 1),
+    "parallelogram": (shapely.Polygon([[0, 0], [2, 0], [2.5, 1], [0.5, 1]]), 1),
+    "triangle": (shapely.Polygon([[0, 0], [2, 0], [0.5, 1]]), 1),
+    "trapezium": (shapely.Polygon([[0, 0], [2, 0], [1, 1], [0, 1]]), 2),
+    "L": (shapely.Polygon([[0, 0], [2, 0], [2, 1], [1, 1], [1, 3], [0, 3]]), 4),
+    "frame": (shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2), 8),
+}
+POLYGONS = np.array([polygon for polygon, _ in OUTLINES.values()], dtype=object)
+
+
+@pytest.mark.parametrize("kept", OUTLINES)
+def test_areas_and_first_moments_are_those_of_the_whole(kept: str) -> None:
+    corners = needed_corners(POLYGONS, 1e-6)
+    chosen = np.array([name != kept for name in OUTLINES])
+    pieces, row = in_pieces(corners, chosen)
+    n = len(OUTLINES)
+    areas, centroids = areas_and_centroids(pieces, len(row))
+    whole, middle = areas_and_centroids(corners, n)
+    assert np.all(areas > 0)
+    assert np.bincount(row, areas, n) == pytest.approx(whole, rel=1e-12)
+    for axis in (0, 1):
+        assert np.bincount(row, areas * centroids[:, axis], n) == pytest.approx(whole * middle[:, axis], rel=1e-12)
+    expected = [1 if name == kept else count for name, (_, count) in OUTLINES.items()]
+    assert np.bincount(row, minlength=n).tolist() == expected
+    assert row.tolist() == sorted(row.tolist())
+
+
+def test_where_nothing_is_chosen_all_is_left_as_it_is() -> None:
+    corners = needed_corners(POLYGONS, 1e-6)
+    pieces, row = in_pieces(corners, np.zeros(len(OUTLINES), dtype=bool))
+    assert pieces is corners
+    assert row.tolist() == list(range(len(OUTLINES)))
+
+
+DECK = """\
+mbla: 1
+materials: {{stone: {{density: 2000}}}}
+joints: {{dry: {{friction: 0.6, cohesion: 1.0e5, tensile_strength: 1.0e5, compressive_strength: 1.0e6}}}}
+contacts: {{joint: dry, points: {{per_edge: {per_edge}}}}}
+blocks:
+  - polyhedron: {{group: ring, material: stone, vertices: {vertices}, faces: {faces}}}
+  - box: {{group: top, material: stone, min: [-0.5, -0.7, 1], max: [1.0, 0.9, 2]}}
+supports: [{{blocks: ring}}]
+load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}]}}}}
+analysis: {{flow_rule: {flow_rule}}}
+"""
+
+
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+def test_strengths_of_points_along_an_edge_that_a_hole_touches(flow_rule: str) -> None:
+    """More points carry no more than those at the corners, and little less."""
+    inner, outer = ([[r, 0], [0, r], [-r, 0], [0, -r]] for r in (0.5, 2.0))
+    shape = ring(inner, outer, 0, 1)
+    faces = [shape.loops[a:b].tolist() for a, b in zip(shape.loop_start, shape.loop_start[1:], strict=False)]
+    factors = []
+    for per_edge in (1, 2, 3):
+        deck = DECK.format(per_edge=per_edge, vertices=shape.vertices.tolist(), faces=faces, flow_rule=flow_rule)
+        _, case = case_of(deck)
+        assert case.status is Status.SOLVED
+        assert case.solution.mechanics is not None
+        factors.append(case.solution.mechanics.load_factor)
+    assert factors == sorted(factors, reverse=True)
+    assert factors[-1] == pytest.approx(factors[0], rel=1e-3)

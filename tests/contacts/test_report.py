@@ -1,16 +1,29 @@
-"""What the report says about a structure that has exactly one thing wrong with it."""
+"""What the report says about a structure that has exactly one thing wrong with it.
+
+What lies nearest to a part that nothing holds, in words: distances of boxes, by hand.
+
+Round faces whose corners lie within the tolerance of their outline: the remark, and where it is not made.
+"""
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
+import shapely
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.narrow_phase import _on_same_facet
-from mbla.contacts.notices import _by_tolerance, overlap_messages
-from mbla.deck.units import Units
+from mbla.contacts.corners import Corners
+from mbla.contacts.narrow_phase import Patches, _on_same_facet
+from mbla.contacts.notices import _by_tolerance, outline_notices, overlap_messages
+from mbla.contacts.overlay import Overlays
+from mbla.contacts.report import isolated_blocks, joining_gap, nearest_words, unsupported_parts
+from mbla.model.model import Ground
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
@@ -24,6 +37,7 @@ from tests.contacts.structures import (
     profile,
     section,
 )
+from tests.line import line_of
 
 
 def words(report: ContactReport) -> dict[str, str]:
@@ -174,26 +188,11 @@ def test_override_without_contact() -> None:
     }
 
 
-def test_lengths_in_words_are_in_the_unit_of_the_deck() -> None:
-    pair = moved(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2.004])), scale=1000.0)
-    model = model_of(blocks_of(pair), fixed=[0])
-    model = replace(model, units=Units(length="mm"))
-    assert "(4 mm, 0.004 of the block size)" in words(find_contacts(model, section()).report)["near-misses"]
-
-
 def test_fixed_bodies_among_themselves_are_not_reported() -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2.004]))
     report = contacts_of(pair, fixed=[0, 1]).report
     assert len(report.near_misses) == 0
     np.testing.assert_array_equal(report.isolated, [0, 1])
-
-
-def test_the_widest_sliver_is_told() -> None:
-    row = boxes(([0, 0, 0], [1, 1, 1]), ([0.9998, 0, 1], [2, 1, 2]), ([1.9993, 0, 0], [3, 1, 1]))
-    assert (
-        "2 common surfaces narrower than the tolerance of 0.001 dropped; the widest, between block[1] and block[2], "
-        "measures 0.0007 m"
-    ) in words(contacts_of(row).report)["slivers-dropped"]
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 0, 1)])
@@ -231,3 +230,209 @@ def test_a_tolerance_that_a_deck_may_not_give_is_not_advised() -> None:
     assert _by_tolerance(0.0944, "above {:.2g}") == "above 0.099"
     assert _by_tolerance(0.0952, "above {:.2g}") == ""
     assert _by_tolerance(0.2, "above {:.2g}") == ""
+
+
+PILE = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2]), ([0, 0, 2.012], [1, 1, 3]), ([1.05, 0, 0], [2, 1, 3]))
+"""Gaps of 0.004 and 0.012 in a pile on the ground, and of 0.05 to the pier beside it."""
+
+
+def report_of(tolerance: float) -> ContactReport:
+    return find_contacts(model_of(blocks_of(PILE), grounds=(ground(),)), section(tolerance)).report
+
+
+def told(report: ContactReport, identifier: str) -> str:
+    return next((notice.message for notice in report.notices if notice.identifier == identifier), "")
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-3, 3e-3, 1e-2])
+def test_the_tolerance_that_closes_all_gaps_is_told_whatever_the_present_one_is(tolerance: float) -> None:
+    report = report_of(tolerance)
+    loose = told(report, "isolated-blocks") or told(report, "unsupported-parts")
+    words = re.search(r"contacts.tolerance ([0-9.]+) all near misses are contacts, from ([0-9.]+) on every", loose)
+    assert words is not None
+    every, enough = (float(figure) for figure in words.groups())
+    assert (every, enough) == (0.053, 0.013)
+    assert f"with contacts.tolerance above {every:.2g} all of them are" in told(report, "near-misses")
+    assert report_of(enough).unsupported == ()
+    assert len(report_of(every).near_misses) == 0
+
+
+def test_the_least_gap_that_joins_every_block_to_a_support() -> None:
+    fixed = np.array([True, False, False, False])
+    near, gaps = np.array([[0, 1], [1, 2], [0, 2], [2, 3]]), np.array([0.02, -0.03, 0.05, 0.01])
+    assert joining_gap(fixed, np.zeros((0, 2), dtype=np.int64), near, gaps) == 0.03
+    assert joining_gap(fixed, np.array([[0, 2]]), near, gaps) == 0.02
+    assert joining_gap(fixed, np.zeros((0, 2), dtype=np.int64), near[:3], gaps[:3]) is None
+
+
+def parts(fixed: list[bool], bodies: list[tuple[int, int]]) -> list[list[int]]:
+    links = np.array(bodies, dtype=np.int64).reshape(-1, 2)
+    return [part.tolist() for part in unsupported_parts(np.array(fixed), links)]
+
+
+def test_chain_on_a_fixed_block() -> None:
+    assert parts([True, False, False], [(0, 1), (1, 2)]) == []
+
+
+def test_chain_on_the_ground_as_body_a() -> None:
+    assert parts([False, False], [(2, 0), (0, 1)]) == []
+
+
+def test_every_part_by_itself_in_order_of_its_first_block() -> None:
+    assert parts([False] * 6 + [True], [(5, 1), (0, 3), (2, 6)]) == [[0, 3], [1, 5], [4]]
+
+
+def test_two_fixed_blocks_in_contact_hold_nothing() -> None:
+    assert parts([True, True, False], [(0, 1)]) == [[2]]
+
+
+def test_isolated_blocks_ignore_the_ground() -> None:
+    assert isolated_blocks(3, np.array([[3, 1]])).tolist() == [0, 2]
+
+
+CUBE = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+Box = tuple[Sequence[float], Sequence[float]]
+
+
+def words_of_nearest(part: Sequence[int], *extremes: Box, grounds: tuple[Ground, ...] = ()) -> str:
+    names = [f"b{number}" for number in range(len(extremes))]
+    return nearest_words(model_of(blocks_of(boxes(*extremes), names), grounds=grounds), np.array(part))
+
+
+def at(*corner: float) -> Box:
+    return corner, [place + 1.0 for place in corner]
+
+
+@pytest.mark.parametrize(
+    ("corner", "gap"),
+    [
+        ((4.0, 0.0, 0.0), "3"),
+        ((-4.0, 0.5, 0.5), "3"),
+        ((4.0, 5.0, 0.0), "5"),
+        ((0.0, -4.0, 5.0), "5"),
+        ((3.0, -3.0, 2.0), "3"),
+        ((1.0 + 1e-6, 0.0, 0.0), "1e-06"),
+    ],
+)
+def test_distance_of_two_boxes(corner: tuple[float, ...], gap: str) -> None:
+    assert (
+        words_of_nearest([1], CUBE, at(*corner))
+        == f"; nearest to it is b0[0], {gap} m from b1[0], by the boxes around them"
+    )
+
+
+def test_boxes_that_meet_or_overlap() -> None:
+    met = "; nearest to it is b0[0], which b1[0] meets or overlaps without a common surface"
+    assert words_of_nearest([1], CUBE, at(1.0, 1.0, 1.0)) == met
+    assert words_of_nearest([1], CUBE, at(0.5, 0.5, 0.5)) == met
+    assert words_of_nearest([1], CUBE, at(1.0 + 0.9e-9, 0.0, 0.0)) == met
+    assert "by the boxes" in words_of_nearest([1], CUBE, at(1.0 + 1.1e-9, 0.0, 0.0))
+
+
+def test_the_nearest_of_many_and_of_the_part() -> None:
+    row = [at(3.0 * x, 0.0, 0.0) for x in range(4)]
+    assert words_of_nearest([2, 3], *row).startswith("; nearest to it is b1[0], 2 m from b2[0]")
+    assert words_of_nearest([0, 3], *row).startswith("; nearest to it is b1[0], 2 m from b0[0]")
+    assert words_of_nearest([1], *row[:2], at(4.5, 0.0, 0.0)).startswith("; nearest to it is b2[0], 0.5 m from b1[0]")
+
+
+def test_ground_is_as_far_as_the_lowest_corner() -> None:
+    apart = (at(0.0, 0.0, 0.25), at(5.0, 0.0, 0.5))
+    assert words_of_nearest([0, 1], *apart, grounds=(ground(),)) == (
+        "; nearest to it is ground, 0.25 m from b0[0], by the boxes around them"
+    )
+    assert words_of_nearest([1], *apart, grounds=(ground(),)).startswith("; nearest to it is ground, 0.5 m from b1[0]")
+    only_other = (ground(blocks=[1]),)
+    assert words_of_nearest([0, 1], *apart, grounds=only_other).startswith(
+        "; nearest to it is ground, 0.5 m from b1[0]"
+    )
+    assert words_of_nearest([0], *apart, grounds=only_other).startswith("; nearest to it is b1[0], 4 m from b0[0]")
+    sunk = (at(0.0, 0.0, -0.125),)
+    assert words_of_nearest([0], *sunk, grounds=(ground(),)).startswith("; nearest to it is ground, 0.125 m")
+    wall = (ground(point=(3, 0, 0), normal=(-1, 0, 0)),)
+    assert words_of_nearest([0], CUBE, grounds=wall).startswith("; nearest to it is ground, 2 m")
+
+
+def test_alone() -> None:
+    assert words_of_nearest([0], CUBE) == ""
+
+
+def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The two boxes of each side that are nearest to the box around the other side."""
+    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 2)
+    part = [at(-3.0 * x, 0.0, 0.0) for x in range(4)]
+    others = [at(4.0 + 3.0 * x, 0.0, 0.0) for x in range(4)]
+    assert words_of_nearest([0, 1, 2, 3], *part, *others).startswith("; nearest to it is b4[0], 3 m from b0[0]")
+    assert words_of_nearest([4, 5, 6, 7], *part, *others).startswith("; nearest to it is b0[0], 3 m from b4[0]")
+
+
+def test_the_box_around_many_reaches_to_its_farthest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the part only the block that is nearest to the whole box of the others is looked at."""
+    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 1)
+    others = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0)]
+    assert words_of_nearest([2, 3], *others, at(11.5, 0.0, 0.0), at(-3.0, 0.0, 0.0)).startswith(
+        "; nearest to it is b1[0], 0.5 m from b2[0]"
+    )
+    assert words_of_nearest([2, 3], *others, at(13.0, 0.0, 0.0), at(-1.5, 0.0, 0.0)).startswith(
+        "; nearest to it is b0[0], 0.5 m from b3[0]"
+    )
+
+
+DRUMS = """\
+mbla: 1
+parameters: {n: 360, eps: 1.e-3}
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.5}}
+blocks:
+  - column: {group: column, material: stone, radius: 0.5, height: 4, drums: 2, sides: "=n", polygon: inscribed}
+contacts: {joint: dry, tolerance: "=eps"}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+analysis: {flow_rule: associative}
+"""
+
+
+def remarks(*overrides: str) -> list[str]:
+    notices = line_of(DRUMS, *overrides).contacts.report.notices
+    return [notice.message for notice in notices if notice.identifier == "outlines-simplified"]
+
+
+def test_the_share_of_the_area_is_told() -> None:
+    contacts = line_of(DRUMS).contacts
+    (text,) = remarks()
+    corners = int(contacts.point_start[1])
+    assert corners < 180
+    whole = 180 * math.sin(math.pi / 180) * 0.25
+    assert f"by {100 * (1 - contacts.areas[0] / whole):.2g} %" in text
+    assert "2 common surfaces" in text
+    assert f"drawn by {corners} corners" in text
+
+
+@pytest.mark.parametrize("overrides", [("parameters.n=24",), ("parameters.eps=1.e-5",)])
+def test_nothing_is_said_where_every_corner_stays(overrides: tuple[str, ...]) -> None:
+    assert not remarks(*overrides)
+
+
+def told_of_outline_notices(*drawn: float) -> list[str]:
+    """Of three unit squares drawn by four, five and six corners, with these areas."""
+    n = len(drawn)
+    nothing = np.zeros(n)
+    overlays = Overlays(
+        np.array([[k, k + 1] for k in range(n)]), np.zeros((n, 2), dtype=np.int64), np.zeros((n, 3)),
+        np.zeros((n, 3, 3)), np.ones(n), np.zeros((n, 3)),
+    )  # fmt: skip
+    squares = np.array([shapely.box(0, 0, 1, 1)] * n, dtype=object)
+    patches = Patches(overlays, squares, np.ones(n), nothing, nothing, nothing)
+    counts = np.arange(n) + 4
+    corners = Corners(np.zeros((counts.sum(), 2)), np.append(0, np.cumsum(counts)), np.arange(n))
+    model = model_of(blocks_of(boxes(*(([k, 0, 0], [k + 1, 1, 1]) for k in range(n + 1)))))
+    return [one.message for one in outline_notices(model, section(), patches, corners, np.array(drawn))]
+
+
+def test_the_outline_that_changed_most_is_told() -> None:
+    (text,) = told_of_outline_notices(1.0, 0.97, 1.01)
+    assert "the area of 2 common surfaces, most that of block[1] and block[2], drawn by 5 corners, by 3 %" in text
+    (alone,) = told_of_outline_notices(1.0, 1.0, 1.0 - 1.1e-4)
+    assert "the area of 1 common surface, most that of block[2] and block[3], drawn by 6 corners, by 0.011 %" in alone
+    assert "by 75 %" in told_of_outline_notices(0.25)[0]
+    assert told_of_outline_notices(1.0, 1.0 + 0.9e-4, 1.0 - 0.9e-4) == []

@@ -11,7 +11,6 @@ from mbla.contacts import Contacts, find_contacts
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
-    blocks_of,
     boxes,
     contacts_of,
     exported,
@@ -44,10 +43,6 @@ def test_every_interface_of_a_running_bond_wall_is_found(units: int, courses: in
     assert contacts.areas.sum() == pytest.approx(area, rel=1e-12)
     assert (np.diff(contacts.point_start) == 4).all()
     assert contacts.report.notices == ()
-
-
-def test_twenty_by_twenty_wall_has_1170_interfaces() -> None:
-    assert expected_wall(20, 20)[0] == 1170
 
 
 @pytest.mark.parametrize(("wall", "n_blocks", "count"), [(1, 33, 83), (3, 46, 102), (5, 61, 120)])
@@ -163,14 +158,6 @@ def test_normal_points_from_a_to_b() -> None:
     np.testing.assert_allclose(downwards.normals, [[0, 0, -1]], atol=1e-15)
 
 
-def test_tangent_of_bed_joints_is_x_and_of_head_joints_horizontal() -> None:
-    contacts = contacts_of(running_bond(3, 3), fixed=[0])
-    frames = contacts.frames[contacts.point_start[:-1]]
-    bed = np.abs(frames[:, 0, 2]) > 0.5
-    np.testing.assert_allclose(frames[bed, 1], np.broadcast_to([1, 0, 0], (bed.sum(), 3)), atol=1e-12)
-    np.testing.assert_allclose(frames[~bed, 1, 2], 0, atol=1e-12)
-
-
 def test_ground_is_body_a_and_its_normal_points_to_the_block() -> None:
     contacts = contacts_of(boxes(([0, 0, 0], [2, 1, 1])), grounds=(ground(joint="mortar"),))
     np.testing.assert_array_equal(contacts.bodies, [[1, 0]])
@@ -225,14 +212,6 @@ def test_model_without_contacts_has_empty_arrays() -> None:
     assert contacts.frames.shape == (0, 3, 3)
     assert contacts.joint_names == ()
     assert [notice.identifier for notice in contacts.report.notices] == ["isolated-blocks"]
-
-
-def test_totals_by_joint() -> None:
-    stack = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1], [1, 1, 2]), ([0, 0, 2], [1, 1, 3]))
-    model = model_of(blocks_of(stack, ["base", "middle", "top"]), grounds=(ground(),))
-    contacts = find_contacts(model, section(overrides=[("top", "middle", "mortar")]))
-    assert contacts.count_by_joint == {"dry": 2, "mortar": 1}
-    assert contacts.area_by_joint == pytest.approx({"dry": 2.0, "mortar": 1.0})
 
 
 @pytest.mark.skipif(exported("crossvault.obj") is None, reason="no deck carries the cross vault")

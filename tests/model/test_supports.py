@@ -1,3 +1,5 @@
+"""Guides and settlements as the model has them."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -5,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.deck import read_deck
 from mbla.errors import DeckError
-from mbla.model import build_model
+from mbla.model import Model, build_model
+from mbla.model.settlement import with_reference
 from tests.model.shapes import deck
 
 BLOCK = "box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 2]}"
@@ -106,3 +110,109 @@ def test_no_support(tmp_path: Path) -> None:
 def test_nothing_can_move(tmp_path: Path) -> None:
     found = messages(tmp_path, "[{blocks: block}]")
     assert found[0] == "supports: every block is fixed: nothing can move"
+
+
+DECK = """
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, -1], max: [1, 1, 0]}
+  - box: {group: base, material: stone, min: [2, 0, -1], max: [3, 1, 0]}
+  - box: {group: pier, material: stone, min: [0, 0, 0], max: [1, 1, 2]}
+  - box: {group: pier, material: stone, min: [2, 0, 0], max: [3, 1, 4]}
+contacts: {joint: dry}
+supports:
+  - {blocks: base}
+%s
+load_cases:
+  case: {%s}
+"""
+PUSH = "live: [{acceleration: [1, 1, 1]}]"
+
+
+def model_of(tmp_path: Path, support: str = "", case: str = PUSH) -> Model:
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK % (support, case), encoding="utf-8")
+    return build_model(read_deck(path))
+
+
+def test_held_components_leave_the_others(tmp_path: Path) -> None:
+    guides = model_of(tmp_path, "  - {blocks: pier, fixed: [y, rx, rz]}").guides
+    assert guides.blocks.tolist() == [2, 3]
+    assert guides.bodies.tolist() == [0, 1]
+    for motions in guides.motions:
+        np.testing.assert_array_equal(motions @ motions.T, np.diag([1, 0, 1, 0, 1, 0]))
+    assert guides.words == ("2 blocks held in y, rx, rz",)
+
+
+def test_all_six_held_is_fixed(tmp_path: Path) -> None:
+    model = model_of(tmp_path, "  - {blocks: {group: pier, index: 0}, fixed: [x, y, z, rx, ry, rz]}")
+    assert model.fixed.tolist() == [True, True, True, False]
+    assert not len(model.guides)
+
+
+@pytest.mark.parametrize("length", [1e-200, 1.0, 1e200])
+def test_a_slide_and_a_turn_are_two_ways(tmp_path: Path, length: float) -> None:
+    support = (
+        f"  - {{blocks: {{group: pier, index: 1}}, slide: [0, 0, {length}], "
+        f"turn: {{axis: [0, 0, {length}], about: [0, 0, 7]}}}}"
+    )
+    motions = model_of(tmp_path, support).guides.motions[0]
+    np.testing.assert_allclose(motions[:, 0], [0, 0, 1, 0, 0, 0])
+    np.testing.assert_allclose(motions[:, 1], [-0.5, 2.5, 0, 0, 0, 1])  # z × (centroid − point)
+    assert not motions[:, 2:].any()
+
+
+def test_blocks_held_together_move_about_their_common_centroid(tmp_path: Path) -> None:
+    support = "  - {blocks: pier, fixed: [x, y, z, rx, rz], together: true}"
+    with pytest.raises(DeckError, match="the supports take every live load"):
+        model_of(tmp_path, support)  # pushed alike they do not turn
+    guides = model_of(tmp_path, support, "live: [{acceleration: [1, 0, 0], on: {group: pier, index: 1}}]").guides
+    assert guides.bodies.tolist() == [0, 0]
+    masses = np.array([2.0, 4.0])
+    way = guides.motions[:, :, 0]
+    np.testing.assert_allclose(way[:, 3:], [[0, 1, 0], [0, 1, 0]])
+    np.testing.assert_allclose(masses @ way[:, :3], 0.0, atol=1e-12)
+    assert guides.words == ("2 blocks as one body held in x, y, z, rx, rz",)
+
+
+def test_a_settlement_frees_its_blocks_in_its_case_alone(tmp_path: Path) -> None:
+    model = model_of(tmp_path, "  - {blocks: {group: pier, index: 0}, fixed: [rx]}",
+                     "settlement: {on: {group: base, index: 1}, direction: [3, 0, -4]}")  # fmt: skip
+    case = model.load_cases[0]
+    moving = model.of_case(case)
+    assert model.fixed.tolist() == [True, True, False, False]
+    assert moving.fixed.tolist() == [True, False, False, False]
+    assert moving.guides.blocks.tolist() == [2, 1]
+    np.testing.assert_allclose(moving.guides.motions[1, :, 0], [0.6, 0, -0.8, 0, 0, 0])
+    assert not moving.guides.motions[1, :, 1:].any()
+
+
+def test_the_loads_of_a_settlement_take_its_reaction(tmp_path: Path) -> None:
+    case = model_of(tmp_path, case="settlement: {on: base, direction: [0, 0, -1]}").load_cases[0]
+    settlement = case.settlement
+    assert settlement is not None
+    weight = 6 * 2000 * 9.81
+    assert settlement.unit == pytest.approx(weight, rel=1e-12)
+    assert np.isnan(settlement.reference)
+    posed = with_reference(case, 300.0)
+    np.testing.assert_allclose(posed.dead_load[:2, 2], 150.0)  # of two blocks, against the motion; own weight left out
+    np.testing.assert_allclose(posed.live_load[:2, 2], -weight / 2)
+    np.testing.assert_array_equal(posed.dead_load[2:], case.dead_load[2:])
+    assert posed.settlement is not None
+    assert posed.settlement.reaction(0.0) == 300.0
+    assert posed.settlement.reaction(1.0) == pytest.approx(300.0 - weight, rel=1e-12)
+
+
+def test_a_turning_support_counts_in_moments(tmp_path: Path) -> None:
+    case = model_of(
+        tmp_path, case="settlement: {on: {group: base, index: 1}, turn: {axis: [0, 2, 0], about: [2, 0, 0]}}"
+    ).load_cases[0]
+    settlement = case.settlement
+    assert settlement is not None
+    assert settlement.turns
+    distances = [np.hypot(1.5, 1.0), np.hypot(0.5, 2.0)]
+    assert settlement.unit == pytest.approx(6 * 2000 * 9.81 * np.mean(distances), rel=1e-12)
+    np.testing.assert_allclose(settlement.motions, [[-0.5, 0, -0.5, 0, 1, 0]])
+    assert float((case.live_load[[1]] * settlement.motions).sum()) == pytest.approx(settlement.unit, rel=1e-12)

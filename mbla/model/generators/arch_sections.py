@@ -83,7 +83,7 @@ def build_section(curve: Curve, voussoirs: int, rings: int, thickness: Thickness
 
 
 def voussoir_polygons(section: Section) -> tuple[list[FloatArray], IntArray, IntArray]:
-    """Polygons counter-clockwise, with the position and the ring of each, ring by ring from the inside."""
+    """Polygons (k, 2) counter-clockwise, with position and ring of each, (n,), ring by ring from the inside."""
     polygons = []
     for ring in range(section.rings):
         inner, outer = section.joints[:, ring], section.joints[:, ring + 1]
@@ -138,7 +138,7 @@ def _check_joints(section: Section) -> None:
 
 
 def springer_polygons(section: Section, length: float) -> list[FloatArray]:
-    """Quadrilaterals straight back from both springing joints, counter-clockwise; length [length]."""
+    """Quadrilaterals (4, 2) straight back from both springing joints, counter-clockwise; length [length]."""
     quadrilaterals = []
     for joint, forwards, towards in ((0, section.forwards[0], -1.0), (-1, section.forwards[-1], 1.0)):
         intrados, extrados = section.joints[joint, 0], section.joints[joint, -1]
@@ -227,13 +227,13 @@ def rectangle(left: float, right: float, bottom: float, top: float) -> FloatArra
 
 
 def courses(left: float, right: float, bottom: float, top: float, count: int) -> list[FloatArray]:
-    """Rectangles of equal height on top of each other."""
+    """Rectangles (4, 2) of equal height on top of each other."""
     levels = np.linspace(bottom, top, count + 1)
     return [rectangle(left, right, levels[i], levels[i + 1]) for i in range(count)]
 
 
 def end_springer(joint: SpringingJoint, width: float) -> FloatArray | None:
-    """Block between a springing joint and the pier under it, over its whole width; None where the joint is level."""
+    """Block (k, 2) between a springing joint and the pier under it, over its width; None where the joint is level."""
     if not joint.rise:
         return None
     far = joint.intrados[0] + joint.side * width

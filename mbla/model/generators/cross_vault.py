@@ -42,7 +42,7 @@ class _Webs:
     labels: list[tuple[int, int, int]] = field(default_factory=list)
 
     def add(self, stations: FloatArray, corner: tuple[int, int], course: int, span: int) -> None:
-        """Units of one course of one web, from the groin outwards."""
+        """Units (n, n_polygons, 4, 3) of one course of one web, from the groin outwards."""
         self.units.append(reflected(stations, corner))
         self.labels += [(course, span, unit) for unit in range(len(stations))]
 

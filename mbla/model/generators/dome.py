@@ -57,7 +57,7 @@ class _Dome:
         return np.asarray(points - [self.circle.span / 2, -self.springing], dtype=np.float64)
 
     def ring(self, profile: FloatArray, number: int) -> Polyhedra:
-        """The blocks of a ring, counted from the springing; rings below it have negative numbers."""
+        """The blocks of a ring, (n,), counted from the springing; rings below it have negative numbers."""
         return ring_blocks(profile, self.segments, self.facets, self.running and number % 2 == 1)
 
 

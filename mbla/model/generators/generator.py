@@ -49,7 +49,7 @@ class GroundPart:
 
 
 def level_ground(blocks: IntArray, joint: str | None) -> GroundPart:
-    """Level ground at z = 0 under blocks of an item."""
+    """Level ground at z = 0 under blocks of an item, (n,)."""
     return GroundPart(np.zeros(3), np.array([0.0, 0.0, 1.0]), blocks, joint)
 
 

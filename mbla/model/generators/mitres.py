@@ -105,5 +105,5 @@ def keystone(section: HalfSection) -> Polyhedra:
 
 
 def first_course(parts: Sequence[Part]) -> IntArray:
-    """The blocks of the first course, counted through all parts."""
+    """The blocks of the first course, (n,), counted through all parts."""
     return np.flatnonzero(np.concatenate([part.labels["course"] for part in parts]) == 0)

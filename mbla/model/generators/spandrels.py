@@ -31,7 +31,7 @@ class Outline:
         return np.asarray(np.interp(x, self.points[:, 0], self.points[:, 1]), dtype=np.float64)
 
     def crossings(self, level: float, same: float) -> FloatArray:
-        """Where the chain passes a level, ascending; corners within ``same`` [length] of it count as on it."""
+        """Where the chain passes a level, (n,), ascending; corners within ``same`` [length] of it count as on it."""
         x, above = self.points[:, 0], self.points[:, 1] - level
         above = np.where(np.abs(above) <= same, 0.0, above)
         one, other = above[:-1], above[1:]
@@ -44,7 +44,7 @@ class Outline:
 
 
 def build_outline(chains: list[FloatArray]) -> Outline:
-    """From the extrados of each arch and the ends of the bridge, in order; points listed twice count once."""
+    """From the extrados (n, 2) of each arch and the ends of the bridge, in order; points listed twice count once."""
     points = np.concatenate(chains)
     extent = float(np.ptp(points[:, 0]))
     distinct = np.append(True, np.diff(points[:, 0]) > SAME_POINT * extent)
@@ -85,7 +85,7 @@ class Masonry:
 
 
 def bed_levels(outline: Outline, top: float, crowns: FloatArray, shelves: FloatArray, masonry: Masonry) -> FloatArray:
-    """Beds from the springings, 0, to the top, ascending.
+    """Beds (n,) [length] from the springings, 0, to the top, ascending.
 
     crowns  : heights of extrados crowns, over which a course must have a thickness
     shelves : heights of level surfaces at the springings, best met by a bed
@@ -133,7 +133,7 @@ class Course:
 def course_pieces(
     outline: Outline, course: Course, masonry: Masonry
 ) -> tuple[list[FloatArray], tuple[tuple[float, float], ...]]:
-    """Polygons of a course from left to right, counter-clockwise; and the pits that it leaves to the course above."""
+    """Polygons (k, 2) of a course from left to right, counter-clockwise; and the pits that it leaves to the next."""
     same = masonry.same
     ends = outline.points[[0, -1], 0]
     marks = np.concatenate([ends[:1], outline.crossings(course.high, same), ends[1:]])
@@ -151,7 +151,7 @@ def course_pieces(
 
 
 def bond_of_course(left: float, right: float, odd: bool, length: float) -> FloatArray:
-    """Joints of a running bond about the middle of the bridge, both ends excluded."""
+    """Joints (n,) of a running bond about the middle of the bridge, both ends excluded."""
     reach = int((right - left) / (2 * length)) + 2
     places = (left + right) / 2 + length * (np.arange(-reach, reach + 1) + (0.5 if odd else 0.0))
     return np.asarray(places[(places > left) & (places < right)], dtype=np.float64)

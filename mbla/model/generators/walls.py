@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.deck.items.walls import WallItem, WallsItem
-from mbla.deck.tree import KeyPath
-from mbla.errors import Finding, Message
+from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount, refuse_too_many
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.bonds import random_levels
@@ -36,11 +35,11 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
         units, or where nothing is left of the wall
     """
     refuse_too_many(amount_wall(item), item)
-    findings: list[tuple[KeyPath, Message]] = []
+    findings: list[Finding] = []
     openings = []
     for number, opening in enumerate(item.openings):
         found = list(check_opening(item, opening, site.tolerance))
-        findings += [(("openings", number, *path), message) for path, message in found]
+        findings += [each.below("openings", number) for each in found]
         if not found:
             openings.append(place_opening(item, number, opening))
     buttresses = [place_buttress(item, number, buttress) for number, buttress in enumerate(item.buttresses)]
@@ -105,8 +104,7 @@ def _check_each(item: WallsItem, lines: Sequence[Line], tolerance: float) -> Non
     """Refuse what is wrong with the plan, or with an opening by itself."""
     findings: list[Finding] = list(check_plan(lines))
     for number, opening in enumerate(item.openings):
-        found = check_opening(item, opening, tolerance)
-        findings += [(("openings", number, *path), message) for path, message in found]
+        findings += [found.below("openings", number) for found in check_opening(item, opening, tolerance)]
     if findings:
         raise ItemRefused(findings)
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, starts
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, parse_json
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.wording import counted, was
@@ -67,7 +67,7 @@ def read_compas_json(path: Path) -> Geometry:
         raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise GeometryFileError("geometry-file", f"is not a well-formed COMPAS JSON file: {reason}"[:300]) from error
+        raise malformed("COMPAS JSON", reason) from error
     if found.others and not found.surfaces:
         kinds = ", ".join(sorted(found.others))
         raise GeometryFileError(

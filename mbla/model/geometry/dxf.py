@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed
 from mbla.model.solids.chains import prisms
 from mbla.model.solids.defects import LARGEST_COORDINATE
 from mbla.model.solids.measures import connected_labels
@@ -69,7 +69,7 @@ def read_dxf(path: Path) -> Geometry:
         if isinstance(error, OSError) and error.strerror:
             raise
         reason = " ".join(str(error).split())
-        raise GeometryFileError("geometry-file", f"is not a well-formed DXF file: {reason}"[:300]) from error
+        raise malformed("DXF", reason) from error
     notices = _close_networks(drawing)
     if not drawing.outlines:
         remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))

@@ -35,7 +35,7 @@ def shortest_edges(polyhedra: Polyhedra) -> FloatArray:
 
 
 def lone_edge_corners(polyhedra: Polyhedra) -> np.typing.NDArray[np.int64]:
-    """Corners from which an edge starts that no other face has; none where every surface is closed."""
+    """Corners (n,) from which an edge starts that no other face has; none where every surface is closed."""
     tails, heads = polyhedra.loops, polyhedra.next_loops
     keys = np.minimum(tails, heads) * len(polyhedra.vertices) + np.maximum(tails, heads)
     _, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)

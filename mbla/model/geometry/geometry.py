@@ -19,12 +19,19 @@ from mbla.errors import Notice, Refusal
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.wording import counted, was
 
+LONGEST_REASON = 300
+"""characters of what is said of a malformed file, some of which libraries say"""
 LONGEST_LINE = 1_000_000
 """characters of a line of text, with those that continue it: a face of some hundred thousand corners"""
 
 
 class GeometryFileError(Refusal):
     """The file cannot be read, or holds no blocks; the message is for the user of the deck."""
+
+
+def malformed(kind: str, reason: str) -> GeometryFileError:
+    """What a file is refused by that is not what its extension says."""
+    return GeometryFileError("geometry-file", f"is not a well-formed {kind} file: {reason}"[:LONGEST_REASON])
 
 
 def refuse_long_line(number: int, length: int) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, parse_json
 from mbla.model.geometry.gltf_accessors import Buffers, entry_of, read_accessor
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.polyhedra import join_polyhedra
@@ -45,7 +45,7 @@ def read_gltf(path: Path) -> Geometry:
         return _geometry(document, Buffers(document, binary, path.parent))
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise GeometryFileError("geometry-file", f"is not a well-formed glTF file: {reason}"[:300]) from error
+        raise malformed("glTF", reason) from error
 
 
 def _parts(content: bytes) -> tuple[dict[str, Any], bytes | None]:

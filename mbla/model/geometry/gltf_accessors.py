@@ -15,8 +15,6 @@ from mbla.model.geometry.geometry import GeometryFileError
 
 COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-LARGEST_SPARSE = 10**7
-"""rows of an accessor that are zero but for a few: no file holds so many points of blocks"""
 
 
 def entry_of(document: dict[str, Any], key: str, number: Any) -> dict[str, Any]:
@@ -76,19 +74,20 @@ class Buffers:
 
 
 def read_accessor(document: dict[str, Any], number: int, buffers: Buffers) -> FloatArray:
-    """Values of an accessor, (count,) or (count, width); whole numbers that stand for shares are turned into them."""
+    """Values of an accessor, (count,) or (count, width); whole numbers that stand for shares are turned into them.
+
+    Raises
+    ------
+    ValueError
+        for accessors without a view of a buffer, and for views that the buffer does not hold
+    """
     accessor = entry_of(document, "accessors", number)
     kind, width, count = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[accessor["type"]], accessor["count"]
     if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count < 2**31:
         raise ValueError(f"accessor {number} has a count of {count}")
-    if "bufferView" in accessor:
-        values = _view(document, accessor["bufferView"], accessor.get("byteOffset", 0), kind, width, count, buffers)
-    elif "sparse" in accessor and count <= LARGEST_SPARSE:
-        values = np.zeros((count, width))
-    else:
-        raise ValueError(f"accessor {number} has no values: no bufferView for its count of {count}")
-    if "sparse" in accessor:
-        _put_sparse(document, accessor["sparse"], kind, values, buffers)
+    if "bufferView" not in accessor or "sparse" in accessor:
+        raise ValueError(f"accessor {number} has no view of a buffer of its own for its count of {count}, or is sparse")
+    values = _view(document, accessor["bufferView"], accessor.get("byteOffset", 0), kind, width, count, buffers)
     if accessor.get("normalized") and kind.kind in "iu":
         largest = 2 ** (8 * kind.itemsize - (kind.kind == "i")) - 1
         values = np.maximum(values / largest, -1.0)
@@ -112,14 +111,3 @@ def _view(
         return np.zeros((0, width))
     rows = np.ndarray((count, width), kind.newbyteorder("<"), content, first, (stride, kind.itemsize))
     return rows.astype(np.float64)
-
-
-def _put_sparse(
-    document: dict[str, Any], sparse: dict[str, Any], kind: np.dtype[Any], values: FloatArray, buffers: Buffers
-) -> None:
-    """Replace some rows of an accessor's values."""
-    rows, news, count = sparse["indices"], sparse["values"], sparse["count"]
-    of_rows = np.dtype(COMPONENTS[rows["componentType"]])
-    at = _view(document, rows["bufferView"], rows.get("byteOffset", 0), of_rows, 1, count, buffers)[:, 0]
-    new = _view(document, news["bufferView"], news.get("byteOffset", 0), kind, values.shape[1], count, buffers)
-    values[at.astype(np.int64)] = new

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.cells import VOLUME_CELLS
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, refuse_long_line, unused_points
-from mbla.model.geometry.welding import own_vertices
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed, refuse_long_line, unused_points
+from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 
 SOLIDS = re.compile(r"(?:C3D|F3D|DC3D|AC3D)(4|6|8|10|15|20|27)(?:[A-Z].*)?$")
@@ -86,7 +86,7 @@ def read_inp(path: Path) -> Geometry:
     text = path.read_text(encoding="utf-8", errors="replace")
     content = _read(text)
     if text.strip() and not content.nodes and not content.elements:
-        raise GeometryFileError("geometry-file", "is not a well-formed Abaqus or CalculiX .inp file: it has no nodes")
+        raise malformed("Abaqus or CalculiX .inp", "it has no nodes")
     rows = {number: row for row, number in enumerate(content.nodes)}
     points = np.array(list(content.nodes.values()), dtype=np.float64).reshape(-1, 3)
     names = _set_of_elements(content)
@@ -284,13 +284,7 @@ def _surfaces(
         assert match is not None  # chosen by it
         faces.append([rows[node] for node in nodes[: SHELL_CORNERS[int(match[1])]]])
         owners.append(names.get(number, ""))
-    present = list(dict.fromkeys(owners))
-    block = np.array([present.index(owner) for owner in owners], dtype=np.int64)
-    order = np.argsort(block, kind="stable")
-    faces = [faces[row] for row in order]
-    counts = np.array([len(face) for face in faces], dtype=np.int64)
-    corners: IntArray = np.array([corner for face in faces for corner in face], dtype=np.int64)
-    surfaces = own_vertices(points, corners, starts(counts), block[order])
+    surfaces, present = surfaces_by_label(points, faces, owners)
     return Geometry(surfaces, notices, tuple(present) if any(present) else ())
 
 

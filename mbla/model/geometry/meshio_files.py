@@ -32,7 +32,7 @@ from mbla.model.geometry.meshio_guards import (
     refuse_other_faces,
     refuse_other_sections,
 )
-from mbla.model.geometry.welding import own_vertices
+from mbla.model.geometry.welding import own_vertices, surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 
 SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
@@ -51,7 +51,13 @@ BYTES_OF_A_POINT, MOST_PACKED = 24, 50
 
 
 def read_vtu(path: Path) -> Geometry:
-    """Volume cells, or closed parts of surfaces, of a VTU file."""
+    """Volume cells, or closed parts of surfaces, of a VTU file.
+
+    Raises
+    ------
+    GeometryFileError
+        for malformed files, and those that announce far more than their size can hold
+    """
     announced = announced_in_vtu(path)
     if announced.points * BYTES_OF_A_POINT > MOST_PACKED * path.stat().st_size:
         words = (
@@ -64,7 +70,13 @@ def read_vtu(path: Path) -> Geometry:
 
 
 def read_msh(path: Path) -> Geometry:
-    """Volume cells, or closed parts of surfaces, of a Gmsh file."""
+    """Volume cells, or closed parts of surfaces, of a Gmsh file.
+
+    Raises
+    ------
+    GeometryFileError
+        for malformed files
+    """
     refuse_other_sections(path)  # before room is made for what they announce
     geometry, _ = _read(str(path), "gmsh")
     return geometry
@@ -85,16 +97,9 @@ def _read(path: str, file_format: str) -> tuple[Geometry, Any]:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
         return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True), mesh
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
-    counts = np.array([len(face) for face in faces], dtype=np.int64)
-    corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
-    _check_rows(corners, points)
+    _check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), points)
     names = _physical_groups(mesh, surfaces)
-    present = list(dict.fromkeys(names)) or [""]
-    block = np.array([present.index(name) for name in names] or [0] * len(faces), dtype=np.int64)
-    order = np.argsort(block, kind="stable")
-    faces, counts = [faces[row] for row in order], counts[order]
-    corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
-    surface = own_vertices(points, corners, starts(counts), block[order])
+    surface, present = surfaces_by_label(points, faces, names or ("",) * len(faces))
     return Geometry(surface, tuple(notices), tuple(present) if names else ()), mesh
 
 

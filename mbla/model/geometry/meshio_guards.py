@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.geometry import GeometryFileError, malformed
 from mbla.model.wording import counted
 
 CELLS = {
@@ -67,7 +67,7 @@ def checked_cells(points: IntArray, offsets: IntArray, types: IntArray) -> tuple
             raise GeometryFileError("geometry-file", words)
     if sizes.sum() != len(points):
         words = f"its cells have {counted(int(sizes.sum()), 'point')} by their offsets and {len(points)} in their list"
-        raise GeometryFileError("geometry-file", f"is not a well-formed VTU file: {words}")
+        raise malformed("VTU", words)
     for kind, (other, order) in BY_AXES.items():
         rows = np.flatnonzero(types == kind)
         first = offsets[rows, None] - len(order)
@@ -89,7 +89,7 @@ def refuse_other_faces(faces: IntArray, ends: IntArray) -> None:
             at, left = at + numbers[at] + 1, left - 1
         if left or at != end or end > len(numbers):
             words = f"the faces of polyhedron {row} (from 0) have more or fewer points than they announce"
-            raise GeometryFileError("geometry-file", f"is not a well-formed VTU file: {words}")
+            raise malformed("VTU", words)
         begin = end
 
 
@@ -125,9 +125,7 @@ def announced_in_vtu(path: Path) -> Counts:
 def _number(text: bytes, words: str) -> int:
     """What a file announces; GeometryFileError where that has more digits than anything in a file could need."""
     if len(text) > DIGITS:
-        raise GeometryFileError(
-            "geometry-file", f"is not a well-formed {words} file: it announces a number of {len(text)} digits"
-        )
+        raise malformed(words, f"it announces a number of {len(text)} digits")
     return int(text)
 
 
@@ -135,10 +133,7 @@ def refuse_other_counts(words: str, announced: Counts, read: Counts) -> None:
     """GeometryFileError where not all was read that is announced."""
     for noun, one, other in (("point", announced.points, read.points), ("cell", announced.cells, read.cells)):
         if one != other:
-            raise GeometryFileError(
-                "geometry-file",
-                f"is not a well-formed {words} file: it announces {counted(one, noun)}, {other} can be read",
-            )
+            raise malformed(words, f"it announces {counted(one, noun)}, {other} can be read")
 
 
 def refuse_other_sections(path: Path) -> None:
@@ -150,8 +145,8 @@ def refuse_other_sections(path: Path) -> None:
         for section in re.findall(rb"^\$" + name + rb"\s*$(.*?)(?=^\$|\Z)", content, re.DOTALL | re.MULTILINE):
             number, *lines = [line for line in section.splitlines() if line.strip()] or [b""]
             if number.strip() != str(len(lines)).encode():
-                raise GeometryFileError(
-                    "geometry-file",
-                    f"is not a well-formed Gmsh .msh file: it announces {number.strip().decode(errors='replace')[:20]} "
+                raise malformed(
+                    "Gmsh .msh",
+                    f"it announces {number.strip().decode(errors='replace')[:20]} "
                     f"{noun}s and has {counted(len(lines), noun)}",
                 )

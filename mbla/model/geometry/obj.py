@@ -13,11 +13,16 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import IntArray, starts
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, refuse_long_line, unused_points
-from mbla.model.geometry.welding import own_vertices
-from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.geometry.geometry import (
+    Geometry,
+    GeometryFileError,
+    empty_objects,
+    malformed,
+    refuse_long_line,
+    unused_points,
+)
+from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.wording import counted, was
 
 SILENT = frozenset(
@@ -70,9 +75,10 @@ def read_obj(path: Path) -> Geometry:
         notices += _empty_objects(content)
         _refuse_cut(content)
     by_object = len(content.object_names) > 1
-    rows = np.array(content.objects if by_object else content.groups, dtype=np.int64)
+    rows = content.objects if by_object else content.groups
     names = content.object_names if by_object else content.group_names
-    polyhedra, present = _collect(content, rows)
+    points = np.array(content.vertices, dtype=np.float64).reshape(-1, 3)
+    polyhedra, present = surfaces_by_label(points, content.faces, rows)
     return Geometry(polyhedra, notices, tuple(names[row] for row in present) if len(names) > 1 else ())
 
 
@@ -94,10 +100,8 @@ def _refuse_cut(content: _Content) -> None:
     corners = {corner for face in content.faces for corner in face}
     after = [row for row in range(content.last_element, len(content.vertices)) if row not in corners]
     if content.faces and after:
-        raise GeometryFileError(
-            "geometry-file",
-            f"is not a well-formed OBJ file: it ends with {counted(len(after), 'vertex')} that no face uses, "
-            "it seems to be cut off",
+        raise malformed(
+            "OBJ", f"it ends with {counted(len(after), 'vertex')} that no face uses, it seems to be cut off"
         )
 
 
@@ -168,17 +172,3 @@ def _vertex(token: str, count: int) -> int:
     if number == 0 or not -count <= number <= count:
         raise ValueError(f"there is no vertex {number}, {count} precede this line")
     return number - 1 if number > 0 else count + number
-
-
-def _collect(content: _Content, labels: IntArray) -> tuple[Polyhedra, IntArray]:
-    """One polyhedron per label in order of first appearance, with vertices of its own; and the labels."""
-    present, first, codes = np.unique(labels, return_index=True, return_inverse=True)
-    rank = np.empty(len(present), dtype=np.int64)
-    rank[np.argsort(first, kind="stable")] = np.arange(len(present))
-    order = np.argsort(rank[codes], kind="stable")
-    faces = [content.faces[row] for row in order]
-    block = rank[codes][order]
-    counts = np.array([len(face) for face in faces], dtype=np.int64)
-    corners = np.array([corner for face in faces for corner in face], dtype=np.int64)
-    points = np.array(content.vertices, dtype=np.float64).reshape(-1, 3)
-    return own_vertices(points, corners, starts(counts), block), present[np.argsort(rank)]

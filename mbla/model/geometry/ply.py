@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import starts
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, unused_points
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.wording import counted
 
@@ -74,7 +74,7 @@ def read_ply(path: Path) -> Geometry:
 
 
 def _malformed(reason: str) -> GeometryFileError:
-    return GeometryFileError("geometry-file", f"is not a well-formed PLY file: {reason}")
+    return malformed("PLY", reason)
 
 
 def _header(text: str) -> tuple[str, dict[str, _Element]]:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
 HEADER, TRIANGLE = 84, 50
@@ -58,22 +58,16 @@ def _solids(text: str) -> Geometry:
             try:
                 corners[-1].append((float(fields[1]), float(fields[2]), float(fields[3])))
             except (ValueError, IndexError) as error:
-                raise GeometryFileError(
-                    "geometry-file", f"is not a well-formed STL file: line {number} is no vertex"
-                ) from error
+                raise malformed("STL", f"line {number} is no vertex") from error
         elif word == "endloop" and (not corners or len(corners[-1]) % 3):
-            raise GeometryFileError(
-                "geometry-file", f"is not a well-formed STL file: the loop that ends in line {number} is no triangle"
-            )
+            raise malformed("STL", f"the loop that ends in line {number} is no triangle")
         elif word == "endsolid":
             complete = True
     cut = [name for name, each in zip(names, corners, strict=True) if len(each) % 3]
     if cut:
-        raise GeometryFileError(
-            "geometry-file", f"is not a well-formed STL file: the corners of solid {cut[0]!r} make no whole triangles"
-        )
+        raise malformed("STL", f"the corners of solid {cut[0]!r} make no whole triangles")
     if not complete:
-        raise GeometryFileError("geometry-file", "is not a well-formed STL file: its last solid has no end")
+        raise malformed("STL", "its last solid has no end")
     return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)
 
 

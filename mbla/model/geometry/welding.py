@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,6 +15,8 @@ from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.polyhedra import Polyhedra, drop_unused_vertices
 from mbla.model.solids.ragged import next_item
 from mbla.model.wording import counted, was
+
+Label = TypeVar("Label", bound=Hashable)
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,7 @@ def take_faces(polyhedra: Polyhedra, kept: BoolArray) -> Polyhedra:
 
 
 def with_faces(polyhedra: Polyhedra) -> IntArray:
-    """Polyhedra that have a face left."""
+    """Polyhedra that have a face left, (n,)."""
     return np.flatnonzero(np.diff(polyhedra.face_start))
 
 
@@ -110,6 +114,23 @@ def welding_notices(welded: Welded) -> tuple[Notice, ...]:
     if welded.collapsed:
         words += f"; {counted(welded.collapsed, 'face')} without area went with them"
     return (Notice("notice", "vertices-merged", words),)
+
+
+def surfaces_by_label(
+    points: FloatArray, faces: Sequence[Sequence[int]], labels: Sequence[Label]
+) -> tuple[Polyhedra, list[Label]]:
+    """One surface of the faces of each label, in order of first appearance, and these labels.
+
+    points : (n, 3); faces : rows of points at the corners of each; labels : of each face
+    """
+    present = list(dict.fromkeys(labels))
+    number = {label: row for row, label in enumerate(present)}
+    block = np.array([number[label] for label in labels], dtype=np.int64)
+    order = np.argsort(block, kind="stable")
+    sorted_faces = [faces[row] for row in order]
+    counts = np.array([len(face) for face in sorted_faces], dtype=np.int64)
+    corners = np.fromiter(chain.from_iterable(sorted_faces), dtype=np.int64, count=int(counts.sum()))
+    return own_vertices(points, corners, starts(counts), block[order]), present
 
 
 def own_vertices(points: FloatArray, corners: IntArray, loop_start: IntArray, block: IntArray) -> Polyhedra:

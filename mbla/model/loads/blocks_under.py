@@ -17,6 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows, next_item
 
 GRAZING = 1e-9
@@ -71,7 +72,7 @@ def stretches_under(
 
 
 def block_under(point: FloatArray, towards: FloatArray, chosen: IntArray, blocks: Blocks) -> tuple[int, float]:
-    """The block under a point, -1 where there is none, and how far the point lies before its near side.
+    """The block under a point (3,), -1 where there is none, and how far the point lies before its near side.
 
     On a joint it is the block with the lower number.
     """
@@ -85,12 +86,6 @@ def block_under(point: FloatArray, towards: FloatArray, chosen: IntArray, blocks
         return -1, 0.0
     first = int(np.argmin(np.where(found >= 0, found, np.iinfo(np.int64).max)))
     return int(found[first]), float(above[first])
-
-
-def unit(vector: FloatArray) -> FloatArray:
-    """The vector at length 1, without overflow."""
-    scaled = vector / np.abs(vector).max()
-    return np.asarray(scaled / np.linalg.norm(scaled))
 
 
 def _stretch(begin: FloatArray, end: FloatArray, down: FloatArray, chosen: IntArray, blocks: Blocks) -> Stretch:

@@ -17,7 +17,7 @@ from mbla.model.wording import vector
 
 
 def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
-    """A force at a point of one block, at its centroid unless given."""
+    """A force at a point of one block, (1,), at its centroid unless given."""
     assert load.force is not None  # what makes it this kind
     assert blocks is not None  # a rule of the deck: a force says on which block it acts
     if len(blocks) != 1:
@@ -40,7 +40,7 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
 
 
 def moment_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
-    """A moment on one block."""
+    """A moment on one block, (1,)."""
     assert load.moment is not None  # what makes it this kind
     assert blocks is not None  # a rule of the deck: a moment says on which block it acts
     if len(blocks) != 1:

@@ -55,14 +55,14 @@ class _Frames:
         return np.asarray(np.einsum("nkj,nij->nki", points - self.origins[rows, None], self.axes[rows]))
 
     def back(self, rows: IntArray, flat: FloatArray) -> FloatArray:
-        """Points on the planes."""
+        """Points on the planes, (n, k, 3) from (n, k, 2)."""
         return np.asarray(np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None])
 
 
 def face_parts(
     faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float, free_only: bool
 ) -> FaceParts:
-    """The faces, or what of them is free; ``tolerance`` relative to block size, as that of contacts."""
+    """The faces (n,), or what of them is free; ``tolerance`` relative to block size, as that of contacts."""
     frames = _frames(faces, blocks)
     row, fan = _fan(faces, blocks)
     flat = frames.flat(row, fan)

@@ -20,7 +20,7 @@ from mbla.model.wording import counted, vector
 
 
 def gravity_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad:
-    """Weights of all blocks."""
+    """Weights of all blocks, (n_blocks,)."""
     everywhere = np.arange(len(site.blocks))
     words = "no gravity" if load.gravity == "none" else f"gravity {vector(vector_of(load))} {site.units.length}/s2"
     return AppliedLoad(everywhere, mass_forces(everywhere, np.array(vector_of(load)), site), words)
@@ -63,7 +63,7 @@ def mass_forces(
 
 
 def acceleration_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
-    """Mass forces on the blocks selected, on all unless some are."""
+    """Mass forces on the blocks selected, (n,), on all unless some are."""
     assert load.acceleration is not None  # what makes it this kind
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     where = "" if len(chosen) == len(site.blocks) else f" on {counted(len(chosen), 'block')}"

@@ -28,6 +28,7 @@ from mbla.deck.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows, next_item, row_means
 
 
@@ -46,12 +47,11 @@ class PatternFactors:
 
 
 def pattern_factors(pattern: HeightPattern, blocks: IntArray, path: KeyPath, site: LoadSite) -> PatternFactors | None:
-    """Factors on blocks; base and top are the ends of the blocks unless the deck gives them.
+    """Factors on blocks (n,); base and top are the ends of the blocks unless the deck gives them.
 
     None, with a fault at ``path``, where the base it was given is not below the top found, or the reverse.
     """
-    along = np.array(pattern.along) / np.abs(pattern.along).max()  # so that squares neither overflow nor vanish
-    along /= np.linalg.norm(along)
+    along = unit(pattern.along)
     heights_of_vertices = site.blocks.vertices[items_of_rows(site.blocks.vertex_start, blocks)] @ along
     if pattern.points is not None:
         heights, factors = np.array(pattern.points).T

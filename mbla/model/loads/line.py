@@ -13,8 +13,9 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import LineLoad, Load
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
-from mbla.model.loads.blocks_under import stretches_under, unit
+from mbla.model.loads.blocks_under import stretches_under
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
 ABOVE = 0.01
@@ -22,7 +23,7 @@ ABOVE = 0.01
 
 
 def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
-    """A line load on all blocks under it, or on those of them that are selected."""
+    """A line load on all blocks under it, or on those of them that are selected, (n,)."""
     assert load.line is not None  # what makes it this kind
     line, chosen = load.line, np.arange(len(site.blocks)) if blocks is None else blocks
     begin, end = np.array(line.from_), np.array(line.to)

@@ -18,17 +18,16 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.loads import Load, PressureLoad
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
-from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.free_faces import FaceParts, face_parts
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import cut
+from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.ragged import items_of_rows, row_means
 from mbla.model.wording import counted, vector
 
 
 def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
-    """Pressure on the faces selected."""
+    """Pressure on the faces selected of blocks (n,)."""
     assert load.pressure is not None  # what makes it this kind
     pressure, here = load.pressure, (*path, "pressure")
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks

@@ -18,17 +18,17 @@ from mbla.arrays import FloatArray
 from mbla.deck.sections.loads import Tilt as TiltSection
 from mbla.deck.tree import KeyPath
 from mbla.errors import Message
-from mbla.model.loads.blocks_under import unit
 from mbla.model.loads.gravity import mass_forces, vector_of
 from mbla.model.loads.load_kind import Entry, LoadSite
 from mbla.model.model import Tilt
+from mbla.model.solids.plane import unit
 
 ALONG = 1e-9
 """share of gravity across the axis, below which the axis counts as parallel to it"""
 
 
 def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite) -> Tilt:
-    """What turns of the dead load, and how; a fault where nothing does."""
+    """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does."""
     axis = unit(np.array(load.axis))
     gravity = np.zeros(3)
     others = False

@@ -118,6 +118,11 @@ def labels_of(count: int, member: str | Sequence[str], positions: Mapping[str, I
     member    : of all blocks, or of each
     positions : (count,) by name
     copy      : number of the repetition; -1 where the item is not repeated
+
+    Raises
+    ------
+    ValueError
+        for other numbers of members than of blocks
     """
     labels = no_labels(count)
     for name, values in positions.items():

@@ -196,7 +196,7 @@ def _face_listed_twice(polyhedra: Polyhedra, block: int) -> tuple[int, int] | No
 
 
 def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray, extents: Extents) -> list[Defect]:
-    """Faces without area and polyhedra without volume, beyond what rounding could make of them."""
+    """Faces without area and polyhedra (n,) without volume, beyond what rounding could make of them."""
     defects = []
     block = polyhedra.block_of_face
     least = np.maximum(NO_AREA * extents.diagonals[block] ** 2, 2 * extents.rounding[block] * faces.perimeters)

@@ -138,7 +138,7 @@ def can_be_split(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) ->
 
 
 def split_faces(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> tuple[Polyhedra, BentFaces]:
-    """The same polyhedra with triangles in place of the chosen faces, ascending, and these."""
+    """The same polyhedra with triangles in place of the chosen faces, (n,) ascending, and these."""
     fans = [_fan(polyhedra, face) for face in chosen.tolist()]
     counts = np.array([len(fan) for fan in fans], dtype=np.int64)
     triangles, row = np.concatenate(fans), np.repeat(np.arange(len(chosen)), counts)

@@ -7,9 +7,18 @@ keep one length; repeated corners and edges there and back along the line add no
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mbla.arrays import FloatArray
+
+
+def unit(direction: Sequence[float] | FloatArray) -> FloatArray:
+    """The direction, (3,), at length 1; its largest entry first, so that squares neither overflow nor vanish."""
+    vector = np.array(direction, dtype=np.float64)
+    vector = vector / np.abs(vector).max()
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
 def plane_axes(normals: FloatArray) -> FloatArray:

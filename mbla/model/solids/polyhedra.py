@@ -129,7 +129,7 @@ def _join_starts(parts: Sequence[IntArray]) -> IntArray:
 
 
 def take_polyhedra(polyhedra: Polyhedra, blocks: IntArray) -> Polyhedra:
-    """Some of the polyhedra, in the order given."""
+    """Some of the polyhedra, (n,), in the order given."""
     vertex_rows = items_of_rows(polyhedra.vertex_start, blocks)
     face_rows = items_of_rows(polyhedra.face_start, blocks)
     vertex_start = starts(np.diff(polyhedra.vertex_start)[blocks])

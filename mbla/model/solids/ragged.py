@@ -19,19 +19,19 @@ def ranges(first: IntArray, counts: IntArray) -> IntArray:
 
 
 def items_of_rows(start: IntArray, rows: IntArray) -> IntArray:
-    """Positions in the flat array of all items of some rows, row by row."""
+    """Positions (m,) in the flat array of all items of some rows (n,), row by row."""
     return ranges(start[rows], start[rows + 1] - start[rows])
 
 
 def next_item(start: IntArray) -> IntArray:
-    """For each item the position of its successor in the same row, cyclic; rows must not be empty."""
+    """For each item the position of its successor, (n_items,), in the same row, cyclic; rows must not be empty."""
     successor = np.arange(1, start[-1] + 1)
     successor[start[1:] - 1] = start[:-1]
     return successor
 
 
 def row_sums(values: FloatArray, start: IntArray) -> FloatArray:
-    """Sum of the items of each row, along the first axis; rows must not be empty."""
+    """Sum of the items of each row, (n_rows, ...), along the first axis; rows must not be empty."""
     return np.add.reduceat(values, start[:-1], axis=0)
 
 
@@ -41,7 +41,7 @@ def row_means(values: FloatArray, start: IntArray) -> FloatArray:
 
 
 def row_maxima(values: FloatArray, start: IntArray) -> FloatArray:
-    """Largest item of each row, along the first axis; rows must not be empty."""
+    """Largest item of each row, (n_rows, ...), along the first axis; rows must not be empty."""
     return np.maximum.reduceat(values, start[:-1], axis=0)
 
 

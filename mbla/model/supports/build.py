@@ -15,6 +15,7 @@ from mbla.errors import Fault, Message
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.supports.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.wording import named, vector
@@ -125,16 +126,14 @@ FACING = 0.99
 
 
 def plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
-    """Point, unit normal and label of a ground plane."""
+    """Point (3,), unit normal (3,) and label of a ground plane."""
     for axis, key in enumerate("xyz"):
         coordinate = getattr(ground, key)
         if coordinate is not None:
-            unit = np.eye(3)[axis]
-            return coordinate * unit, unit, f"ground {key} = {coordinate:g}"
+            normal = np.eye(3)[axis]
+            return coordinate * normal, normal, f"ground {key} = {coordinate:g}"
     assert ground.point is not None and ground.normal is not None  # noqa: PT018 - one rule of the deck
-    point, normal = np.array(ground.point), np.array(ground.normal)
-    normal = normal / np.abs(normal).max()  # so that squares neither overflow nor vanish
-    normal = normal / np.linalg.norm(normal)
+    point, normal = np.array(ground.point), unit(ground.normal)
     return point, normal, f"ground at {vector(point)} with normal {vector(normal)}"
 
 

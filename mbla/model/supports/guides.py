@@ -15,6 +15,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.supports import Support
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
 WAYS = 6
@@ -90,9 +91,9 @@ def turn(axis: FloatArray, about: FloatArray, centroids: FloatArray) -> FloatArr
 def rigid_motions(centre: FloatArray, centroids: FloatArray) -> FloatArray:
     """The six motions of a body about a point as motions of its blocks, (n, 6, 6)."""
     motions = np.zeros((len(centroids), 6, 6))
-    for axis, unit in enumerate(np.eye(3)):
-        motions[:, :, axis] = slide(unit, len(centroids))
-        motions[:, :, 3 + axis] = turn(unit, centre, centroids)
+    for axis, along in enumerate(np.eye(3)):
+        motions[:, :, axis] = slide(along, len(centroids))
+        motions[:, :, 3 + axis] = turn(along, centre, centroids)
     return motions
 
 
@@ -107,7 +108,7 @@ def is_guide(support: Support) -> bool:
 
 
 def guides_of(support: Support, chosen: IntArray, blocks: Blocks) -> Guides:
-    """The guides that an item of `supports` makes of the blocks it selects."""
+    """The guides that an item of `supports` makes of the blocks it selects, (n,)."""
     together = bool(support.together)
     bodies = np.zeros(len(chosen), dtype=np.int64) if together else np.arange(len(chosen))
     if support.fixed is not None:
@@ -117,13 +118,6 @@ def guides_of(support: Support, chosen: IntArray, blocks: Blocks) -> Guides:
         motions, words = _ways(support, chosen, blocks)
     subject = counted(len(chosen), "block") + (" as one body" if together else "")
     return Guides(chosen, bodies, motions, (f"{subject} {words}",))
-
-
-def unit(direction: tuple[float, float, float]) -> FloatArray:
-    """The direction as a unit vector; the largest entry first, so that squares neither overflow nor vanish."""
-    vector = np.array(direction)
-    vector = vector / np.abs(vector).max()
-    return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _held(support: Support, chosen: IntArray, blocks: Blocks, together: bool) -> FloatArray:

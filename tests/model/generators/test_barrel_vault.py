@@ -8,7 +8,7 @@ import pytest
 
 from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.model.generators.barrel_vault import generate_barrel_vault
-from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.generator import Generated, Site
 from tests.model.generators.assembly import assemble
 from tests.model.shapes import build_raw
 
@@ -79,9 +79,3 @@ def test_ground_under_both_springings(tmp_path: Path) -> None:
     assert [len(ground.blocks) for ground in built.model.grounds if ground.blocks is not None] == [4, 4]
     on_ground = built.contacts.bodies[:, 0] >= len(built.model.blocks)
     assert built.contacts.areas[on_ground].sum() == pytest.approx(2 * 0.3 * 2.0, rel=1e-9)
-
-
-def test_too_many_units() -> None:
-    with pytest.raises(ItemRefused) as caught:
-        vault(length=1e7)
-    assert caught.value.findings == ((("length",), "makes about 1e+08 units; at most 2,000,000 can be handled"),)

@@ -153,21 +153,6 @@ def test_parapets_stand_on_the_spandrels() -> None:
     assert contacts_of(made) == pytest.approx(contacts_of(bare) + beds, rel=1e-9)
 
 
-def test_units_may_be_larger_than_any_bridge() -> None:
-    """What is rounding is measured by the bridge then, and not by the units."""
-    large, larger = (sections(bridge(unit=unit)) for unit in ([100.0, 100.0], [1e306, 1e307]))
-    for one, other in zip(large, larger, strict=True):
-        assert np.array_equal(one, other)
-
-
-def test_bare_arches() -> None:
-    made = bridge(spandrels="none", unit=None, cover=None)
-    assert [part.member for part in made.parts] == ["voussoir", "voussoir", "pier", "abutment", "springer"]
-    assert [int(part.labels["span"][0]) for part in made.parts[:2]] == [0, 1]
-    assert made.parts[4].labels["unit"].tolist() == [0, 1, 2]
-    assert len(blocks(made)) == 13 + 16 + 4 + 6 + 3
-
-
 def test_one_span_between_abutments_that_start_at_the_springings() -> None:
     made = bridge(spans=[6.0], rise=1.5, voussoirs=15, piers=None, abutments={"width": 1.5})
     assert {part.member for part in made.parts} == {"voussoir", "springer", "spandrel"}

@@ -52,11 +52,6 @@ def test_entasis_is_a_parabola_over_the_height() -> None:
     assert reach == pytest.approx([0.5, 0.475 + 0.015, 0.45 + 0.02, 0.425 + 0.015, 0.4])
 
 
-def test_heights_one_by_one() -> None:
-    (part,) = column(drum_heights=[1.0, 0.5, 0.7]).parts
-    assert part.polyhedra.vertices.reshape(3, 2, 24, 3)[:, 1, 0, 2] == pytest.approx([1.0, 1.5, 2.2])
-
-
 def test_a_flat_faces_x() -> None:
     for sides in (3, 4, 5, 24):
         corners = regular_polygon(sides)
@@ -78,8 +73,3 @@ def test_base_and_capital(tmp_path: Path) -> None:
     assert blocks.centroids[:, 2] == pytest.approx(np.sort(blocks.centroids[:, 2]))
     radii = np.array([0.5, 0.475, 0.45, 0.425, 0.4])
     assert np.sort(contacts.areas) == pytest.approx(np.sort([1.4**2, *(np.pi * radii**2)]), rel=1e-12)
-
-
-def test_labels_of_the_drums_alone() -> None:
-    (part,) = column(height=1.0, drums=3).parts
-    assert part.labels["drum"].tolist() == [0, 1, 2]

@@ -71,15 +71,6 @@ def test_springing_of_a_segmental_dome(embrace: float) -> None:
     assert not build_raw(springers.polyhedra).defects
 
 
-def test_rise_of_a_segmental_dome() -> None:
-    rings, _ = dome(shape="segmental", rise=0.8, keystone=0.4).parts
-    radius = (2.0**2 + 0.8**2) / (2 * 0.8)
-    top = rings.polyhedra.vertices
-    inner = top[np.isclose(np.linalg.norm(top - [0, 0, 0.8 - radius], axis=1), radius)]
-    assert inner[:, 2].max() == pytest.approx(0.8 - radius + np.sqrt(radius**2 - 0.04))
-    assert inner[:, 2].min() == pytest.approx(0, abs=1e-12)
-
-
 def area_of_bed(sides: int, angle: float) -> float:
     """Of the polygonal funnel through a joint: trapezoids between chords of both circles."""
     inner, outer = 2.0 * np.sin(angle), 2.3 * np.sin(angle)

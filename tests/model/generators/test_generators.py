@@ -121,18 +121,3 @@ def test_keys_that_do_not_apply_to_the_file(tmp_path: Path) -> None:
     with pytest.raises(ItemRefused) as caught:
         made(tmp_path, obj_box((0, 0, 0), (1, 1, 1), "stone"), join_cells=True)
     assert caught.value.findings == ((("join_cells",), "applies to files with volume cells only: leave it out"),)
-
-
-def test_mesh_that_cannot_be_read(tmp_path: Path) -> None:
-    (tmp_path / "row.obj").write_text("v 1 2")
-    with pytest.raises(ItemRefused) as caught:
-        generate_mesh(MeshItem(material="stone", file="row.obj"), site(tmp_path))
-    assert caught.value.findings == ((("file",), "line 1 cannot be read: a vertex has three coordinates"),)
-
-
-def test_notices_of_a_mesh_name_the_file(tmp_path: Path) -> None:
-    write_obj(tmp_path / "row.obj", 1)
-    with (tmp_path / "row.obj").open("a") as stream:
-        stream.write("\nl 1 2\n")
-    made = generate_mesh(MeshItem(material="stone", file="row.obj"), site(tmp_path))
-    assert [notice.message for notice in made.notices] == ["row.obj: 1 line was left out: no block"]

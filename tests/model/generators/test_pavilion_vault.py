@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.vaults import PavilionVaultItem
-from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.generator import Generated, Site
 from mbla.model.generators.pavilion_vault import generate_pavilion_vault
 from tests.model.generators.assembly import assemble
 from tests.model.generators.vault_sections import areas_and_centroids, joints_of_circle
@@ -77,27 +77,3 @@ def test_contacts_are_complete(tmp_path: Path, keys: str) -> None:
             joints_in_web = ((course == number) & (span == web)).sum() + 1
             heads += joints_in_web * area[number] * (stretch if web % 2 else 1.0)
     assert built.contacts.areas.sum() == pytest.approx(beds + heads, rel=1e-9)
-
-
-def test_labels(tmp_path: Path) -> None:
-    built = assemble(
-        tmp_path,
-        "pavilion_vault: {material: stone, shape: segmental, rise: 1.2, bay: [4, 5], thickness: 0.25, courses: 9, "
-        "unit: 0.6, springers: blocks}",
-        supports="[]",
-    )
-    blocks = built.model.blocks
-    members, span = np.array(blocks.labels.members), blocks.labels.position("span")
-    assert [(members == name).sum() for name in ("hip", "keystone")] == [16, 1]
-    assert built.model.fixed.sum() == 4
-    for number, (x, y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
-        here = blocks.centroids[span == number] / [4, 5, 1]
-        assert (here @ [x, y, 0] > np.abs(here @ [y, x, 0])).all()
-        lowest = blocks.centroids[(span == number) & (blocks.labels.position("course") == 0)]
-        assert (np.diff(lowest @ [-y, x, 0]) > 0).all()
-
-
-def test_too_many_units() -> None:
-    with pytest.raises(ItemRefused) as caught:
-        vault(unit=1e-6)
-    assert caught.value.findings == ((("unit",), "makes about 7e+07 units; at most 2,000,000 can be handled"),)

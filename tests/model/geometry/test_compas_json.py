@@ -71,15 +71,6 @@ def test_assembly_of_version_1_with_supports(tmp_path: Path) -> None:
     assert [notice.identifier for notice in geometry.notices] == ["mesh-supports-marked"]
 
 
-@pytest.mark.parametrize(("said", "support"), [(True, True), (False, False), (None, False), ("yes", False)])
-def test_a_support_is_one_that_says_so(tmp_path: Path, said: object, support: bool) -> None:
-    """By itself or by its attributes."""
-    for where in ("itself", "attributes"):
-        one = mesh("a", 0, 1)
-        (one["value"]["attributes"] if where == "attributes" else one["value"])["is_support"] = said
-        assert read(tmp_path, [one, mesh("b", 1, 1)]).names == ("support" if support else "a", "b")
-
-
 def test_assembly_of_version_2(tmp_path: Path) -> None:
     parts = {
         str(i): {"part": {"dtype": "compas.datastructures/Part", "data": {"attributes": {"shape": mesh(f"p{i}", i)}}}}
@@ -140,56 +131,11 @@ def test_malformed(tmp_path: Path, change: dict[str, Any], message: str) -> None
         read(tmp_path, entry)
 
 
-@pytest.mark.parametrize("content", [b"", b"{", b"\xff\xfe", b"[" * 100_000], ids=["empty", "open", "bytes", "deep"])
-def test_rubbish(tmp_path: Path, content: bytes) -> None:
-    path = tmp_path / "bad.json"
-    path.write_bytes(content)
-    with pytest.raises(GeometryFileError):
-        read_compas_json(path)
-
-
-def test_one_face_of_two_corners_among_others_is_refused(tmp_path: Path) -> None:
-    entry = mesh()
-    entry["data"]["face"]["6"] = [0, 10]
-    with pytest.raises(GeometryFileError, match="a face has fewer than three corners"):
-        read(tmp_path, entry)
-
-
-@pytest.mark.parametrize("point", [[0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
-def test_a_polyhedron_over_points_that_are_not_in_space_is_refused(tmp_path: Path, point: list[float]) -> None:
-    vertices, faces = box()
-    shape = {"dtype": "compas.geometry/Polyhedron", "data": {"vertices": [point, *vertices[1:]], "faces": faces}}
-    with pytest.raises(GeometryFileError, match="is not a well-formed COMPAS JSON file"):
-        read(tmp_path, shape)
-
-
-def test_a_transformation_that_is_no_matrix(tmp_path: Path) -> None:
-    entry = mesh()
-    entry["data"]["transformation"] = {"dtype": "compas.geometry/Translation", "data": {"matrix": [[1, 0, 0]]}}
-    with pytest.raises(GeometryFileError) as caught:
-        read(tmp_path, entry)
-    words = "is not a well-formed COMPAS JSON file: a transformation has not four by four numbers"
-    assert str(caught.value) == words
-
-
-def test_what_holds_no_object_is_passed_over(tmp_path: Path) -> None:
-    entry = mesh()
-    entry["data"]["transformation"] = "none"
-    document = [{"dtype": "compas.geometry/Frame", "data": [0, 1]}, {"dtype": "compas.data/Data"}, 7, entry]
-    assert heights(read(tmp_path, document)) == [0.5]
-
-
 def test_transformations_of_an_object_and_of_what_it_is_in_apply_in_turn(tmp_path: Path) -> None:
     inner = mesh()
     inner["data"]["transformation"] = translation(0, 0, 2)
     outer = {"data": {"transformation": translation(0, 0, 5), "geometry": inner}, "dtype": "x/Element"}
     assert heights(read(tmp_path, outer)) == [7.5]
-
-
-def test_a_mesh_without_content_is_told(tmp_path: Path) -> None:
-    geometry = read(tmp_path, [mesh("a"), {"dtype": "compas.datastructures/Mesh", "data": {}, "name": "nothing"}])
-    assert geometry.names == ("a",)
-    assert [notice.message for notice in geometry.notices] == ["1 object was left out, without faces: nothing"]
 
 
 def test_elements_that_a_model_lists_are_placed_by_those_above_them(tmp_path: Path) -> None:

@@ -130,30 +130,6 @@ def test_cells_of_one_set_that_lie_apart_are_blocks_of_their_own() -> None:
     assert volumes(joined) == pytest.approx([2, 1])
 
 
-@pytest.mark.parametrize(
-    ("lines", "message"),
-    [
-        ("*ELEMENT, TYPE=C3D8\n3, 1,2,x,4, 5,6,7,8\n", "invalid literal for int() with base 10: 'x'"),
-        ("*ELSET, ELSET=a, GENERATE\n1, b\n", "invalid literal for int() with base 10: 'b'"),
-        ("*ELSET, ELSET=a, GENERATE\n1\n", "not enough values to unpack (expected at least 2, got 1)"),
-        ("*ELSET, ELSET=a, GENERATE\n1, 2, 0\n", "range() arg 3 must not be zero"),
-    ],
-)
-def test_lines_that_hold_no_numbers(tmp_path: Path, lines: str, message: str) -> None:
-    text = LOW + HIGH + TWO
-    with pytest.raises(GeometryFileError) as caught:
-        read(tmp_path, text + lines)
-    assert str(caught.value) == f"line {len(text.splitlines()) + 2} cannot be read: {message}"
-
-
-def test_a_card_with_bytes_that_are_no_text(tmp_path: Path) -> None:
-    path = tmp_path / "mesh.inp"
-    path.write_bytes(LOW.encode() + b"*ELEM\xffNT, TYPE=C3D8\n1, 1,2,3,4, 5,6,7,8\n")
-    with pytest.raises(GeometryFileError) as caught:
-        read_inp(path)
-    assert str(caught.value) == "line 10 cannot be read: it has bytes that are no UTF-8"
-
-
 def test_a_range_far_beyond_the_elements_names_those_there_are(tmp_path: Path) -> None:
     geometry = read(tmp_path, LOW + HIGH + TWO + "*ELSET, ELSET=upper, GENERATE\n2, 1000000000\n")
     assert geometry.names == ("Eall", "upper")

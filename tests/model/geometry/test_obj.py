@@ -2,13 +2,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from mbla.model.geometry.geometry import LONGEST_LINE, Geometry, GeometryFileError
 from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.repair import repair
-from tests.model.shapes import box, build_raw, prism
+from tests.model.shapes import box, build_raw
 
 DATA = Path(__file__).parents[3] / "decks" / "tutorials" / "data"
 CUBE = """v 0 0 0
@@ -109,12 +108,6 @@ def test_comments_colours_tabs_and_continued_lines(tmp_path: Path) -> None:
     assert volumes(obj(tmp_path), f"# a cube\n\no cube\n{vertices}{faces}") == [1]
 
 
-def test_polygons(tmp_path: Path) -> None:
-    vertices, faces = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
-    lines = [f"v {x} {y} {z}" for x, y, z in vertices] + ["f " + " ".join(str(c + 1) for c in face) for face in faces]
-    assert volumes(obj(tmp_path), "\n".join(lines)) == [3]
-
-
 def test_unwelded_corners_are_merged_with_a_notice(tmp_path: Path) -> None:
     vertices, faces = box()
     lines = ["o cube"]
@@ -137,11 +130,6 @@ def test_an_empty_object_is_no_block(tmp_path: Path) -> None:
     assert volumes(obj(tmp_path), f"o nothing\no cube\n{CUBE}{FACES}o nothing\n") == [1]
 
 
-def test_file_without_faces_has_no_blocks(tmp_path: Path) -> None:
-    obj(tmp_path).write_text(CUBE)
-    assert len(read_obj(obj(tmp_path)).polyhedra) == 0
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -160,16 +148,6 @@ def test_malformed(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(GeometryFileError) as caught:
         read_obj(obj(tmp_path))
     assert str(caught.value) == message
-
-
-def test_binary_rubbish_is_no_traceback(tmp_path: Path) -> None:
-    path = obj(tmp_path)
-    path.write_bytes(np.random.default_rng(0).bytes(4000))
-    try:
-        read_obj(path)
-    except GeometryFileError:
-        return
-    assert len(read_obj(path).polyhedra) == 0
 
 
 def test_lines_go_on_after_a_backslash_even_where_the_file_ends(tmp_path: Path) -> None:
@@ -201,13 +179,6 @@ def test_vertices_that_no_face_uses_are_counted(tmp_path: Path, extra: str, word
     assert [(notice.identifier, notice.message) for notice in read_obj(obj(tmp_path)).notices] == [
         ("file-vertices-unused", f"{words} used by no face: is the file whole?")
     ]
-
-
-def test_a_single_face_is_read(tmp_path: Path) -> None:
-    obj(tmp_path).write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 1 2\n")
-    polyhedra = read_obj(obj(tmp_path)).polyhedra
-    assert polyhedra.vertices[polyhedra.loops].tolist() == [[0, 1, 0], [0, 0, 0], [1, 0, 0]]
-    assert len(polyhedra) == 1
 
 
 @pytest.mark.parametrize("before", ["", "# stones\n"])

@@ -63,7 +63,7 @@ GROUPS = {
             "mbla/model/solids/self_intersection.py",
             "mbla/model/transform.py",
         ),
-        tests=("tests/model/test_orientation.py", "tests/model/test_*.py", "tests/model/geometry/test_*.py"),
+        tests=("tests/model/solids/test_measures.py", "tests/model/test_*.py", "tests/model/geometry/test_*.py"),
     ),
     "contacts": Group(modules=("mbla/contacts/*.py",), tests=("tests/contacts/test_*.py", "tests/model/test_*.py")),
     "program": Group(

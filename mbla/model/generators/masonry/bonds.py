@@ -36,7 +36,7 @@ class Pattern:
     through: BoolArray
 
     def through_at(self, places: FloatArray) -> BoolArray:
-        """Whether the units at some places go through all leaves."""
+        """Whether the units at places (n,) [length] go through all leaves, (n,)."""
         found: BoolArray = self.through[np.searchsorted(self.joints, places)]
         return found
 
@@ -170,7 +170,7 @@ def random_levels(item: Masonry, fixed: Sequence[int]) -> FloatArray:
 def random_joints(
     item: Masonry, left: float, right: float, avoid: FloatArray, numbers: np.random.Generator
 ) -> FloatArray:
-    """Joints between two ends, each a random length after the one before, and off the joints of other courses.
+    """Joints (n,) between two ends, each a random length after the one before, off the joints of other courses.
 
     avoid : places that joints keep the overlap from, ascending
 

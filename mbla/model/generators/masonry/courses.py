@@ -57,7 +57,7 @@ def _left_of(corners: FloatArray, start: FloatArray, end: FloatArray) -> FloatAr
 
 
 def area(corners: FloatArray) -> float:
-    """Area inside an outline."""
+    """Area inside an outline (n, 2)."""
     about = corners - corners[0]
     after = np.roll(about, -1, axis=0)
     return float((about[:, 0] * after[:, 1] - about[:, 1] * after[:, 0]).sum() / 2)
@@ -240,7 +240,7 @@ def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tup
 
 
 def prisms(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:
-    """Prisms through a wall, faces outwards; outlines counter-clockwise along the wall and up."""
+    """Prisms through a wall, faces outwards; outlines (k, 2) counter-clockwise along the wall and up."""
     vertices, faces = [], []
     for outline, (near, far) in zip(outlines, across, strict=True):
         n = len(outline)

@@ -16,7 +16,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.walls import WallsItem
 from mbla.deck.tree import KeyPath
-from mbla.errors import Finding, Message
+from mbla.errors import Finding
 from mbla.model.generators.masonry.leg import Passage
 
 SAME_PLACE = 1e-6
@@ -45,12 +45,12 @@ class Line:
 
     @property
     def left(self) -> FloatArray:
-        """Direction across the wall, to the left of its line."""
+        """Direction (2,) across the wall, to the left of its line."""
         return np.array([-self.along[1], self.along[0]])
 
     @property
     def origin(self) -> FloatArray:
-        """Corner of the wall at its start and right face."""
+        """Corner (2,) of the wall at its start and right face."""
         place: FloatArray = self.start - self.before * self.along + self.right * self.left
         return place
 
@@ -70,7 +70,7 @@ class Line:
         return np.sort(np.stack([self.origin, far]), axis=0)
 
     def place_of(self, box: FloatArray) -> tuple[float, float]:
-        """Where a box of the plan begins and ends along the wall."""
+        """Where a box (2, 2) of the plan begins and ends along the wall."""
         places = np.sort((box - self.origin) @ self.along)
         return float(places[0]), float(places[1])
 
@@ -136,10 +136,10 @@ def check_plan(lines: Sequence[Line]) -> Iterator[Finding]:
     for first, second, box in _shared(lines):
         room = SAME_PLACE * lines[first].thickness
         if lines[first].along_x == lines[second].along_x:
-            yield lines[second].key, Message("wall-shape", f"the wall that ends here lies on wall {first}")
+            yield Finding("wall-shape", f"the wall that ends here lies on wall {first}", *lines[second].key)
         elif (np.ptp(box, axis=0) < lines[first].thickness - room).any():
             message = f"meets wall {first} over a part of its thickness only: let it end on its line, or clear of it"
-            yield lines[second].key, Message("wall-shape", message)
+            yield Finding("wall-shape", message, *lines[second].key)
 
 
 def _shared(lines: Sequence[Line]) -> Iterator[tuple[int, int, FloatArray]]:

@@ -80,11 +80,6 @@ def test_header_bond(tmp_path: Path) -> None:
     assert widths(built, 1, None) == [0.1, 0.2, 0.2, 0.2, 0.2, 0.1]
 
 
-def test_stretcher_is_running(tmp_path: Path) -> None:
-    running, stretcher = (build(tmp_path, length=2.0, courses=3, bond=bond) for bond in ("running", "stretcher"))
-    assert np.array_equal(running.blocks.vertices, stretcher.blocks.vertices)
-
-
 def test_leaves_without_headers_are_not_bonded(tmp_path: Path) -> None:
     built = build(tmp_path, length=2.0, courses=4, leaves=3)
     is_a_prism(built, 2.0, 0.6, 4)

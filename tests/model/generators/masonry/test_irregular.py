@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.walls import WallItem
-from mbla.model.generators.masonry.bonds import random_joints, random_levels, stream
+from mbla.model.generators.masonry.bonds import random_joints, stream
 from tests.model.generators.masonry.built import build, is_sound, least_distance, perpends
 
 IRREGULAR = {"seed": 7, "variation": 0.3, "heights": 0.2}
@@ -55,11 +55,6 @@ def test_heights_vary_but_heads_and_sills_stay(tmp_path: Path) -> None:
     assert {0.0, 0.45, 1.05, 1.2, 1.5} <= set(levels.tolist())
     assert np.diff(levels).std() > 0.01
     assert np.diff(levels).min() > 0.09
-
-
-def test_levels_without_variation_are_even() -> None:
-    item = WallItem.model_validate({"material": "stone", "unit": (0.4, 0.2, 0.15), "length": 4, "courses": 6})
-    assert random_levels(item, []).tolist() == (0.15 * np.arange(7)).tolist()
 
 
 def test_joints_avoid_what_they_are_told_to() -> None:

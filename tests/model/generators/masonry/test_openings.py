@@ -36,12 +36,6 @@ def test_a_lintel_is_one_block_that_rests_on_both_sides(tmp_path: Path, courses:
     assert built.bed_area() == pytest.approx(0.2 * beds, rel=1e-12)
 
 
-def test_a_lintel_of_its_own_material(tmp_path: Path) -> None:
-    built = with_opening(tmp_path, lintel={"bearing": 0.25, "material": "oak"})
-    assert built.blocks.densities[built.member("lintel")].tolist() == [700]
-    assert set(built.blocks.densities[~built.member("lintel")]) == {2000}
-
-
 @pytest.mark.parametrize(("embrace", "courses"), [(None, 1), (40, 2)])
 def test_a_flat_arch(tmp_path: Path, embrace: float | None, courses: int) -> None:
     keys = {} if embrace is None else {"embrace": embrace}

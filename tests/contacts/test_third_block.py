@@ -34,13 +34,6 @@ def test_block_on_a_thin_foot_does_not_touch_the_ground(height: float, side: flo
     assert ("thin-block-between" in said(contacts)) == (height <= 1e-3)
 
 
-def test_notice_names_the_bodies_and_the_block_between() -> None:
-    assert said(contacts_of(on_foot(1e-3), grounds=(ground(),)))["thin-block-between"] == (
-        "1 common surface within the tolerance left out, because a thin block lies between: ground and block[1] "
-        "stand 0.001 m, 0.001 of the block size apart on block[0]"
-    )
-
-
 @pytest.mark.parametrize("height", HEIGHTS)
 @pytest.mark.parametrize("turned", [False, True])
 def test_block_on_a_thin_foot_on_a_block(height: float, turned: bool) -> None:

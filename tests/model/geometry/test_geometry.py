@@ -1,17 +1,28 @@
-"""What holds for geometry files of every kind before a reader sees them: their size, and the memory they may take."""
+"""What holds for geometry files of every kind before a reader sees them: their size, and the memory they may take.
+
+What of a file becomes no block is told, or is a reason to refuse it.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import errno
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mbla.model import geometry
 from mbla.model.geometry import LEAST_MEMORY, MEMORY_PER_BYTE, READERS, read_geometry
-from mbla.model.geometry.geometry import Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, companions, member_name, parse_json
+from mbla.model.geometry.repair import repair
+from mbla.model.solids.polyhedra import join_polyhedra
+from tests.model.shapes import box, build_raw, raw
+from tests.trust.geometry.formats import FORMATS
+from tests.trust.geometry.shapes import no_faces
+from tests.trust.geometry.stones import arch
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 MIB = 1024**2
@@ -42,12 +53,6 @@ def test_memory_is_in_proportion_to_the_file_and_above_what_is_held(
     assert limits_while_reading(path, monkeypatch, can_limit=True) == [most]
 
 
-def test_there_is_no_limit_where_the_system_knows_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "x.obj"
-    path.write_text(TRIANGLE)
-    assert limits_while_reading(path, monkeypatch, can_limit=False) == [None]
-
-
 def test_a_file_that_takes_more_memory_than_it_may_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def reader(path: Path) -> Geometry:
         raise MemoryError
@@ -72,16 +77,6 @@ def test_a_file_beyond_the_largest_size_is_refused_unread(tmp_path: Path, monkey
         read_geometry(path)
     assert caught.value.message.identifier == "geometry-too-large"
     assert str(caught.value) == "is larger than 2 MB: divide it into several files"
-
-
-def test_a_file_of_the_largest_size_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "x.obj"
-    path.write_text(TRIANGLE)
-    monkeypatch.setattr(geometry, "LARGEST_FILE", len(TRIANGLE))
-    assert len(read_geometry(path).polyhedra) == 1
-    monkeypatch.setattr(geometry, "LARGEST_FILE", len(TRIANGLE) - 1)
-    with pytest.raises(GeometryFileError, match="is larger than 0 MB"):
-        read_geometry(path)
 
 
 def test_a_missing_file_is_told_as_such(tmp_path: Path) -> None:
@@ -123,3 +118,73 @@ def test_a_file_without_permission(tmp_path: Path, suffix: str, monkeypatch: pyt
     with pytest.raises(GeometryFileError) as caught:
         read_geometry(path)
     assert str(caught.value) == "cannot be read: Permission denied"
+
+
+def test_buffers_of_a_gltf(tmp_path: Path) -> None:
+    """Those in files beside it; not those inside it, and not what is missing, which its reader tells."""
+    (tmp_path / "two parts.bin").write_bytes(b"x")
+    uris = ["two%20parts.bin", "data:application/octet-stream;base64,AA==", "none.bin"]
+    buffers = [*({"uri": uri, "byteLength": 1} for uri in uris), {"byteLength": 1}]
+    path = tmp_path / "vault.gltf"
+    path.write_text(json.dumps({"asset": {"version": "2.0"}, "buffers": buffers}), encoding="utf-8")
+    assert companions(path) == [tmp_path.resolve() / "two parts.bin"]
+
+
+def test_none_for_others_and_for_what_cannot_be_read(tmp_path: Path) -> None:
+    for name, text in (("a.obj", "v 0 0 0"), ("b.gltf", "no"), ("c.gltf", "[]"), ("d.gltf", '{"buffers": 3}')):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        assert companions(tmp_path / name) == []
+    (tmp_path / "folder.gltf").mkdir()
+    assert companions(tmp_path / "folder.gltf") == []
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("stone_1.a-b", "stone_1.a-b"),
+        (" Gewölbe  1 ", "Gewolbe_1"),
+        (".x", "_.x"),
+        ("-7", "_-7"),
+        ("a.x", "a.x"),
+        ("石", "_"),
+        ("", ""),
+        ("  ", ""),
+    ],
+)
+def test_names_as_a_deck_can_write_them(text: str, name: str) -> None:
+    assert member_name(text) == name
+
+
+@pytest.mark.parametrize("kind", ["obj", "stl", "gltf", "compas"])
+def test_an_object_without_faces_is_named(tmp_path: Path, kind: str) -> None:
+    stones = arch()
+    stones[3] = no_faces(stones[3], np.random.default_rng(0))
+    files = FORMATS[kind].write(stones)
+    for name, content in files.items():
+        (tmp_path / name).write_bytes(content)
+    told = {notice.identifier: notice.message for notice in read_geometry(tmp_path / next(iter(files))).notices}
+    assert told["objects-empty"] == "1 object was left out, without faces: voussoir 3"
+
+
+def test_a_key_that_is_there_twice_is_refused() -> None:
+    assert parse_json(b'{"a": {"b": 1}}') == {"a": {"b": 1}}
+    with pytest.raises(ValueError, match="an object has the key 'b' twice"):
+        parse_json(b'{"a": {"b": 1, "b": 2}}')
+
+
+@pytest.mark.parametrize(
+    ("flat", "message"),
+    [
+        (box((2, 0, 0), (2, 0, 0)), "lie at the same place"),
+        (box((2, 0, 0), (3, 0, 0)), "lie at the same place"),
+        (box((2, 0, 0), (2 + 1e-60, 1e-60, 1e-60)), "measures 1.0e-60 only"),
+        (box((0, 0, 0), (1e-60, 1e-60, 1e-60)), "measures 1.0e-60 only"),
+    ],
+)
+def test_an_object_of_which_nothing_is_left_is_refused_by_name(flat: object, message: str) -> None:
+    surfaces = [raw(box()), raw(flat), raw(box((0, 3, 0), (1, 4, 1)))]  # type: ignore[arg-type]
+    geometry = repair(Geometry(join_polyhedra(surfaces), names=("a", "flat", "b")), 1e-3)
+    assert geometry.names == ("a", "flat", "b")
+    (defect,) = build_raw(geometry.polyhedra).defects
+    assert defect.block == 1
+    assert message in defect.message

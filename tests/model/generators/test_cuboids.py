@@ -8,9 +8,9 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.stack import StackItem
-from mbla.model.generators.cuboids import generate_stack
+from mbla.deck.items.trilithon import TrilithonItem
+from mbla.model.generators.cuboids import generate_stack, generate_trilithon
 from mbla.model.generators.generator import Site
-from tests.model.generators.assembly import assemble
 
 SITE = Site(1e-3, lambda path, name: Path(name))
 
@@ -45,6 +45,15 @@ def test_at_a_harmonic_overhang_of_one_every_edge_is_below_a_centre_of_gravity(c
         assert left[joint:].mean() + 0.5 == pytest.approx(left[joint - 1] + 1.0, abs=1e-12)
 
 
-def test_contacts(tmp_path: Path) -> None:
-    built = assemble(tmp_path, "stack: {material: stone, block: [1, 0.5, 0.2], count: 4, shift: [0.1, 0.1]}")
-    assert sorted(built.contacts.areas) == pytest.approx([0.36, 0.36, 0.36, 0.5], rel=1e-12)
+def test_places_and_members() -> None:
+    item = TrilithonItem.model_validate(
+        {"material": "stone", "upright": (0.6, 0.5, 3.0), "opening": 1.2, "lintel": (2.6, 0.7, 0.4)}
+    )
+    uprights, lintel = generate_trilithon(item, Site(1e-3, lambda path, name: Path(name))).parts
+    left, right = uprights.polyhedra.vertices.reshape(2, 8, 3)
+    assert (left.min(axis=0).tolist(), left.max(axis=0).tolist()) == ([0, 0, 0], [0.6, 0.5, 3])
+    assert right - left == pytest.approx(np.tile([1.8, 0, 0], (8, 1)))
+    assert lintel.polyhedra.vertices.min(axis=0) == pytest.approx([-0.1, -0.1, 3.0])
+    assert lintel.polyhedra.vertices.max(axis=0) == pytest.approx([2.5, 0.6, 3.4])
+    assert (uprights.member, lintel.member) == ("upright", "lintel")
+    assert uprights.labels["unit"].tolist() == [0, 1]

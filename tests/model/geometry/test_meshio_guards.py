@@ -1,4 +1,9 @@
-"""Cells of VTU files: those of too many or too few points are refused, pixels and voxels turned into what they are."""
+"""Cells of VTU files: those of too many or too few points are refused, pixels and voxels turned into what they are.
+
+Files that announce other numbers of points and cells than they have are refused, however few are missing.
+
+Names that a Gmsh file gives to its physical groups.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +20,8 @@ from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.geometry.meshio_guards import BY_AXES, CELLS, VARIABLE
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
+from tests.trust.geometry.formats import FORMATS
+from tests.trust.geometry.stones import arch
 
 CUBE = [list(map(float, corner)) for corner in box()[0]]
 ALONG_AXES = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -123,11 +130,6 @@ def test_cells_of_a_variable_number_of_points(tmp_path: Path) -> None:
     assert np.diff(geometry.polyhedra.loop_start).tolist() == [3, 5]
 
 
-def test_a_file_of_points_alone_holds_no_blocks(tmp_path: Path) -> None:
-    with pytest.raises(GeometryFileError, match=r"^the file holds no blocks: "):
-        vtu(tmp_path / "x.vtu", CUBE, [], [], [])
-
-
 @pytest.mark.parametrize(
     ("number", "other"),
     [(0, 7), (0, 5), (0, -1), (1, 5), (1, 3), (1, -4), (1, 99), (26, 5), (26, 3), ("end", 30), ("end", 32)],
@@ -159,3 +161,83 @@ def test_polyhedra_of_too_few_and_too_many_faces_or_points(tmp_path: Path, numbe
     assert str(caught.value) == (
         "is not a well-formed VTU file: the faces of polyhedron 0 (from 0) have more or fewer points than they announce"
     )
+
+
+@pytest.mark.parametrize(
+    ("kind", "one", "other", "message"),
+    [
+        ("ply", b"face 54", b"face 48", "announces 72 vertices and 48 faces, a line each, and has 126 lines"),
+        ("ply", b"\n4 0 3 2 1\n", b"\n5 0 3 2 1\n", "line 82 announces 5 corners and has 4"),
+        ("ply binary", b"face 54", b"face 48", "what its header announces takes 2688 bytes, it has 2808"),
+        ("ply binary", b"face 54", b"face 55", "it ends before all that its header announces"),
+        ("ply", b"\n4 0 3 2 1\n", b"\n" + 30 * b"1" + b" 0 3 2 1\n", "line 82 announces 1{20} corners and has 4"),
+        ("vtu cells", b'Cells="9', b'Cells="10', "is not a well-formed VTU file"),
+        ("vtu cells", b"12 12 12", b"12 99 12", "cell 1 .from 0. cannot be read: it is of VTK type 99; "),
+        ("msh cells", b"$Elements\n9", b"$Elements\n8", "announces 8 elements and has 9 elements"),
+        ("msh", b"$Nodes\n72", b"$Nodes\n1000000000000", "announces 1000000000000 nodes and has 72 nodes"),
+        (
+            "msh cells",
+            b"$Elements\n9",
+            b"$Elements\n1000000000000",
+            "announces 1000000000000 elements and has 9 elements",
+        ),
+    ],
+)
+def test_refused(tmp_path: Path, kind: str, one: bytes, other: bytes, message: str) -> None:
+    ((name, content),) = FORMATS[kind].write(arch()).items()
+    assert one in content
+    (tmp_path / name).write_bytes(content)
+    assert len(read_geometry(tmp_path / name).polyhedra)
+    (tmp_path / name).write_bytes(content.replace(one, other, 1))
+    with pytest.raises(GeometryFileError, match=message):
+        read_geometry(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("kind", "before", "words"),
+    [
+        ("ply", b"element vertex ", "PLY"),
+        ("ply", b"element face ", "PLY"),
+        ("ply binary", b"element vertex ", "PLY"),
+        ("ply binary", b"element face ", "PLY"),
+        ("vtu cells", b'NumberOfPoints="', "VTU"),
+        ("vtu", b'NumberOfCells="', "VTU"),
+    ],
+)
+@pytest.mark.parametrize("digits", [19, 5000])
+def test_a_number_of_many_digits(tmp_path: Path, kind: str, before: bytes, words: str, digits: int) -> None:
+    """Python refuses to read one of more than 4,300."""
+    ((name, content),) = FORMATS[kind].write(arch()).items()
+    assert content.count(before) == 1
+    (tmp_path / name).write_bytes(re.sub(before + rb"\d+", before + digits * b"1", content))
+    with pytest.raises(GeometryFileError) as caught:
+        read_geometry(tmp_path / name)
+    assert str(caught.value) == f"is not a well-formed {words} file: it announces a number of {digits} digits"
+
+
+@pytest.mark.parametrize("kind", ["msh", "msh cells"])
+def test_groups_name_their_blocks(tmp_path: Path, kind: str) -> None:
+    stones = arch()
+    ((name, content),) = FORMATS[kind].write(stones).items()
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert read_geometry(path).names == tuple(stone.name for stone in stones)
+
+
+def test_groups_without_names_name_nothing(tmp_path: Path) -> None:
+    ((name, content),) = FORMATS["msh cells"].write(arch()).items()
+    before, _, rest = content.partition(b"$PhysicalNames")
+    path = tmp_path / name
+    path.write_bytes(before + rest.partition(b"$EndPhysicalNames\n")[2])
+    assert read_geometry(path).names == ()
+
+
+def test_groups_of_cells_of_two_shapes(tmp_path: Path) -> None:
+    text = (
+        '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 "foot"\n3 2 "cap"\n$EndPhysicalNames\n'
+        "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n6 0 0 -1\n$EndNodes\n"
+        "$Elements\n2\n1 4 2 2 1 1 2 3 4\n2 7 2 1 1 1 2 5 3 6\n$EndElements\n"
+    )
+    path = tmp_path / "stones.msh"
+    path.write_text(text)
+    assert read_geometry(path).names == ("cap", "foot")
