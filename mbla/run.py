@@ -23,11 +23,13 @@ from mbla.results.run_record import as_expected, results_before, with_case
 from mbla.results.sta import StatusFile
 from mbla.results.stopped_run import leaves_nothing, stopped
 from mbla.results.write import write_results
-from mbla.solution import solve, verified_status, verify
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.solution import IterationRecord
+from mbla.solution.solve import solve
 from mbla.solution.tilt import Answer
 from mbla.solution.trials import trials_of
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 
 Progress = Callable[[str, IterationRecord], None]
 

@@ -19,9 +19,11 @@ from mbla.results.results import CaseResult
 from mbla.results.run_record import with_loads_found
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
-from mbla.solution import Checks, Solution, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Status
+from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.solve import solve_parts
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 
 HEAD = """\
 mbla: 1

@@ -21,7 +21,6 @@ from mbla.results.files import OutputFolder
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.run_record import results_before
-from mbla.results.vtu.mesh_files import write_model_vtu
 from mbla.solution.cone_solvers.choice import interior_point_method
 from mbla.solution.settings import solver_settings
 
@@ -47,6 +46,8 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
     settings, seconds = solver_settings(deck.analysis), {"read": read - started, "contacts": time.perf_counter() - read}
     results = results_before(deck, model, contacts, settings, seconds)
     if vtu:
+        from mbla.results.vtu.mesh_files import write_model_vtu
+
         with OutputFolder(options.folder_for(deck.path), f"{deck.path.stem}_check", options.force) as out:
             write_model_vtu(results, out)
     return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}

@@ -111,12 +111,16 @@ def check(options: argparse.Namespace) -> int:
         content, took = read_given_deck(deck, chosen)
         with loading():
             from mbla.cli.check import check as check_deck
-            from mbla.results.listing.listing import check_listing
-            from mbla.results.records.json_record import check_json, json_line
 
         results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
-        text = json_line(check_json(results, needs)) + "\n" if options.json else check_listing(results, needs)
-        print(text, end="", flush=True)
+        if options.json:
+            from mbla.results.records.json_record import check_json, json_line
+
+            print(json_line(check_json(results, needs)), flush=True)
+        else:
+            from mbla.results.listing.model_words import check_listing
+
+            print(check_listing(results, needs), end="", flush=True)
         if options.vtu:
             files = chosen.folder_for(deck) / f"{deck.stem}_check_*.vtu"
             print(f"  files: {files}", file=sys.stderr if options.json else sys.stdout, flush=True)

@@ -12,8 +12,7 @@ from mbla.results.outcome import associative_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
 from mbla.results.tilt_angle import angle_of
-from mbla.solution import Status
-from mbla.solution.solution import Mechanics
+from mbla.solution.solution import Mechanics, Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
 
 FAULTS = ("not-as-expected", "isolated-blocks")

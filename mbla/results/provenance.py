@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 from mbla import __version__
@@ -57,10 +58,22 @@ def _found() -> dict[str, str]:
     versions = {"mbla": __version__, "python": platform.python_version()}
     for library in (*LIBRARIES, *OPTIONAL):
         try:
-            versions[library] = version(library)
+            versions[library] = _version(library)
         except PackageNotFoundError:
             versions[library] = "not installed"
     return versions | {"platform": platform.platform(), "machine": platform.machine()}
+
+
+def _version(library: str) -> str:
+    """Version of an installed package, by the one line of its description that says it: reading all takes long.
+
+    Raises
+    ------
+    PackageNotFoundError
+        if it is not installed
+    """
+    line = re.search(r"^Version: *(\S+)", distribution(library).read_text("METADATA") or "", re.MULTILINE)
+    return line[1] if line else "unknown"
 
 
 def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:

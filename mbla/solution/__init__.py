@@ -10,20 +10,3 @@ solver. ``cone_solver`` is the door to those who solve cone programs: the interi
 (``condensed``, whose matrices ``linear_algebra`` factorises by the library that is there), and clarabel and HiGHS, each
 behind its adapter. Records of programs say who solved them.
 """
-
-from mbla.solution.solution import Checks, ContactMode, Mechanics, Solution, Status
-from mbla.solution.solve import solve, solve_parts
-from mbla.solution.verification.verify import verify
-from mbla.solution.verification.verify_points import verified_status
-
-__all__ = [
-    "Checks",
-    "ContactMode",
-    "Mechanics",
-    "Solution",
-    "Status",
-    "solve",
-    "solve_parts",
-    "verified_status",
-    "verify",
-]

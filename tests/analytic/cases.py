@@ -11,8 +11,11 @@ from mbla.deck.sections.output import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
-from mbla.solution import Checks, Solution, Status, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.solve import solve_parts
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.decks.folder import BENCHMARKS
 
 ASSOCIATIVE = "analysis.flow_rule=associative"

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from mbla.solution import Status
+from mbla.solution.solution import Status
 from tests.analytic.cases import ASSOCIATIVE, answer, answers
 
 EXACT = 1e-7

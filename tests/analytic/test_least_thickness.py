@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.solution import Status
+from mbla.solution.solution import Status
 from tests.analytic.planar import arch_load_factor, centre_line_arch
 from tests.line import HEAD, line_of, verified
 

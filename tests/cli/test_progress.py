@@ -27,27 +27,15 @@ def test_iterations_of_a_load_case(monkeypatch: pytest.MonkeyPatch) -> None:
     assert texts == ["push: program 2, iteration 7, load factor 0.123457"]
 
 
-def test_points_of_a_diagram(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_points_and_settings_of_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
     texts = shown(monkeypatch, study_commands)
-    show = study_commands._point_progress()
+    show = study_commands._progress("points")
     assert show is not None
     show(3, 24)
     assert texts == ["3 of 24 points"]
 
 
-def test_settings_of_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts = shown(monkeypatch, study_commands)
-    show = study_commands._rung_progress()
-    assert show is not None
-    show(2, 5, "draft", "")
-    show(2, 5, "draft", "push")
-    assert texts == ["setting 2 of 5: draft", "setting 2 of 5: draft, push done"]
-
-
-@pytest.mark.parametrize(
-    ("module", "progress"),
-    [(decks, "_progress"), (study_commands, "_point_progress"), (study_commands, "_rung_progress")],
-)
-def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch, module: Any, progress: str) -> None:
-    shown(monkeypatch, module, terminal=False)
-    assert getattr(module, progress)() is None
+def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown(monkeypatch, study_commands, terminal=False)
+    assert study_commands._progress("settings") is None
+    assert decks._progress() is None

@@ -16,7 +16,7 @@ from mbla.deck import read_deck
 from mbla.errors import MblaError
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.solution import Status
+from mbla.solution.solution import Status
 from tests.decks.folder import BENCHMARKS, DECKS
 from tests.performance.standard_set import FLOW_RULES
 

@@ -35,8 +35,10 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import select_cases
 from mbla.program.build import build_program
-from mbla.solution import solve, verified_status, verify
 from mbla.solution.settings import solver_settings
+from mbla.solution.solve import solve
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.performance.child import answer_as_child, in_child
 from tests.performance.recording import record
 from tests.performance.standard_set import DECKS, FLOW_RULES, SPATIAL

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mbla.program.resultants import assemble_convex
-from mbla.solution import Checks, Solution, verified_status
 from mbla.solution.resultants.solve_convex import solve_convex
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Status
+from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.line import HEAD, Line, line_of, solution_of
 
 DECKS = Path(__file__).parents[2] / "decks" / "benchmarks" / "closed_forms"

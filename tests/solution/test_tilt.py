@@ -11,11 +11,13 @@ import pytest
 
 from mbla.model.model import LoadCase
 from mbla.program import assemble
-from mbla.solution import Status, tilt, verified_status, verify
-from mbla.solution.solution import Checks, Solution
+from mbla.solution import tilt
+from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.tilt import Answer, never_collapses, tilt_angles
 from mbla.solution.trials import Trials
 from mbla.solution.verification.further_claims import never_failures, tilt_failures
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.line import Line, line_of, solution_of
 from tests.solution.by_hand import claim, found, state
 

@@ -10,7 +10,6 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.solution import flow_rules as flow
-from mbla.solution import verify
 from mbla.solution.associative import repair
 from mbla.solution.associative.polyhedral import _claim
 from mbla.solution.associative.repair import repaired_forces
@@ -29,6 +28,7 @@ from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, Spr
 from mbla.solution.standing.spring_state import convex_minimum, newton_step
 from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
+from mbla.solution.verification.verify import verify
 from tests.line import BLOCK, line_of, solution_of
 from tests.solution.by_hand import claim
 from tests.solution.failing_solver import said

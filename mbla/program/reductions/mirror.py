@@ -21,7 +21,7 @@ from mbla.program.program import Program
 from mbla.program.reductions.restrict import block_matrix, chosen_limits, restricted
 from mbla.program.reductions.scene import Scene
 
-FEW = 300
+FEW = 1000
 """Points of which all distances are compared: loading scipy's tree of points takes longer."""
 
 SYMMETRIC = 1e-9

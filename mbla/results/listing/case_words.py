@@ -22,7 +22,8 @@ from mbla.results.listing.forces import (
     work_lines,
 )
 from mbla.results.listing.mechanism_words import fall_lines, fall_sentences, mechanism_lines, mechanism_summary
-from mbla.results.listing.solving import path_lines, program_lines, reduction_lines
+from mbla.results.listing.model_words import reduction_lines, spaced
+from mbla.results.listing.solving import path_lines, program_lines
 from mbla.results.listing.text import full_sentence, heading, sentence
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
 from mbla.results.outcome import result_of
@@ -103,11 +104,6 @@ def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[
     lines += spaced([line for text in told for line in sentence(text)])
     known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
     return lines + spaced([line for text in known for line in sentence(text)])
-
-
-def spaced(lines: list[str]) -> list[str]:
-    """Lines with an empty one before them; nothing where there are none."""
-    return ["", *lines] if lines else []
 
 
 def _mechanism_label(case: CaseResult) -> str:

@@ -5,23 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
-
-from mbla import __version__
-from mbla.arrays import IntArray
-from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.answers import series_lines, worst_words
-from mbla.results.listing.case_words import case_lines, spaced
-from mbla.results.listing.contact_words import contact_lines, finding_lines
+from mbla.results.listing.case_words import case_lines
+from mbla.results.listing.contact_words import contact_lines
 from mbla.results.listing.figure_words import figures
-from mbla.results.listing.places import label_words
-from mbla.results.listing.solving import reduction_lines
-from mbla.results.listing.summary import notice_lines, warning_lines
-from mbla.results.listing.text import WIDTH, counted, entry, heading, number, sentence, table
+from mbla.results.listing.model_words import (
+    header_lines,
+    model_lines,
+    notice_lines,
+    settings_lines,
+)
+from mbla.results.listing.summary import warning_lines
+from mbla.results.listing.text import counted, entry, heading, number, sentence
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import unproved_words
-from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 from mbla.results.series import series_of, told_cases
 
@@ -37,7 +35,7 @@ def listing(results: Results, *, every_position: bool = False) -> str:
     every_position : sections of every position of a travelling load, not only of the worst
     """
     lines = [
-        *_header(results),
+        *header_lines(results),
         *settings_lines(results),
         *model_lines(results.model),
         *contact_lines(results.model, results.contacts),
@@ -52,27 +50,6 @@ def listing(results: Results, *, every_position: bool = False) -> str:
             lines += sentence(ANOTHER_POSITION.format(Path(results.deck.name).stem, series.cases[0].load_case.name))
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
-
-
-def check_listing(results: Results, needs: Mapping[str, CaseNeeds]) -> str:
-    """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
-    lines = [
-        *_header(results),
-        *settings_lines(results),
-        *model_lines(results.model),
-        *contact_lines(results.model, results.contacts),
-        *finding_lines(results.model, results.contacts.report),
-        *notice_lines(results.notices),
-        *(line for case, own in needs.items() for line in _needs(case, own)),
-    ]
-    lines += sentence("Nothing was solved.")
-    return "\n".join(line.rstrip() for line in lines) + "\n"
-
-
-def _needs(case: str, needs: CaseNeeds) -> list[str]:
-    lines = heading(f"Needed for load case {case}")
-    lines += [line for name, count in needs.counts.items() for line in entry(name.replace("_", " "), str(count))]
-    return lines + spaced(reduction_lines(needs.reductions))
 
 
 def verification_lines(results: Results, disagreements: Sequence[str]) -> list[str]:
@@ -90,125 +67,6 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     if not disagreements:
         lines += sentence("all else in the file agrees with what was recomputed")
     return lines
-
-
-def _header(results: Results) -> list[str]:
-    version = results.provenance.get("mbla", __version__)
-    deck = results.deck
-    lines = [f"mbla {version}   limit analysis of masonry as rigid blocks", "=" * WIDTH]
-    lines += sentence(results.model.title, "") if results.model.title else []
-    lines += entry("deck", deck.name)
-    lines += [line for name, _ in deck.sources[1:] for line in entry("includes", name)]
-    lines += [line for override in deck.overrides for line in entry("changed by the user", override)]
-    lines += entry("deck hash (SHA-256)", deck.sha256)
-    lines += entry("date", results.created)
-    return lines
-
-
-def settings_lines(results: Results) -> list[str]:
-    """Units and the settings in effect."""
-    units = results.model.units
-    lines = heading("Units and analysis settings")
-    lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")
-    return lines + [line for name, value in results.settings.items() for line in entry(name, value)]
-
-
-def model_lines(model: Model) -> list[str]:
-    """Blocks by group, joint laws, supports, loads of every case."""
-    blocks, units = model.blocks, model.units
-    lines = heading("Model")
-    lines += entry("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed")
-    lines += _extents(model)
-    lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
-    lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
-    added = int((blocks.added_masses > 0.0).sum())
-    if added:
-        mass = f"{number(float(blocks.added_masses.sum()))} {units.mass} on {counted(added, 'block')}"
-        lines += entry("added masses", f"{mass}; they count to the weights")
-    lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
-    lines += heading("Supports") + _supports(model)
-    lines += heading("Loads")
-    for case in model.load_cases:
-        lines += sentence(f"{case.name}")
-        lines += [line for words in case.dead_words or ("none",) for line in entry("  dead load", words)]
-        kind = "  live load" if case.settlement is None else "  gives way"
-        lines += [line for words in case.live_words for line in entry(kind, words)]
-    return lines
-
-
-def _extents(model: Model) -> list[str]:
-    """The box around the model and the sizes of its blocks: a wrong unit or scale shows here."""
-    blocks, length = model.blocks, model.units.length
-    least, greatest = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
-    spans = [f"{axis} {a:.4g} .. {b:.4g}" for axis, a, b in zip("xyz", least + 0.0, greatest + 0.0, strict=True)]
-    sizes = f"{number(blocks.sizes.min())} .. {number(blocks.sizes.max())} {length}, cube roots of the volumes"
-    return entry("extents", f"{', '.join(spans)} {length}") + entry("block sizes", sizes)
-
-
-def _group_table(model: Model) -> list[str]:
-    blocks, units = model.blocks, model.units
-    weights = blocks.masses * units.standard_gravity * units.force_per_mass_acceleration
-    rows = []
-    for name, chosen in _blocks_of_groups(model).items():
-        least, most = blocks.densities[chosen].min(), blocks.densities[chosen].max()
-        rows.append(
-            [
-                name,
-                str(len(chosen)),
-                str(int(model.fixed[chosen].sum())),
-                number(float(blocks.volumes[chosen].sum())),
-                number(float(weights[chosen].sum())),
-                number(least) if least == most else f"{number(least)} .. {number(most)}",
-            ]
-        )
-    volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
-    return table(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
-
-
-def _labels(model: Model) -> list[str]:
-    """What selectors can say within each group."""
-    lines = []
-    for name, chosen in _blocks_of_groups(model).items():
-        if words := label_words(model.blocks.labels, chosen):
-            lines += sentence(f"{name}: {words}")
-    return ["", *lines] if lines else []
-
-
-def _blocks_of_groups(model: Model) -> dict[str, IntArray]:
-    """Blocks of every group, groups in the order in which they appear."""
-    names, first, rows = np.unique(np.array(model.blocks.groups), return_index=True, return_inverse=True)
-    members = np.split(np.argsort(rows, kind="stable"), np.cumsum(np.bincount(rows))[:-1])
-    return {str(names[i]): members[i] for i in np.argsort(first)}
-
-
-def _joint_table(model: Model) -> list[str]:
-    stress = f"[{model.units.force}/{model.units.length}2]"
-    rows = [
-        [
-            joint.name,
-            number(joint.friction),
-            number(joint.cohesion),
-            number(joint.tensile_strength),
-            "unlimited" if np.isinf(joint.compressive_strength) else number(joint.compressive_strength),
-            number(joint.dilatancy),
-        ]
-        for joint in model.joints.values()
-    ]
-    head = ["joint law", "friction", f"cohesion {stress}", f"tensile {stress}", f"compressive {stress}", "dilatancy"]
-    return table(head, rows)
-
-
-def _supports(model: Model) -> list[str]:
-    lines = []
-    for ground in model.grounds:
-        only = "" if ground.blocks is None else f", under {counted(len(ground.blocks), 'block')} only"
-        lines += sentence(f"rigid {ground.label} with joint law {ground.joint}{only}")
-    for name, chosen in _blocks_of_groups(model).items():
-        held = int(model.fixed[chosen].sum())
-        if held:
-            lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
-    lines += [line for words in model.guides.words for line in sentence(words)]
-    return lines or sentence("none")
 
 
 def _recap(results: Results) -> list[str]:

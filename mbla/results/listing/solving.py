@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from mbla.model.model import Model
-from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState
 from mbla.results.listing.answers import status_name
 from mbla.results.listing.text import MOST_ROWS, counted, entry, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
@@ -118,44 +117,6 @@ def program_lines(solution: Solution) -> list[str]:
 
 
 # --- What each reduction left out of a load case, as a table: what is solved after each of them ---------------------
-
-
-FOUND = {
-    "glued": ("block", "in larger bodies or held"),
-    "points": ("contact point", "left out"),
-    "unloaded": ("block", "apart, without live load"),
-    "parts": ("part", "solved apart"),
-    "planar": ("part", "in its plane"),
-    "mirror": ("part", "by one half"),
-}
-"""What a reduction counts, and what becomes of it."""
-
-
-def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:
-    """A row for each reduction, in the order in which they are applied; nothing where none was looked for."""
-    if not steps:
-        return []
-    rows = [["none", "", *_sizes(steps[0].before)]]
-    rows += [[step.name, found_words(step), *_sizes(step.after)] for step in steps]
-    head = ["reduction", "found", "unknowns", "cones", "entries", "largest program"]
-    told = (
-        "Each row says what is left to solve with the live load after the reduction: velocities, friction cones (in a "
-        "plane pairs of half-lines), entries of the equilibrium matrices, velocities of the largest program. "
-        "Contact points inside of glued bodies are never set up, and not counted."
-    )
-    return [*table(head, rows, left=2), *sentence(told)]
-
-
-def found_words(step: ReductionStep) -> str:
-    """What a reduction found, or why nothing."""
-    if step.state is not StepState.APPLIED:
-        return str(step.state.value)
-    what, became = FOUND[step.name]
-    return f"{counted(step.found, what)} {became}"
-
-
-def _sizes(size: ProgramSize) -> list[str]:
-    return [str(size.unknowns), str(size.cones), str(size.entries), str(size.largest)]
 
 
 # --- The load path in words -----------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from mbla.results.collapse.failure import failure_of
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
 from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.mechanism_words import fall_summary, mechanism_summary
-from mbla.results.listing.text import counted, heading, number, sentence, table
+from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
@@ -24,13 +24,6 @@ CAUSES = ("isolated-blocks", "unsupported-parts")
 CAUSES_OF_A_FALL = ("near-misses",)
 """Those that do where a load case has no equilibrium: a contact that is missed may be all that it lacks."""
 HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
-
-
-def notice_lines(notices: Sequence[Notice], title: str = "Remarks") -> list[str]:
-    """Every notice and warning with its identifier; nothing where there is none."""
-    if not notices:
-        return []
-    return heading(title) + [line for notice in notices for line in sentence(str(notice))]
 
 
 def warnings_of(results: Results) -> tuple[Notice, ...]:

@@ -7,13 +7,15 @@ from functools import partial
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
-from mbla.solution import solve_parts, verified_status, verify
 from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, IterationRecord, Solution
+from mbla.solution.solve import solve_parts
 from mbla.solution.standing.standing import assess_dead_load
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.performance.rivals.answer import Answer, timed
 from tests.performance.rivals.structure import Structure
 

@@ -14,8 +14,11 @@ from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced
 from mbla.program.reductions.guided import _projector
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution import Status, solve_parts, verified_status, verify
 from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Status
+from mbla.solution.solve import solve_parts
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 
 DECK = """
 mbla: 1

@@ -15,15 +15,13 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.results.listing.listing import listing
+from mbla.results.listing.model_words import FOUND, found_words, reduction_lines
 from mbla.results.listing.solving import (
-    FOUND,
     METHODS,
     MOST_PROGRAMS,
     PURPOSES,
-    found_words,
     path_lines,
     program_lines,
-    reduction_lines,
     solver_json,
     solver_lines,
     solver_words,

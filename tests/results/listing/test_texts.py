@@ -16,7 +16,8 @@ import pytest
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.case_words import case_sections
-from mbla.results.listing.listing import check_listing, listing, verification_lines
+from mbla.results.listing.listing import listing, verification_lines
+from mbla.results.listing.model_words import check_listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
 from mbla.results.provenance import CaseNeeds

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from mbla.solution import Status, verified_status, verify
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.refine_equilibrium import BALANCED, misfit, sharpened
 from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Status
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from tests.extremes.structures_margin import OVERHANG
 from tests.extremes.weights import SIDE_BY_SIDE, TOWER
 from tests.line import BLOCK, line_of, line_of_file, load_factor, verified

@@ -13,9 +13,10 @@ from mbla.model.model import Model
 from mbla.model.supports.guides import Guides, held_components, joined, rigid_motions, slide, turn
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
-from mbla.solution import solve_parts, verify
 from mbla.solution.settings import solver_settings
+from mbla.solution.solve import solve_parts
 from mbla.solution.verification.statics import allowed_motion, left_to_balance, off_guides
+from mbla.solution.verification.verify import verify
 from tests.analytic.cases import BENCHMARKS
 from tests.results.synthetic import tower_model
 

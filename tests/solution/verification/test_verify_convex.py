@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from mbla.cli import main
-from mbla.solution import Checks, Solution
-from mbla.solution.solution import Mechanics
+from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.verification.verify import verify
 from tests.line import Line, line_of, solution_of
 from tests.solution.convex_structures import DECKS, TWIST, convex
