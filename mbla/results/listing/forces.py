@@ -127,7 +127,7 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
     else:
         fixed = f"With the {counted(resting, 'stationary free block')} fixed"
         touch = "touches" if out == 1 else "touch"
-        fixed += f" ({out} of them {touch} no moving block and can be removed)" if out else ""
+        fixed += f" ({out} of them {touch} no moving block and can be removed)," if out else ","
     if case.solution.flow_rule == "associative":
         return sentence(f"{what} {fixed} the load factor is the same.")
     return sentence(
