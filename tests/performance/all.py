@@ -26,7 +26,6 @@ HERE = Path(__file__).parent
 PREFIX = "bench_"
 
 ESTIMATED = {
-    "accuracy": 2.0,
     "contacts": 0.2,
     "deck": 0.3,
     "growth": 60.0,

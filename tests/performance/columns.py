@@ -15,7 +15,6 @@ class Columns:
 
 
 COLUMNS = {
-    "accuracy": Columns(("structure", "flow_rule", "setting"), ("processor_seconds",)),
     "all": Columns(("benchmark",), ("processor", "clock")),
     "deck": Columns(("case", "blocks"), ("seconds", "processor_seconds", "events_processor_seconds")),
     "growth": Columns(("family", "flow_rule", "blocks"), ("solver", "total", "clock")),

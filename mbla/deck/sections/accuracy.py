@@ -1,7 +1,7 @@
 """What the word ``analysis.accuracy`` sets: the knobs of speed against accuracy, and the value of each by preset.
 
-A knob that the deck gives wins. What a preset turns was measured knob by knob (``tests/performance/bench_accuracy.py``,
-``results/accuracy.csv``); what it leaves alone costs little or changes the structure that is analysed:
+A knob that the deck gives wins. What a preset turns was measured knob by knob (decks/tradeoff/README.md);
+what it leaves alone costs little or changes the structure that is analysed:
 
 - a looser solver saves nothing. Of the 10 to 50 iterations of a program the tolerance 1e-4 spares the last two to
   eight, and the repair of the rougher answer to proved bounds takes as long again: with 1e-8 a draft mostly proves its

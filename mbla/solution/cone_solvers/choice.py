@@ -6,7 +6,7 @@
 - ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer; programs with a
   quadratic cost only with a fast factorisation
 
-Measured side by side (``tests/performance/results/cone_solvers.csv``): below that size either takes milliseconds and
+Measured side by side (schemas/analysis.md): below that size either takes milliseconds and
 clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
 other.
 """

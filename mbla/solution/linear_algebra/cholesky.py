@@ -1,7 +1,7 @@
 """Factorisation of symmetric positive definite matrices of one pattern, by whichever library is there.
 
 Seconds of one factorisation on one thread, and of the analysis before the first, for the condensed matrices of
-running-bond walls whose joints differ by sixteen decades (``tests/performance/results/factorization.csv``)::
+running-bond walls whose joints differ by sixteen decades::
 
                                qdldl             superlu           cholmod
     unknowns              first     each     first     each    first     each
