@@ -14,7 +14,7 @@ from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState
 from mbla.results.listing.contact_words import contact_lines, finding_lines
 from mbla.results.listing.places import label_words
 from mbla.results.listing.text import WIDTH, counted, entry, heading, number, sentence, table
-from mbla.results.needs import CaseNeeds
+from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
 
