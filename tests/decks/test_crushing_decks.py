@@ -8,6 +8,8 @@ from mbla.deck import read_deck
 from tests.decks.folder import DECKS
 from tests.line import factor_of
 
+pytestmark = pytest.mark.long
+
 CLOSED_FORMS: tuple[tuple[str, int, tuple[str, ...]], ...] = (
     ("regressions/two_footings_crushing", 0, ()),
     ("regressions/two_footings_crushing", 1, ()),

@@ -29,6 +29,8 @@ from mbla.results.tables.tables import Formats, export_results, tables_of
 from mbla.results.verify.verify_file import verify_file
 from tests.results.odd_decks import DECKS
 
+pytestmark = pytest.mark.long
+
 NO_WORD = re.compile(r"(?<!\w)(nan|NaN|None|-?inf|Infinity)(?!\w)")
 """what Python writes where there is nothing to write"""
 SAID = {  # words of the verdict of what is no result, or not fully one
@@ -55,11 +57,7 @@ def check_words(text: str) -> None:
     assert found is None, text[max(0, found.start() - 80) : found.end() + 40]
 
 
-SLOW = ("crushing", "path", "frictionless", "settlement", "travel_not_verified", "far", "km", "mm")
-"""solved by many programs, or like others"""
-
-
-@pytest.mark.parametrize("name", [pytest.param(each, marks=[pytest.mark.long] * (each in SLOW)) for each in DECKS])
+@pytest.mark.parametrize("name", DECKS)
 def test_words_and_records(name: str) -> None:
     """Listing, summary, table of a notebook, JSON, tables, comparison with itself and verification."""
     run = run_of(name)
@@ -107,7 +105,6 @@ def test_a_picture_of_forces_says_what_it_leaves_out(name: str, count: int) -> N
     assert ("not drawn: 1 joint in tension" in words) == (count == 1)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", DECKS)
 def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
     """Every file is read by its readers; pictures of every kind are drawn, and the report has no bare ``nan``."""

@@ -19,6 +19,8 @@ from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task, record_of
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over
 
+pytestmark = pytest.mark.long
+
 TASK = Task("key", 1, {})
 SAYS = (
     "import sys, os, json, time\n"
