@@ -2,8 +2,8 @@
 
     sweep file ──> design ──> tasks ──> engine ──> journal ──> table ──> pictures
     file/          design/    plan.py   engine/    journal.py  tables/   pictures/
-                                        worker/
 
-What goes to a worker and comes back from it is plain data (``plan.py``, ``outcome.py``); ``command.py`` puts the parts
-together.
+What goes to a worker and comes back from it is plain data (``plan.py``); ``command.py`` puts the parts together.
+``interaction/`` and ``tradeoff/`` are sweeps that a command makes by itself, over an angle and over settings
+(``studies.py``).
 """

@@ -1,1 +1,7 @@
-"""What hands tasks to workers: one process, local ones, a cluster."""
+"""What solves the points: ``SerialEngine`` in one process beside this one, ``ClusterEngine`` on workers of Dask::
+
+    engine.py, cluster.py ──> on_worker.py ──> supervised.py ──> child.py ──> runner.py
+    tasks in, outcomes out    in a worker      its process: limits of time and memory, deaths
+
+Only ``connection.py`` imports Dask.
+"""
