@@ -12,8 +12,8 @@ from mbla.contacts.glue import Solids, solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.resultants import assemble_convex
-from mbla.solution.contact_modes import contact_modes
 from mbla.solution.glued import MOTIONS, rule_of
+from mbla.solution.mechanics import contact_modes
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.statics import contact_velocities
 

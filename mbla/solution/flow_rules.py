@@ -124,9 +124,9 @@ def _is_enough(flow: Flow, state: LawState) -> bool:
 
 
 def _lowest(flow: Flow) -> SequenceResult:
-    from mbla.solution.nonassociative.search_lower_factor import solve_lowest
+    from mbla.solution.nonassociative.search_lower_factor import search_lower_factor
 
-    return solve_lowest(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
+    return search_lower_factor(flow.program, _auto(flow), flow.analysis.lowest, flow.settings, flow.log)
 
 
 def _path(flow: Flow) -> SequenceResult:

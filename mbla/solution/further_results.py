@@ -33,7 +33,7 @@ BROKE_DOWN = Message(
 
 
 @dataclass(frozen=True)
-class Questions:
+class RequestedResults:
     """What is asked, and what every answer needs."""
 
     analysis: AnalysisSection
@@ -41,9 +41,9 @@ class Questions:
     log: Log
 
 
-def with_answers(result: PartResult, questions: Questions) -> PartResult:
+def with_further_results(result: PartResult, requested: RequestedResults) -> PartResult:
     """The part with everything that the analysis asks for beside its load factor."""
-    analysis, settings, log = questions.analysis, questions.settings, questions.log
+    analysis, settings, log = requested.analysis, requested.settings, requested.log
     knobs = knobs_of(analysis)
     if knobs.range:
         result = _unless_it_breaks_down(result, lambda found: _with_range(found, analysis, settings, log))

@@ -14,10 +14,9 @@ from mbla.solution.associative.certificate import cleaned_certificate
 from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
-from mbla.solution.nonassociative.locking import locks_at_dilatancy
+from mbla.solution.nonassociative.locking import Boundedness, locks_at_dilatancy, non_associative_bounded
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 from mbla.solution.standing.standing import stress_free_state
@@ -156,7 +155,9 @@ def _by_flow_rule(program: Program, analysis: AnalysisSection, settings: SolverS
     if associative.state is None:
         return _locked_by_dilatancy(result, analysis, settings, log)
     remarks = (*result.remarks, APART.format(associative.apart)) if associative.apart else result.remarks
-    result = replace(result, sequence=_by_law(program, associative, analysis, settings, log), remarks=remarks)
+    result = replace(
+        result, sequence=solve_nonassociative(program, associative, analysis, settings, log), remarks=remarks
+    )
     return _judged(result, analysis, settings, log) if analysis.flow_rule == "non_associative" else result
 
 
@@ -200,7 +201,7 @@ def _falls_before(result: PartResult, state: LawState, most: float, settings: So
     return StandingPath.from_dead_load(program, settings, result.associative.stress_free).look(below).falls
 
 
-def _by_law(
+def solve_nonassociative(
     program: Program, associative: AssociativeResult, analysis: AnalysisSection, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """The sequence by the flow rule of the analysis; its schemes are imported where one is asked for."""
@@ -230,7 +231,7 @@ def _locked_by_dilatancy(
     if analysis.flow_rule == "dilatancy":
         if locks_at_dilatancy(program, settings, log):
             return replace(result, associative=replace(associative, reason=NO_MECHANISM_AT_DILATANCY))
-        sequence = _by_law(program, associative, analysis, settings, log)
+        sequence = solve_nonassociative(program, associative, analysis, settings, log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     path = StandingPath.from_dead_load(program, settings, associative.stress_free)
     decision = non_associative_bounded(path)
@@ -238,7 +239,7 @@ def _locked_by_dilatancy(
         return replace(result, associative=replace(associative, reason=decision.reason))
     if decision.verdict is Boundedness.DOUBTFUL:
         return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
-    sequence = _by_law(program, associative, analysis, settings, log)
+    sequence = solve_nonassociative(program, associative, analysis, settings, log)
     sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
     result = replace(result, associative=replace(associative, reason=""), sequence=sequence)
     return _judged(result, analysis, settings, log, path)

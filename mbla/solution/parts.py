@@ -34,7 +34,7 @@ BELOW = 1e-2
 combined to the load factor between the two, balance the loads and keep within the yield conditions as both do."""
 
 
-def whole_state(
+def assemble_parts(
     parts: Sequence[Program],
     part: int,
     state: LawState,

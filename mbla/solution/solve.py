@@ -17,13 +17,13 @@ from mbla.program.reductions import Reduced
 from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further_results import Questions, with_answers
+from mbla.solution.further_results import RequestedResults, with_further_results
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import PartResult, solve_part
-from mbla.solution.parts import at_rest, whole_state
+from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing.standing import worst_standing
@@ -71,7 +71,7 @@ class _Stage:
         """
         if state is None:
             return None
-        whole = whole_state(self.parts, part, state, self.settings, self.log, collapse)
+        whole = assemble_parts(self.parts, part, state, self.settings, self.log, collapse)
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
@@ -107,8 +107,8 @@ def solve_parts(
             log(iteration)
 
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
-    questions = Questions(analysis, settings, record)
-    results = [_result_of(program, questions) for program in reduced.parts]
+    requested = RequestedResults(analysis, settings, record)
+    results = [_result_of(program, requested) for program in reduced.parts]
     solution = _combined(stage, analysis, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -127,10 +127,12 @@ def solve_parts(
     )
 
 
-def _result_of(program: Program, questions: Questions) -> PartResult:
+def _result_of(program: Program, requested: RequestedResults) -> PartResult:
     """What was found for one part; a system of equations that nobody expected to be singular is a failure told."""
     try:
-        return with_answers(solve_part(program, questions.analysis, questions.settings, questions.log), questions)
+        return with_further_results(
+            solve_part(program, requested.analysis, requested.settings, requested.log), requested
+        )
     except np.linalg.LinAlgError as error:
         reason = BROKE_DOWN.format(str(error).lower())
         failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())

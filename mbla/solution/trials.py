@@ -1,15 +1,33 @@
-"""The load cases that are solved for one of the deck: itself, or a tilting table at one angle after the other."""
+"""The load cases that are solved for one of the deck: itself, or a tilting table at one angle after the other.
+
+A settlement starts from the reaction of a structure at rest on a support that has not given way yet. Any reaction R0
+with which the structure is in equilibrium would do, since the answer R = R0 − λ U does not depend on it
+(:mod:`mbla.model.settlement`). It is taken from the least contact forces, in the sense of ½ ‖x‖², that carry the dead
+load while the support is held.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
 from dataclasses import replace
 
+import numpy as np
+
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
+from mbla.model.settlement import with_reference
+from mbla.program.assemble import assemble
+from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.solution.associative.repair import repaired_forces
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.mechanics import forces_of
+from mbla.solution.parts import at_rest
 from mbla.solution.settings import SolverSettings
-from mbla.solution.settlement import posed
+from mbla.solution.solution import IterationRecord
 from mbla.solution.tilt import Angles, Answer, tilt_angles
+from mbla.solution.verification.statics import contact_resultants
 from mbla.solution.verification.verify import verify
 
 
@@ -52,3 +70,46 @@ def _verified(model: Model, contacts: Contacts, angles: Angles) -> Angles:
     """The angle found is verified with what was found of the level table, which proves what lies before it."""
     answer = yield from angles
     return replace(answer, checks=verify(model, contacts, answer.load_case, answer.solution))
+
+
+MARGIN = 1e-9
+"""Added to the reaction at rest, over the unit of reactions: where statics alone gives the reaction, rounding must not
+make it too small to carry the dead load."""
+
+HIGH = 10.0
+"""Reaction over its unit, more than any structure is likely to need."""
+
+EVERY_POINT = ReductionSwitches(mirror=False, points=False)
+"""Least forces need every point by itself: without those inside the hull of others a middle support would carry
+nothing, and points that stand for two would count by half."""
+
+
+def _silent(_: IterationRecord) -> None:
+    """Iterations of the state at rest are not recorded."""
+
+
+def posed(
+    model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings, log: Log = _silent
+) -> LoadCase:
+    """A load case with its settlement posed; the same one where no support gives way.
+
+    Where no forces were found that carry the dead load while the support is held the reaction starts high: it is then
+    not for want of reaction if the programs that follow find no equilibrium.
+    """
+    settlement = load_case.settlement
+    if settlement is None:
+        return load_case
+    held = replace(load_case, live_load=load_case.dead_load, settlement=None)
+    solids = solids_of(replace(model, mirrors=()), contacts)
+    program = assemble(solids.model, solids.contacts, solids.load_case(held))
+    parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
+    total = np.zeros((len(contacts.points), 3))
+    for part in parts:
+        state = at_rest(part, 0.0, settings, log)
+        if state is None:
+            return with_reference(load_case, HIGH * settlement.unit)
+        repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
+        total += forces_of(part, state.forces if repaired is None else repaired[0])
+    on_blocks = contact_resultants(model, contacts, total)[settlement.blocks]
+    reaction = float((settlement.motions * on_blocks).sum())
+    return with_reference(load_case, reaction + MARGIN * settlement.unit)

@@ -13,9 +13,9 @@ from mbla.program import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
-from mbla.solution.settlement import posed
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load, worst_standing
+from mbla.solution.trials import posed
 from tests.decks.folder import deck_of, every_deck, name_of
 
 pytestmark = pytest.mark.long

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from mbla.solution import part
-from mbla.solution.nonassociative.boundedness import Boundedness, BoundednessResult
 from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -66,7 +66,7 @@ def test_a_wedge_whose_dilatancy_locks_it_has_no_load_factor(dilatancy: float) -
 
 def test_a_wedge_for_which_no_state_with_dilatancy_is_found_stays_locked(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
-    monkeypatch.setattr(part, "_by_law", lambda *arguments: nothing)
+    monkeypatch.setattr(part, "solve_nonassociative", lambda *arguments: nothing)
     result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=dilatancy", "joints.dry.dilatancy=10")
     assert result.status is Status.UNBOUNDED
     assert result.sequence is None

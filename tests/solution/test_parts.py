@@ -13,7 +13,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution import parts as whole
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.parts import at_rest, whole_state
+from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of
@@ -40,7 +40,7 @@ def collapse_of(part: Program) -> LawState:
 
 def test_a_part_at_rest_carries_the_load_of_the_one_that_collapses() -> None:
     parts = two_blocks()
-    found = whole_state(parts, 0, collapse_of(parts[0]), SETTINGS, lambda record: None)
+    found = assemble_parts(parts, 0, collapse_of(parts[0]), SETTINGS, lambda record: None)
     assert found is not None
     program, state = found
     assert program.scaling.load_factor(state.load_factor) == pytest.approx(0.5, rel=1e-6)
@@ -51,7 +51,9 @@ def test_a_part_at_rest_carries_the_load_of_the_one_that_collapses() -> None:
 def test_a_part_that_cannot_carry_that_load_leaves_no_state() -> None:
     """The other block tips at 0.625, and is asked for 1."""
     parts = two_blocks("parameters.g=1.6")
-    assert whole_state(parts, 0, replace(collapse_of(parts[0]), load_factor=1.0), SETTINGS, lambda record: None) is None
+    assert (
+        assemble_parts(parts, 0, replace(collapse_of(parts[0]), load_factor=1.0), SETTINGS, lambda record: None) is None
+    )
 
 
 def test_a_part_of_which_no_lower_state_is_found_is_looked_at_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,7 +68,7 @@ def test_a_part_of_which_no_lower_state_is_found_is_looked_at_where_it_is(monkey
         return None if len(asked) == 1 else replace(ending, load_factor=load_factor)
 
     monkeypatch.setattr(whole, "at_rest", forces_at)
-    assert whole_state(parts, 0, state, SETTINGS, lambda record: None, [state, ending]) is not None
+    assert assemble_parts(parts, 0, state, SETTINGS, lambda record: None, [state, ending]) is not None
     assert asked == pytest.approx([1.0 - whole.BELOW, 1.0])
 
 

@@ -15,12 +15,12 @@ from mbla.solution.associative.polyhedral import _claim
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative import boundedness, livesley
+from mbla.solution.nonassociative import livesley, locking
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
-from mbla.solution.nonassociative.boundedness import Boundedness, non_associative_bounded
 from mbla.solution.nonassociative.joint_law import exact_step
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
+from mbla.solution.nonassociative.locking import Boundedness, non_associative_bounded
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing import spring_state
@@ -112,7 +112,7 @@ def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, mon
 
 def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypatch: pytest.MonkeyPatch) -> None:
     undecided = Weakening(Outcome.UNDECIDED, 0, 0.5, "the time limit was reached")
-    monkeypatch.setattr(boundedness, "weaken_springs", lambda *arguments: undecided)
+    monkeypatch.setattr(locking, "weaken_springs", lambda *arguments: undecided)
     program = line_of(BLOCK, PRESSED).program
     result = non_associative_bounded(StandingPath.from_dead_load(program, SETTINGS))
     assert result.verdict is Boundedness.DOUBTFUL

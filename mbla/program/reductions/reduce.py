@@ -15,10 +15,9 @@ from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.mirror import SYMMETRIC, Mirror, half_of, mirror_about, mirror_candidates
 from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
-from mbla.program.reductions.points import without_inner_points
+from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
-from mbla.program.reductions.shares import program_by_shares
 from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of, step_of
 
 

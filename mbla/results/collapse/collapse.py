@@ -27,7 +27,7 @@ from mbla.program.assemble import yield_limits
 from mbla.results.collapse.interface_modes import TOGETHER, InterfaceMotion, interface_motion
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
-from mbla.solution.contact_modes import contact_modes
+from mbla.solution.mechanics import contact_modes
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
 

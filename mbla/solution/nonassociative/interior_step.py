@@ -36,9 +36,10 @@ from mbla.solution.nonassociative.interior_joints import (
     Products,
     StepProblem,
     moved,
+    outlying,
+    wanted,
     way_to_go,
 )
-from mbla.solution.nonassociative.interior_products import outlying, wanted
 from mbla.solution.nonassociative.interior_start import fresh_start, start_near
 from mbla.solution.solution import IterationRecord
 

@@ -41,8 +41,7 @@ from mbla.solution.nonassociative.factor_range import (
     unbalanced,
 )
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
-from mbla.solution.nonassociative.point_motion import motion_of, point_motion
-from mbla.solution.nonassociative.sparse_mechanism import Nearness, sparse_mechanism
+from mbla.solution.nonassociative.point_motion import Nearness, motion_of, point_motion, sparse_mechanism
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 
@@ -76,7 +75,7 @@ the one contact point that carries all its force. That fits the law and says not
 SOLVER = SolverSettings(tolerance=TOLERANCE, regularization=REGULARIZATION)
 
 
-def solve_lowest(
+def search_lower_factor(
     program: Program, sequence: SequenceResult, scheme: LowestScheme, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """Lowest load factor found from a solution within ``scheme.seconds``; never above that of the solution."""

@@ -16,9 +16,8 @@ from mbla.program.resultants.assemble import in_unit_of_force
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.contact_modes import AT_REST, contact_modes
 from mbla.solution.further_results import standing_on_model
-from mbla.solution.mechanics import contact_velocities
+from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
 from mbla.solution.resultants.convex_proximal import ConvexSequence, solve_convex_proximal
 from mbla.solution.resultants.convex_state import ConvexState

@@ -91,7 +91,7 @@ def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
 
     With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
     joints k times as stiff everything moves 1/k as far. Those of parts add up. Where points are as stiff as their
-    shares (:mod:`mbla.program.reductions.shares`) 1 is the stiffest of them; joints of light blocks with units of their
+    shares (:mod:`mbla.program.reductions.points`) 1 is the stiffest of them; joints of light blocks with units of their
     own are softer by the square of these.
     """
     stiffest = 1.0

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions.points import program_by_shares
 from mbla.program.reductions.scene import scene_of
-from mbla.program.reductions.shares import program_by_shares
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import assess_dead_load

@@ -164,7 +164,7 @@ def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
     assert summary(replace(results, cases=(changed,))).count("the time limit was reached") == 1
 
 
-def with_answers(results: Results, tangent: bool = True, factor: float = 0.5) -> Results:
+def with_further_results(results: Results, tangent: bool = True, factor: float = 0.5) -> Results:
     """The tower pushed, settling (reaction 30 - 20 x factor) and on a tilting table."""
     case = results.cases[0]
     assert case.solution.mechanics is not None
@@ -179,7 +179,7 @@ def with_answers(results: Results, tangent: bool = True, factor: float = 0.5) ->
 
 
 def test_what_the_load_factor_stands_for_is_shown_in_its_place(results: Results) -> None:
-    head, *rows = (line.split("  ") for line in summary_lines(with_answers(results))[1:5])
+    head, *rows = (line.split("  ") for line in summary_lines(with_further_results(results))[1:5])
     columns = [word.strip() for word in head if word.strip()]
     assert columns == ["load case", "status", "load factor", "reaction [N]", "angle [degree]", "associative"]
     shown = [[word.strip() for word in row if word.strip()] for row in rows]
@@ -192,7 +192,7 @@ def test_what_the_load_factor_stands_for_is_shown_in_its_place(results: Results)
 
 @pytest.mark.parametrize(("factor", "angle"), [(1.0, "12.5"), (0.7, "-")])
 def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, factor: float, angle: str) -> None:
-    tilted = with_answers(results, tangent=False, factor=factor)
+    tilted = with_further_results(results, tangent=False, factor=factor)
     lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
     assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
     assert lines[2].split() == ["tilted", "solved", angle, "-"]

@@ -8,7 +8,7 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.nonassociative.boundedness import (
+from mbla.solution.nonassociative.locking import (
     DOUBTFUL,
     ENDS,
     Boundedness,

@@ -7,8 +7,7 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative.interior_joints import StepProblem, exact_law
-from mbla.solution.nonassociative.interior_products import outlying
+from mbla.solution.nonassociative.interior_joints import StepProblem, exact_law, outlying
 from mbla.solution.nonassociative.interior_start import fresh_start, start_near
 from mbla.solution.nonassociative.joint_law import joint_state
 from tests.line import WALL, line_of

@@ -12,8 +12,8 @@ from mbla.program.program import Program
 from mbla.solution.nonassociative import search_lower_factor as lowest
 from mbla.solution.nonassociative.factor_range import factor_range, unbalanced
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
-from mbla.solution.nonassociative.search_lower_factor import solve_lowest
-from mbla.solution.nonassociative.sparse_mechanism import Nearness, sparse_mechanism
+from mbla.solution.nonassociative.point_motion import Nearness, sparse_mechanism
+from mbla.solution.nonassociative.search_lower_factor import search_lower_factor
 from mbla.solution.solution import Status
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.failing_solver import said
@@ -38,7 +38,7 @@ def searched(
     """The search, ended by tries and not by the clock."""
     monkeypatch.setattr(lowest, "STALE", tries)
     start = SequenceResult(Status.SOLVED, state, "", ())
-    result = solve_lowest(program, start, LowestScheme(seconds=600.0, seed=seed), SETTINGS, lambda record: None)
+    result = search_lower_factor(program, start, LowestScheme(seconds=600.0, seed=seed), SETTINGS, lambda record: None)
     assert result.state is not None
     assert result.state.load_factor <= state.load_factor
     assert unbalanced(program, result.state) < 1e-8
@@ -90,7 +90,7 @@ def test_a_block_that_slides_has_no_lower_factor(monkeypatch: pytest.MonkeyPatch
 def test_without_an_exact_state_it_does_not_begin(wall: tuple[Program, LawState]) -> None:
     program, state = wall
     rough = SequenceResult(Status.APPROXIMATE, replace(state, residual=1e-3), "did not converge", ())
-    result = solve_lowest(program, rough, LowestScheme(seconds=600.0), SETTINGS, lambda record: None)
+    result = search_lower_factor(program, rough, LowestScheme(seconds=600.0), SETTINGS, lambda record: None)
     assert result.state is rough.state
     assert result.remarks[0].identifier == "lowest-search-not-begun"
 
@@ -99,7 +99,7 @@ def test_without_time_it_ends_at_the_lower_end(wall: tuple[Program, LawState]) -
     program, state = wall
     start = SequenceResult(Status.SOLVED, state, "", ())
     scheme = LowestScheme.model_construct(seconds=0.0, seed=1)
-    result = solve_lowest(program, start, scheme, SETTINGS, lambda record: None)
+    result = search_lower_factor(program, start, scheme, SETTINGS, lambda record: None)
     lower = factor_range(program, state, SETTINGS, lambda record: None, 1).lower
     assert result.state is not None
     assert lower is not None
@@ -192,6 +192,6 @@ def test_the_time_limit_of_the_analysis_ends_the_search() -> None:
     program = line_of(BLOCK, "parameters.h=0.5").program
     start = SequenceResult(Status.SOLVED, solved(program), "", ())
     settings = replace(SETTINGS, deadline=0.0)
-    result = solve_lowest(program, start, LowestScheme(seconds=600.0), settings, lambda record: None)
+    result = search_lower_factor(program, start, LowestScheme(seconds=600.0), settings, lambda record: None)
     assert "0 mechanisms tried" in result.remarks[-1]
     assert result.state is start.state

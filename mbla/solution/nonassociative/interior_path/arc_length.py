@@ -28,8 +28,8 @@ from mbla.solution.nonassociative.interior_path.central_path import (
     residuals,
 )
 from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap
+from mbla.solution.nonassociative.interior_path.descent import Metric, metric_at, room
 from mbla.solution.nonassociative.interior_path.linearisation import LinearStep, linear_step
-from mbla.solution.nonassociative.interior_path.relative_changes import Metric, metric_at, room
 
 FIRST_STEP, LEAST_STEP = 0.5, 1e-9
 """Length of the first step, and of one at which the path is given up, in relative changes."""

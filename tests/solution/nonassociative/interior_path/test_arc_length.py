@@ -17,8 +17,8 @@ from mbla.solution.nonassociative.interior_path.central_path import (
     residuals,
 )
 from mbla.solution.nonassociative.interior_path.condensed_matrix import matrix_map
+from mbla.solution.nonassociative.interior_path.descent import inside, metric_at
 from mbla.solution.nonassociative.interior_path.linearisation import linear_step
-from mbla.solution.nonassociative.interior_path.relative_changes import inside, metric_at
 from tests.line import WALL, line_of
 from tests.solution.nonassociative.interior_path.structures import dome
 

@@ -16,7 +16,7 @@ from mbla.solution.nonassociative.interior_path.central_path import (
     state_of,
 )
 from mbla.solution.nonassociative.interior_path.condensed_matrix import matrix_map
-from mbla.solution.nonassociative.interior_path.relative_changes import inside, room
+from mbla.solution.nonassociative.interior_path.descent import inside, room
 from tests.line import WALL, line_of
 from tests.solution.nonassociative.interior_path.structures import mixed_program
 

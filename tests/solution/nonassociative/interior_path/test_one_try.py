@@ -11,13 +11,12 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative.interior_path import one_try, polish
+from mbla.solution.nonassociative.interior_path import one_try
 from mbla.solution.nonassociative.interior_path.arc_length import Stage
 from mbla.solution.nonassociative.interior_path.central_path import PathVector, central_path, first_point, state_of
 from mbla.solution.nonassociative.interior_path.condensed_matrix import matrix_map
 from mbla.solution.nonassociative.interior_path.descent import descend
-from mbla.solution.nonassociative.interior_path.one_try import Start, Try, go
-from mbla.solution.nonassociative.interior_path.polish import polished
+from mbla.solution.nonassociative.interior_path.one_try import Start, Try, go, polished
 from mbla.solution.nonassociative.joint_law import LawStep, exact_step
 from mbla.solution.nonassociative.law_state import LawState
 from tests.line import BLOCK, WALL, line_of
@@ -111,17 +110,17 @@ def test_exact_steps_are_ended_by_their_number(monkeypatch: pytest.MonkeyPatch) 
     path = central_path(program, 0.1, 0, None, 0.0)
     point = min(descend(path, matrix_map(program), first_point(path), 100), key=lambda p: state_of(program, p).residual)
     state = state_of(program, point)
-    monkeypatch.setattr(polish, "MOST_STEPS", 1)
-    monkeypatch.setattr(polish, "EXACT", 0.0)
+    monkeypatch.setattr(one_try, "MOST_STEPS", 1)
+    monkeypatch.setattr(one_try, "POLISHED_RESIDUAL", 0.0)
     steps: list[float] = []
 
     def step(*arguments: Any) -> LawStep:
         steps.append(arguments[3])
         return exact_step(*arguments)
 
-    monkeypatch.setattr(polish, "exact_step", step)
-    best, count = polished(program, stiffness_of(program), state, polish.STEPS)
+    monkeypatch.setattr(one_try, "exact_step", step)
+    best, count = polished(program, stiffness_of(program), state, one_try.STEPS)
     size = float((state.forces**2).sum())
-    assert [rho * size for rho in steps] == pytest.approx(polish.STEPS)
+    assert [rho * size for rho in steps] == pytest.approx(one_try.STEPS)
     assert best.residual < state.residual
     assert count >= len(steps)
