@@ -20,7 +20,7 @@ from mbla.results.hdf5.reading import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.outcome import result_of
 from mbla.results.record.stored import STORED
-from mbla.results.records.description import RECORD, record_page
+from mbla.results.records.description import RECORD
 from mbla.results.records.json_record import check_json, results_json
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import tables_of
@@ -98,10 +98,6 @@ def test_every_key_of_the_records_is_described_and_the_reverse(folder: Path) -> 
     for record in records(folder):
         walk(record, "", known, seen)
     assert set(known) - seen == set()
-
-
-def test_the_page_describes_the_record() -> None:
-    assert record_page() in (ROOT / "schemas" / "results.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", DECKS)

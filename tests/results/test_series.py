@@ -21,7 +21,7 @@ from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.records.json_record import json_line, results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import factor_of, series_of, told_cases
+from mbla.results.series import chosen_cases, factor_of, series_of, told_cases
 from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.verify.verify_file import verify_file
 from mbla.run import RunOptions, run
@@ -251,3 +251,15 @@ def test_an_angle_that_was_not_found_has_no_bounds() -> None:
     tilted = replace(case, load_case=replace(case.load_case, tilt=tilt))
     for each in (tilted, replace(tilted, solution=replace(tilted.solution, associative=None)), case):
         assert np.isnan(angle_bounds(each)).all()
+
+
+def test_cases_come_in_the_order_of_the_deck() -> None:
+    results = tower_results()
+    assert chosen_cases(results, None) == results.cases
+    assert chosen_cases(results, ["fall", "push_x"]) == results.cases
+    assert chosen_cases(results, ["fall"]) == results.cases[1:]
+
+
+def test_a_case_that_is_not_there_is_named_with_those_that_are() -> None:
+    with pytest.raises(UsageError, match=r"^no load case pull in the result; it has push_x, fall$"):
+        chosen_cases(tower_results(), ["push_x", "pull"])

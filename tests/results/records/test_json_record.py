@@ -1,15 +1,24 @@
+"""The JSON record: keys, values, reactions, and a mechanism that is found when it is asked for."""
+
+from __future__ import annotations
+
 import json
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
+import mbla
+from mbla.results.collapse.mechanics import load_on_structure
 from mbla.results.provenance import CaseNeeds
 from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.records.case_json import powers_json
 from mbla.results.records.json_record import check_json, json_line, results_json, verification_json
+from mbla.results.records.mechanism_json import OnDemand
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
+from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import STEP, full_results, tower_results
 
 
@@ -241,3 +250,63 @@ def test_powers_are_relative_to_that_of_the_own_load() -> None:
     with pytest.raises(KeyError, match="push_y"):
         results.case("push_y")
     assert results.case("push_x") is case
+
+
+def test_each_value_is_worked_out_once_and_only_when_asked_for() -> None:
+    asked: list[str] = []
+
+    def make(name: str) -> int:
+        asked.append(name)
+        return len(name)
+
+    record = OnDemand({"hinges": lambda: make("hinges"), "reach": lambda: make("reach")})
+    assert list(record) == ["hinges", "reach"]
+    assert "hinges" in record
+    assert "cracks" not in record
+    assert not asked
+    assert (record["reach"], record["reach"]) == (5, 5)
+    assert asked == ["reach"]
+    with pytest.raises(KeyError):
+        record["cracks"]
+
+
+def test_the_mechanism_asked_for_key_by_key_is_that_of_the_whole_record() -> None:
+    results = tower_results()
+    whole, lazy = results_json(results), results_json(results, on_demand=True)
+    mechanisms = 0
+    for full, case in zip(whole.pop("cases"), lazy.pop("cases"), strict=True):
+        expected, mechanism = full.pop("mechanism"), case.pop("mechanism")
+        assert case == full
+        assert mechanism == expected if expected is None else dict(reversed(list(mechanism.items()))) == expected
+        assert expected is None or list(mechanism) == list(expected)
+        mechanisms += expected is not None
+    assert mechanisms
+    assert lazy == whole
+
+
+def test_supports_and_their_sum() -> None:
+    """Tower and brick of 10 N each, both pushed with 5 N at load factor 1/2."""
+    case = results_json(tower_results())["cases"][0]
+    found = case["reactions"]
+    assert set(found["supports"]) == {"ground z = 0", "base (fixed blocks)"}
+    for support in found["supports"].values():
+        assert support["force"] == pytest.approx([-5, 0, 10])
+    assert found["total"]["force"] == pytest.approx([-10, 0, 20])
+    # the tower on its edge x = 1, y = 1/2 at the height z = 1 of the base: (x, y, z) × F
+    assert found["supports"]["base (fixed blocks)"]["moment"] == pytest.approx([5, -15, 2.5])
+
+
+def test_a_case_without_a_result_has_none() -> None:
+    results = tower_results()
+    failed = replace(results.cases[0], status=Status.NOT_VERIFIED)
+    record = results_json(replace(results, cases=(failed, results.cases[1])))
+    assert [case["reactions"] for case in record["cases"]] == [None, None]
+
+
+@pytest.mark.parametrize("deck", ["guided_blocks", "beam_on_three_supports"])
+def test_the_sum_balances_the_loads_with_guides_and_supports_that_settle(deck: str) -> None:
+    results = mbla.run(BENCHMARKS[deck].read_text(encoding="utf-8")).records
+    for case, record in zip(results.cases, results_json(results)["cases"], strict=True):
+        load = load_on_structure(results.model.of_case(case.load_case), case.load_case, record["load_factor"])
+        total = [*record["reactions"]["total"]["force"], *record["reactions"]["total"]["moment"]]
+        assert np.abs(np.array(total) + load).max() <= 1e-6 * np.abs(load).max()

@@ -1,3 +1,5 @@
+"""The frames of an animation, and the collection that plays them."""
+
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 

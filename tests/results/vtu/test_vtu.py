@@ -1,3 +1,5 @@
+"""Files of blocks, contact points and interfaces, and the frames of an animation."""
+
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
