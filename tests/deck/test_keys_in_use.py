@@ -77,7 +77,7 @@ def test_every_kind_of_geometry_file_is_in_a_deck(contents: list[DeckContent]) -
 @pytest.mark.parametrize("kind", EXACTLY_ONE[Load])
 def test_every_kind_of_load_has_a_test_file(kind: str) -> None:
     assert kind in LOAD_KINDS or kind in ("loads", "travel", "tilt")  # these make a case, or stand for other loads
-    name = {"loads": "test_named_loads"}.get(kind, LOAD_TESTS.get(kind, f"test_{kind}"))
+    name = {"loads": "test_load_case"}.get(kind, LOAD_TESTS.get(kind, f"test_{kind}"))
     assert f"{{{kind}: " in (MODEL / "loads" / f"{name}.py").read_text(encoding="utf-8")
 
 
