@@ -1,7 +1,7 @@
 """Solution: load factor, forces and mechanism of a program, and their verification.
 
 ``solve`` goes through the parts of a structure, ``part`` and ``flow`` through flow rule and scheme of one part,
-``beside`` through what is asked for besides: standing, range, peak, least forces. The schemes (``proximal``,
+``beside`` through what is asked for besides: standing, range, peak. The schemes (``proximal``,
 ``interior``, ``load_path``, ``lowest``, ``published``) work on states of the law of the joints (``law_state``,
 ``exact_law``). ``convex`` does the same with interface resultants.
 

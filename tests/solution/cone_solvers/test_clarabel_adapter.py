@@ -1,13 +1,16 @@
 from __future__ import annotations
 
+import gc
+import weakref
 from dataclasses import replace
 
 import clarabel
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 from mbla.errors import SolverError
-from mbla.program.kinematic import kinematic_form
+from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.solution.cone_solvers.clarabel_adapter import STATUS_MAP, ClarabelProgram, regularization
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
@@ -86,3 +89,14 @@ def test_regularisation_follows_kind_and_size_unless_given() -> None:
     quadratic = replace(program, quadratic=np.ones(len(program.cost)))
     assert regularization(program, settings) > regularization(many, settings) > regularization(quadratic, settings)
     assert regularization(quadratic, replace(settings, regularization=1e-5)) == 1e-5
+
+
+def test_a_program_that_was_solved_is_freed() -> None:
+    matrix = sp.csc_array(np.array([[1.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]))
+    cone_program = ConeProgram(np.array([1.0, 2.0]), matrix, np.array([1.0, 0.0, 0.0]), n_half_lines=2, n_cones=0)
+    program = ClarabelProgram(cone_program, SolverSettings(tolerance=1e-8), lambda record: None)
+    assert program.solve(1, 1.0).status is Status.SOLVED
+    freed = weakref.ref(program)
+    del program
+    gc.collect()
+    assert freed() is None
