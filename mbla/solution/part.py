@@ -21,6 +21,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 from mbla.solution.standing.standing import stress_free_state
 from mbla.solution.standing.standing_path import StandingPath
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
@@ -29,7 +30,7 @@ APART = Message("associative-bounds-apart", "with associative flow {}")
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
-RANGE_RESIDUAL = 1e-4
+RANGE_RESIDUAL = SOLVED_RESIDUAL
 """Residual of a state up to which its range is asked for, and whether more is carried on the way to it."""
 
 SUSPECT = 0.85

@@ -25,12 +25,13 @@ from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.thresholds import EXACT_RESIDUAL
 
 TOUCHING = (1e-6, 1e-8, 1e-10)
 """Velocities, over the largest contact speed, below which a point counts as at rest; the next one where the ends found
 with it miss the law. States are exact to 1e-9 and better, so that noise stays below the first."""
 
-END_RESIDUAL = 1e-6
+END_RESIDUAL = EXACT_RESIDUAL
 """Residual up to which an end is a state of the law; that of the state found where that is larger."""
 
 NOISE = 10.0

@@ -30,9 +30,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
-
-SOLVED_RESIDUAL, APPROXIMATE_RESIDUAL = 1e-4, 1e-2
-"""Residuals of the exact law up to which the corrected state counts as solved, and as approximate."""
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NO_LIMIT = 1e-9
 """Limit of shear, in mean block loads, below which an open point has none: its normal force is the solver's noise."""

@@ -48,6 +48,7 @@ from mbla.solution.nonassociative.law_steps import (
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing.weak_spring_continuation import Weakening
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, EXACT_RESIDUAL, SOLVED_RESIDUAL
 
 STEP = 0.03
 """ε: size of a proximal step relative to the gravity state; 0.01 needs more iterations a step, 0.1 more steps."""
@@ -77,9 +78,9 @@ FITTING, LAST_STEPS = 1e-9, 8
 after it. Sliding at an angle to friction counts in the residual with the square of the angle, in the load factor with
 the angle itself: the residual alone does not tell."""
 
-SOLVED = 1e-6
-WARNED = 1e-4
-APPROXIMATE = 1e-2
+SOLVED = EXACT_RESIDUAL
+WARNED = SOLVED_RESIDUAL
+APPROXIMATE = APPROXIMATE_RESIDUAL
 """Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
 
 AS_ASKED = Message(

@@ -36,6 +36,7 @@ from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMa
 from mbla.solution.nonassociative.interior_path.descent import descend
 from mbla.solution.nonassociative.joint_law import exact_step
 from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.thresholds import EXACT_RESIDUAL
 
 EXACT = 1e-9
 """Residual at which a try ends, unless a rougher or a sharper one is asked for."""
@@ -55,7 +56,7 @@ LOWER = 1.0 / 3.0
 PATIENCE = 300
 """Factorisations along the path without a lower point after which it is given up."""
 
-SOLVED = 1e-6
+SOLVED = EXACT_RESIDUAL
 """Residual of a state of the exact law."""
 
 FIRST_POLISH = 1e-3

@@ -35,11 +35,12 @@ from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.proximal import rough_result
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
-WARNED = 1e-4
+WARNED = SOLVED_RESIDUAL
 """Residual up to which a state still counts as solved, with a remark."""
 
-USABLE = 1e-2
+USABLE = APPROXIMATE_RESIDUAL
 """Residual up to which a load factor is worth reporting, as approximate."""
 
 ROUGH = 0.1
