@@ -11,7 +11,6 @@ from mbla.model import build_model
 from mbla.program import Program, assemble
 from mbla.program.kinematic import friction_polygon
 from mbla.program.reductions import allowed_reductions, reduce_program
-from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
@@ -90,7 +89,7 @@ def test_walls(wall: str, before: float, after: float, status: Status) -> None:
 def test_with_a_polyhedron_the_prism_is_its_prism() -> None:
     program = line_of(BLOCK, "parameters.h=0.5", "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]").program
     facets = friction_polygon(8, circumscribed=False)
-    associative = solve_associative(program, SETTINGS, ignored, form=associative_form(program, facets))
+    associative = solve_associative(program, SETTINGS, ignored, facets=facets)
     for solver in ("clarabel", "highs"):
         result = solve_livesley(program, associative, replace(SETTINGS, solver=solver), ignored, facets=facets)
         assert result.programs[-1].load_factor == pytest.approx(result.programs[0].load_factor, rel=1e-6)
