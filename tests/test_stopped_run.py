@@ -38,7 +38,8 @@ def stop_at(name: str, error: BaseException, patch: pytest.MonkeyPatch) -> None:
     def solve_or_stop(*of_case: Any) -> CaseResult:
         if of_case[3].name == name:
             raise error
-        return solve(*of_case)
+        solved: CaseResult = solve(*of_case)
+        return solved
 
     patch.setattr(run_deck, "solve_case", solve_or_stop)
 

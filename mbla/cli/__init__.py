@@ -14,7 +14,8 @@ from typing import NoReturn
 
 from mbla import __version__
 from mbla.cli import decks, export, reference, show, study_commands, sweep_commands
-from mbla.cli.terminal import drop_output, failed, prepare_streams
+from mbla.cli.terminal import drop_output, prepare_streams
+from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
 from mbla.process.memory_limit import refuse_too_low_limits
 from mbla.process.threads import limit_threads

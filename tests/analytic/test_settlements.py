@@ -11,8 +11,8 @@ from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, 
 from mbla.results.listing.answers import reaction_of
 from mbla.results.results import CaseResult, Results
 from mbla.run import RunOptions, run
-from tests.analytic.cases import BENCHMARKS
 from tests.analytic.thrust_line import springer_thrusts, voussoirs
+from tests.decks.folder import BENCHMARKS
 
 WEIGHT = 2000 * 9.81
 EXACT = 1e-7

@@ -57,6 +57,6 @@ def test_the_wall_touches_in_its_bed_joints_only(
     found = notices(record)
     assert "slivers-dropped" not in found
     if near_misses:
-        assert found["near-misses"].startswith(f"{near_misses} pairs")
+        assert found["near-misses"].startswith(f"{near_misses} near misses")
     else:
         assert "near-misses" not in found

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mbla import run
 from mbla.results.exit_status import exit_code
 from mbla.results.listing.verdict_words import load_factor_words, uniqueness_words
 from mbla.results.results import CaseResult
@@ -107,8 +108,8 @@ def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative
     The load factor without normality lies between them, above what the static bound proves; the upper limit that is
     named beside it is the kinematic bound, which it does not exceed.
     """
-    deck = BENCHMARKS["cocchetti_rizzi_mu_310_stands"]
-    model, result = case_of(deck.read_text(encoding="utf-8"), "analysis.accuracy=draft", WITHOUT)
+    results = run(BENCHMARKS["cocchetti_rizzi_mu_310_stands"], set=("analysis.accuracy=draft", WITHOUT)).records
+    model, (result,) = results.model, results.cases
     checks = result.checks
     assert checks.static_bound < factor(result) < checks.kinematic_bound
     assert 1e-5 < checks.gap < 1e-3

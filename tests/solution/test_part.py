@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.errors import Message
 from mbla.solution import part
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
@@ -73,7 +74,9 @@ def test_a_wedge_for_which_no_state_with_dilatancy_is_found_stays_locked(monkeyp
 
 
 def test_what_may_lock_without_dilatancy_too_has_no_verified_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    doubtful = BoundednessResult(Boundedness.DOUBTFUL, None, "whether it locks is doubtful")
+    doubtful = BoundednessResult(
+        Boundedness.DOUBTFUL, None, Message("locking-doubtful", "whether it locks is doubtful")
+    )
     monkeypatch.setattr(part, "non_associative_bounded", lambda *arguments: doubtful)
     result = result_of(wedge(2.0), ALONG)
     assert result.status is Status.NOT_VERIFIED

@@ -34,7 +34,7 @@ TILT = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.ze
 BY_ITSELF = StandingResult(Standing.SELF_STRESS, 1, "the tower hangs between two walls")
 FAILED = {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),), "kinematic_bound": 0.4}
 PATH = (PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, 1e-7))
-NONE = {"mechanics": None}
+NONE: dict[str, Any] = {"mechanics": None}
 
 
 def case(

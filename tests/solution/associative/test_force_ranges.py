@@ -151,5 +151,5 @@ def test_what_was_not_found_is_told() -> None:
     late = replace(SETTINGS, deadline=0.0)
     result = force_ranges(line.program, state, line.contacts.interface_of_point, late, ignored, first=5)
     assert np.isnan(result.ranges).all()
-    assert "not found for 4 interfaces" in result.remark
+    assert "not found for 4 interfaces" in str(result.remark)
     assert [record.program for record in result.programs] == [5]

@@ -116,10 +116,10 @@ def test_highs_gives_the_same_and_programs_are_numbered_on() -> None:
 
 def test_the_bracket_is_told() -> None:
     between = solved(pushed(11.0), 8).bracket
-    assert "8 sides" in between
-    assert "0.282842" in between
-    assert "0.305615" in between
-    assert "7.5 % apart" in between
+    assert "8 sides" in str(between)
+    assert "0.282842" in str(between)
+    assert "0.305615" in str(between)
+    assert "7.5 % apart" in str(between)
 
 
 def test_what_the_polyhedra_say_together() -> None:

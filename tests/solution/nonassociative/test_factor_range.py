@@ -140,7 +140,7 @@ def test_a_block_between_walls_has_no_upper_end() -> None:
     assert result.lower is not None
     assert result.lower.load_factor * program.scaling.live == pytest.approx(0.4, rel=1e-8)
     assert result.upper is None
-    assert "carry any multiple" in result.reason
+    assert "carry any multiple" in str(result.reason)
     assert [record.kind for record in result.programs] == ["range, lower", "range, upper"]
     assert [record.program for record in result.programs] == [7, 8]
 
@@ -186,4 +186,4 @@ def test_a_factor_beyond_what_its_mechanism_allows_has_no_upper_end() -> None:
     wrong = LawState(state.forces, state.velocities, 3.0 * state.load_factor, state.residual)
     result = factor_range(line.program, wrong, SETTINGS, lambda record: None, 1)
     assert result.upper is None
-    assert "on the wrong side of the factor found" in result.reason
+    assert "on the wrong side of the factor found" in str(result.reason)

@@ -17,7 +17,7 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve_parts
 from mbla.solution.verification.statics import allowed_motion, left_to_balance, off_guides
 from mbla.solution.verification.verify import verify
-from tests.analytic.cases import BENCHMARKS
+from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_model
 
 ARMS = np.array([1.0, 2.0, 0.5])

@@ -19,11 +19,9 @@ OBLIQUE = "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]"
 
 
 @cache
-def answer(
-    sides: int = 8, form: str = "kinematic", solver: str = "clarabel", text: str = WALL, *overrides: str
-) -> tuple[Line, Solution]:
+def answer(sides: int = 8, solver: str = "clarabel", text: str = WALL, *overrides: str) -> tuple[Line, Solution]:
     line = line_of(text, OBLIQUE, *(overrides or ("parameters.n=3",)))
-    result = solve_polyhedral(line.program, sides, form, SolverSettings(1e-8, solver=solver), lambda _: None)
+    result = solve_polyhedral(line.program, sides, SolverSettings(1e-8, solver=solver), lambda _: None)
     assert result.inner.state is not None
     assert result.outer.state is not None
     inner, outer = (mechanics_of(line.program, found.state) for found in (result.inner, result.outer) if found.state)
@@ -39,10 +37,9 @@ def checked(line: Line, solution: Solution) -> tuple[Checks, Status]:
 
 
 @pytest.mark.parametrize("sides", [3, 8])
-@pytest.mark.parametrize("form", ["kinematic", "static"])
 @pytest.mark.parametrize("solver", ["clarabel", "highs"])
-def test_the_bracket_is_proved_and_holds_the_true_factor(sides: int, form: str, solver: str) -> None:
-    line, solution = answer(sides, form, solver)
+def test_the_bracket_is_proved_and_holds_the_true_factor(sides: int, solver: str) -> None:
+    line, solution = answer(sides, solver)
     checks, status = checked(line, solution)
     assert checks.verified, checks.failures
     assert status is Status.APPROXIMATE  # both programs are solved, and leave the load factor a bracket
@@ -55,9 +52,7 @@ def test_the_bracket_is_proved_and_holds_the_true_factor(sides: int, form: str, 
 
 
 def test_with_cohesion_and_tension() -> None:
-    line, solution = answer(
-        8, "kinematic", "clarabel", BLOCK, "parameters.c=4000", "parameters.ft=2000", "parameters.h=0.5"
-    )
+    line, solution = answer(8, "clarabel", BLOCK, "parameters.c=4000", "parameters.ft=2000", "parameters.h=0.5")
     checks, _ = checked(line, solution)
     assert checks.verified, checks.failures
     assert checks.static_bound < checks.kinematic_bound
@@ -65,7 +60,7 @@ def test_with_cohesion_and_tension() -> None:
 
 def test_where_the_polyhedra_meet_the_case_is_solved() -> None:
     """Pushed along its tangents the wall slides where both polygons touch the circle."""
-    line, solution = answer(8, "kinematic", "clarabel", WALL, "load_cases.push.live=[{acceleration: [1, 0, 0]}]")
+    line, solution = answer(8, "clarabel", WALL, "load_cases.push.live=[{acceleration: [1, 0, 0]}]")
     checks, status = checked(line, solution)
     assert status is Status.SOLVED, checks.failures
     assert checks.gap < 1e-6

@@ -51,9 +51,9 @@ def assembly(seed: int, small: bool = False) -> Tree:
 
 
 def at_points(deck: Tree) -> Tree:
-    """The same deck by an analysis that has no conditions on interfaces: where joints crush, by the static form."""
+    """The same deck by points: where joints crush, by a solver without conditions on interfaces."""
     crushes = any("compressive_strength" in law for law in deck["joints"].values())
-    return deck | {"analysis": deck["analysis"] | {"form": "static"}} if crushes else deck
+    return deck | {"analysis": deck["analysis"] | {"solver": "mbla"}} if crushes else deck
 
 
 def kind_of(deck: Tree) -> str:
