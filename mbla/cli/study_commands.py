@@ -69,20 +69,14 @@ def add_interact(commands: Any) -> None:
 
 def interact(options: argparse.Namespace) -> int:
     """Solve the points of a diagram; the table goes to standard output, with ``--json`` the object alone."""
-    refuse_unfit_name(options.deck)
-    run = run_options(options)
-    content, _ = read_given_deck(options.deck, run)
-    with loading():
+
+    def study() -> tuple[Any, Any]:
         from mbla.sweeps.interaction.study import interact
         from mbla.sweeps.interaction.words import study_lines
 
-    report = None if options.quiet else _progress("points")
-    try:
-        study, record, remarks = interact(content, run, options, report)
-    finally:
-        clear_line(report)
-    _tell(options, run, study_lines(study), record, remarks)
-    return study.exit_code
+        return interact, study_lines
+
+    return _run_study(options, run_options(options), "points", study)
 
 
 def add_tradeoff(commands: Any) -> None:
@@ -129,20 +123,33 @@ def add_tradeoff(commands: Any) -> None:
 
 def tradeoff(options: argparse.Namespace) -> int:
     """Measure a deck under many settings; the table goes to standard output, with ``--json`` the object alone."""
-    refuse_unfit_name(options.deck)
-    run = run_options(options, override=False)
-    content, _ = read_given_deck(options.deck, run)
-    with loading():
+
+    def study() -> tuple[Any, Any]:
         from mbla.sweeps.tradeoff.study import tradeoff
         from mbla.sweeps.tradeoff.words import study_lines
 
-    report = None if options.quiet else _progress("settings")
+        return tradeoff, study_lines
+
+    return _run_study(options, run_options(options, override=False), "settings", study)
+
+
+def _run_study(options: argparse.Namespace, run: RunOptions, what: str, study: Callable[[], tuple[Any, Any]]) -> int:
+    """Read the deck, solve what is asked of it and tell what came out; the exit status.
+
+    what  : what is solved, as the line of progress counts it
+    study : imports what solves it, and what says it in words
+    """
+    refuse_unfit_name(options.deck)
+    content, _ = read_given_deck(options.deck, run)
+    with loading():
+        solve, lines = study()
+    report = None if options.quiet else _progress(what)
     try:
-        study, record, remarks = tradeoff(content, run, options, report)
+        solved, record, remarks = solve(content, run, options, report)
     finally:
         clear_line(report)  # what is said of an interruption has a line of its own
-    _tell(options, run, study_lines(study), record, remarks)
-    return study.exit_code
+    _tell(options, run, lines(solved), record, remarks)
+    return int(solved.exit_code)
 
 
 def _tell(

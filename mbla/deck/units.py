@@ -79,11 +79,6 @@ class Units:
         return STANDARD_GRAVITY / METRES[self.length]
 
     @property
-    def default_gravity(self) -> tuple[float, float, float]:
-        """Dead load of a load case that gives none: 9.81 m/s2 along -z, in the deck's unit of length per s2."""
-        return (0.0, 0.0, -self.standard_gravity)
-
-    @property
     def force_per_mass_acceleration(self) -> float:
         """Factor from (unit of mass) x (unit of length)/s2 to the unit of force."""
         return KILOGRAMS[self.mass] * METRES[self.length] / NEWTONS[self.force]

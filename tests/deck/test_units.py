@@ -104,7 +104,6 @@ def test_own_units_convert_to_themselves(units: Units) -> None:
 @pytest.mark.parametrize("units", [SI, Units("mm", "kN", "t"), Units("ft", "lbf", "lb")])
 def test_gravity(units: Units) -> None:
     assert units.convert("9.81 m/s^2", "acceleration") == pytest.approx(units.standard_gravity, rel=1e-14)
-    assert units.default_gravity == (0.0, 0.0, -units.standard_gravity)
     weight = units.convert("1 kg/m^3", "density") * units.standard_gravity * units.force_per_mass_acceleration
     assert weight == pytest.approx(units.convert(f"{STANDARD_GRAVITY} N/m^3", "unit_weight"), rel=1e-13)
 

@@ -19,12 +19,9 @@ from mbla.model.wording import vector
 def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
     """A force at a point of one block, (1,), at its centroid unless given."""
     assert load.force is not None  # what makes it this kind
-    assert blocks is not None  # a rule of the deck: a force says on which block it acts
-    if len(blocks) != 1:
-        message = f"a force acts on one block, {len(blocks)} are selected: give an index, or one force for each"
-        site.refuse((*path, "on"), Message("one-block-only", message))
+    block = _one_block("force", blocks, path, site)
+    if block is None:
         return None
-    block = int(blocks[0])
     words = f"force {vector(load.force)} {site.units.force} on {site.blocks.name(block)}"
     centroid = site.blocks.centroids[block]
     point = centroid if load.at is None else np.array(load.at)
@@ -36,16 +33,24 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
             site.warn("force-outside-block", message)
     else:
         words += " at its centroid"
-    return AppliedLoad(blocks, wrenches_of(np.array([load.force]), point[None], centroid[None]), words)
+    return AppliedLoad(np.array([block]), wrenches_of(np.array([load.force]), point[None], centroid[None]), words)
 
 
 def moment_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
     """A moment on one block, (1,)."""
     assert load.moment is not None  # what makes it this kind
-    assert blocks is not None  # a rule of the deck: a moment says on which block it acts
-    if len(blocks) != 1:
-        message = f"a moment acts on one block, {len(blocks)} are selected: give an index, or one moment for each"
-        site.refuse((*path, "on"), Message("one-block-only", message))
+    block = _one_block("moment", blocks, path, site)
+    if block is None:
         return None
-    words = f"moment {vector(load.moment)} {site.units.force} {site.units.length} on {site.blocks.name(int(blocks[0]))}"
-    return AppliedLoad(blocks, np.array([[0.0, 0.0, 0.0, *load.moment]]), words)
+    words = f"moment {vector(load.moment)} {site.units.force} {site.units.length} on {site.blocks.name(block)}"
+    return AppliedLoad(np.array([block]), np.array([[0.0, 0.0, 0.0, *load.moment]]), words)
+
+
+def _one_block(what: str, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> int | None:
+    """The one block that a force or a moment acts on; None, and a fault of the deck, where several are selected."""
+    assert blocks is not None  # a rule of the deck: both say on which block they act
+    if len(blocks) == 1:
+        return int(blocks[0])
+    message = f"a {what} acts on one block, {len(blocks)} are selected: give an index, or one {what} for each"
+    site.refuse((*path, "on"), Message("one-block-only", message))
+    return None

@@ -12,12 +12,13 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.selectors import POSITIONS
+from mbla.model.solids.polyhedra import Polyhedra
 
 
 @dataclass(frozen=True)
-class Blocks:
+class Blocks(Polyhedra):
     """Closed polyhedra, faces outwards.
 
     vertices         : (n_vertices, 3) m; blocks share none
@@ -41,11 +42,6 @@ class Blocks:
     (units: those of the deck; m, kg stand for them)
     """
 
-    vertices: FloatArray
-    vertex_start: IntArray
-    loops: IntArray
-    loop_start: IntArray
-    face_start: IntArray
     facet_of_face: IntArray
     face_normals: FloatArray
     convex: np.typing.NDArray[np.bool_]
@@ -57,9 +53,6 @@ class Blocks:
     groups: tuple[str, ...]
     group_indices: IntArray
     labels: BlockLabels
-
-    def __len__(self) -> int:
-        return len(self.volumes)
 
     def name(self, block: int) -> str:
         """``facade[12]``: group and index, as selectors write it."""
@@ -74,16 +67,6 @@ class Blocks:
     def masses(self) -> FloatArray:
         """Own and added mass, (n_blocks,) kg."""
         return self.volumes * self.densities + self.added_masses
-
-    @cached_property
-    def block_of_vertex(self) -> IntArray:
-        """(n_vertices,)."""
-        return row_of_item(self.vertex_start)
-
-    @cached_property
-    def block_of_face(self) -> IntArray:
-        """(n_faces,)."""
-        return row_of_item(self.face_start)
 
 
 NONE = -1

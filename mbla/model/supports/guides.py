@@ -21,9 +21,6 @@ from mbla.model.wording import counted, vector
 WAYS = 6
 """columns of the motions of a body; those beyond its own ways are zero"""
 
-INDEPENDENT = 1e-9
-"""Least singular value, over the largest, of ways that count as independent; lengths in units of the body's size."""
-
 
 @dataclass(frozen=True)
 class Guides:

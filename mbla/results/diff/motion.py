@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import InterfaceMode, interface_motion
 from mbla.results.diff.matching import Matching, match_interfaces, match_points
@@ -102,7 +102,7 @@ def inertia_tensors(blocks: Blocks) -> FloatArray:
     ∫ x xᵀ of a tetrahedron 0, a, b, c is det(a, b, c)/120 (s sᵀ + a aᵀ + b bᵀ + c cᵀ) with s = a + b + c.
     """
     corners = np.arange(len(blocks.loops))
-    face = row_of_item(blocks.loop_start)
+    face = blocks.face_of_corner
     first, last = blocks.loop_start[:-1][face], blocks.loop_start[1:][face] - 1
     inner = (corners > first) & (corners < last)
     at = corners[inner]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
@@ -18,7 +18,7 @@ def block_edges(blocks: Blocks) -> IntArray:
     following = np.empty_like(blocks.loops)
     following[:-1] = blocks.loops[1:]
     following[blocks.loop_start[1:] - 1] = blocks.loops[blocks.loop_start[:-1]]
-    facets = blocks.facet_of_face[row_of_item(blocks.loop_start)]
+    facets = blocks.facet_of_face[blocks.face_of_corner]
     low, high = np.minimum(blocks.loops, following), np.maximum(blocks.loops, following)
     sides, times = np.unique(np.column_stack([facets, low, high]), axis=0, return_counts=True)
     return np.unique(sides[times == 1][:, 1:], axis=0)

@@ -127,7 +127,7 @@ def reentrant_faces(blocks: Blocks) -> BoolArray:
     following[blocks.loop_start[1:] - 1] = blocks.loop_start[:-1]
     preceding[blocks.loop_start[:-1]] = blocks.loop_start[1:] - 1
     ahead, behind = corners[following] - corners, corners - corners[preceding]
-    face = row_of_item(blocks.loop_start)
+    face = blocks.face_of_corner
     turns = np.einsum("ij,ij->i", np.cross(behind, ahead), blocks.face_normals[face])
     size = np.zeros(len(blocks.face_normals))
     np.maximum.at(size, face, np.square(ahead).sum(axis=1))

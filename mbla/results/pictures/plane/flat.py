@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
@@ -134,7 +134,7 @@ def face_polygons(blocks: Blocks, flat: Flat, vertices: FloatArray) -> list[Floa
 
 def seen_edges(blocks: Blocks, flat: Flat, edges: IntArray) -> IntArray:
     """Edges that bound the faces that are seen, (n, 2) vertices."""
-    corner_face = row_of_item(blocks.loop_start)
+    corner_face = blocks.face_of_corner
     front = np.zeros(len(blocks.vertices), dtype=bool)
     front[blocks.loops[np.isin(corner_face, flat.faces)]] = True
     return edges[front[edges].all(axis=1)]
