@@ -37,7 +37,7 @@ import numpy as np
 import yaml
 
 import mbla
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.sweeps.command import FAILED_POINTS
 from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.file.content import SweepContent
