@@ -79,8 +79,7 @@ def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: di
     with loading():
         from mbla.results.listing.listing import listing
         from mbla.results.listing.summary import summary_lines
-        from mbla.results.record.json_record import results_json
-        from mbla.results.record.json_values import json_line
+        from mbla.results.records.json_record import json_line, results_json
 
     record = json_line(results_json(results) | failure) if options.json else ""
     words = ""
@@ -115,8 +114,7 @@ def check(options: argparse.Namespace) -> int:
 
         results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
         if options.json:
-            from mbla.results.record.json_record import check_json
-            from mbla.results.record.json_values import json_line
+            from mbla.results.records.json_record import check_json, json_line
 
             print(json_line(check_json(results, needs)), flush=True)
         else:

@@ -7,8 +7,6 @@
 Each of the two sweeps, with directions around the horizon, so that the arch is solved in space, and in its plane, by
 
 - ``separate``: ``mbla.run(deck, set=...)`` for every point, in one process, that imports nothing any more;
-- ``separate, record``: the same and the JSON record of each, which the columns of a table are taken from;
-- ``separate, files``: the same and the files of each, as ``mbla run`` writes them; every tenth point only;
 - ``shared``: the points one after the other in one process, which shares what they have in common, with the default
   columns: range and peak of the load factor are none of them, so that points are solved without;
 - ``shared, range``: the same with the range of the load factor, so that every point does all that a separate run does;
@@ -37,7 +35,6 @@ import numpy as np
 import yaml
 
 import mbla
-from mbla.results.record.json_record import results_json
 from mbla.sweeps.command import FAILED_POINTS
 from mbla.sweeps.engine.runner import PointRunner
 from mbla.sweeps.file.content import SweepContent
@@ -52,7 +49,6 @@ COLUMNS: tuple[str, ...] = SweepContent.model_fields["results"].get_default(call
 FRICTION, DIRECTION = "parameters.mu", f"load_cases.{CASE}.live.0.acceleration"
 PLANES: dict[str, tuple[str, str]] = {"around the horizon": ("x", "y"), "in its plane": ("x", "z")}
 FRICTIONS = 25
-TENTH = 10
 Points = list[dict[str, Plain]]
 
 
@@ -73,19 +69,6 @@ def points_of(plane: str, count: int) -> Points:
 def separate(points: Points) -> list[float | None]:
     """Load factor of each point by a call of its own."""
     return [_finite(mbla.run(DECK, set=point, cases=CASE)[CASE].load_factor) for point in points]
-
-
-def separate_with_record(points: Points) -> list[float | None]:
-    """The same, with the JSON record of each."""
-    records = (results_json(mbla.run(DECK, set=point, cases=CASE).records) for point in points)
-    return [_number(record["cases"][0]["load_factor"]) for record in records]
-
-
-def separate_with_files(points: Points) -> list[float | None]:
-    """The same, with the files of each."""
-    with tempfile.TemporaryDirectory() as folder:
-        runs = (mbla.run(DECK, set=point, cases=CASE, output=folder, force=True) for point in points)
-        return [_finite(run[CASE].load_factor) for run in runs]
 
 
 def shared(points: Points, columns: tuple[str, ...] = COLUMNS) -> list[float | None]:
@@ -153,8 +136,6 @@ def main(count: int) -> None:
         shared(points[:2])
         ways: dict[str, Callable[[], list[float | None]]] = {
             "separate": partial(separate, points),
-            "separate, record": partial(separate_with_record, points),
-            "separate, files": partial(separate_with_files, points[::TENTH]),
             "shared": partial(shared, points),
             "shared, range": partial(shared, points, (*COLUMNS, "range.0", "range.1")),
             "one worker": partial(by_command, points, 1),
@@ -167,8 +148,7 @@ def main(count: int) -> None:
             if way == "separate":
                 reference = found
             clocks[way] = clock / len(found)
-            expected = reference if len(found) == len(points) else reference[::TENTH]
-            assert json.dumps(found) == json.dumps(expected), f"{plane}, {way}: other load factors than separate runs"
+            assert json.dumps(found) == json.dumps(reference), f"{plane}, {way}: other load factors than separate runs"
             row = {"sweep": plane, "way": way, "points": len(found), "seconds": clock, "processor_seconds": processor}
             one: float | str = clocks["one worker"] / clocks[way] if "one worker" in clocks else ""
             record("sweep", {**row, "ratio": clocks["separate"] / clocks[way], "over_one": one})

@@ -4,10 +4,10 @@
 
     python -m tests.performance.compare [BENCHMARK ...] [--against TEXT] [--fail FACTOR]
 
-The newest rows of a case are those of its last date and versions on the machine of the file's last row; those before
-are of the date and versions that came before these, or with ``--against`` of the last whose date or versions contain a
-text (``2026-11-21``, ``mbla 0.1.0``). Of several rows of one case the shortest time counts. Each case and time has a
-line with its ratio, now over before; the worst and the median close each benchmark.
+The newest row of a case is its last one on the machine of the file's last row; the one before it is the last of another
+date or of other versions, or with ``--against`` the last whose date or versions contain a text (``2026-11-21``,
+``mbla 0.1.0``). Each case and time has a line with its ratio, now over before; the worst and the median close each
+benchmark.
 
 Exit status 0; 1 with ``--fail`` where a ratio is above the factor, or something no longer comes to its end; 2 for a
 benchmark that is not there. Times below a hundredth of a second on both sides are shown and not judged.
@@ -16,24 +16,18 @@ benchmark that is not there. Times below a hundredth of a second on both sides a
 from __future__ import annotations
 
 import argparse
-import csv
 import statistics
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.performance.columns import Columns, columns_of
-from tests.performance.recording import RESULTS
+from tests.performance.recording import CASES, RESULTS, Row, read_rows
 
-Row = dict[str, str]
-
+TIMES = ("seconds", "processor_seconds", "processor", "clock", "outside", "solver")
+"""columns of seconds"""
 JUDGED = 0.01
 """Seconds: shorter ones differ by half between two runs of the same program."""
-
-
-TIMELESS = ("growth_exponents",)
-"""Recorded figures without times."""
 
 
 @dataclass(frozen=True)
@@ -58,78 +52,53 @@ class Ratio:
         return self.value is not None and max(self.before or 0.0, self.now or JUDGED) >= JUDGED
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """Ratios of one benchmark, and how many of its cases have nothing to be compared with."""
-
-    ratios: tuple[Ratio, ...]
-    alone: int
-
-    def values(self) -> list[float]:
-        """Of what is long enough to be judged."""
-        return [ratio.value for ratio in self.ratios if ratio.judged and ratio.value is not None]
-
-
-def compared(rows: Sequence[Row], columns: Columns, against: str = "") -> Comparison:
-    """Newest rows of every case against those before."""
-    here = [row for row in rows if row["machine"] == rows[-1]["machine"]]
+def compared(rows: Sequence[Row], benchmark: str, against: str = "") -> list[Ratio]:
+    """Newest row of every case against the one before, where there is one."""
     by_case: dict[tuple[str, ...], list[Row]] = {}
-    for row in here:
-        by_case.setdefault(tuple(row.get(name) or "" for name in columns.case), []).append(row)
-    ratios: list[Ratio] = []
-    alone = 0
+    for row in rows:
+        if row["machine"] == rows[-1]["machine"]:
+            by_case.setdefault(tuple(row[name] for name in CASES[benchmark]), []).append(row)
+    ratios = []
     for case, own in by_case.items():
-        now, before = _newest_and_before(own, against)
-        alone += not before
-        for column in columns.times if before else ():
-            ratio = Ratio(", ".join(case), column, _shortest(before, column), _shortest(now, column))
+        before = [row for row in own if _release(row) != _release(own[-1]) and any(against in t for t in _release(row))]
+        for column in [name for name in rows[0] if name in TIMES] if before else ():
+            ratio = Ratio(", ".join(case), column, _seconds(before[-1][column]), _seconds(own[-1][column]))
             if ratio.before is not None or ratio.now is not None:
                 ratios.append(ratio)
-    return Comparison(tuple(ratios), alone)
-
-
-def _newest_and_before(rows: Sequence[Row], against: str) -> tuple[list[Row], list[Row]]:
-    newest = _release(rows[-1])
-    others = [release for release in map(_release, rows) if release != newest and any(against in t for t in release)]
-    before = others[-1] if others else None
-    return [row for row in rows if _release(row) == newest], [row for row in rows if _release(row) == before]
+    return ratios
 
 
 def _release(row: Row) -> tuple[str, str]:
     return row["date"], row["versions"]
 
 
-def _shortest(rows: Sequence[Row], column: str) -> float | None:
-    times = [float(row[column]) for row in rows if row.get(column) not in (None, "", "nan")]
-    return min(times, default=None)
+def _seconds(text: str) -> float | None:
+    return float(text) if text not in ("", "nan") else None
 
 
-def lines_of(benchmark: str, comparison: Comparison) -> Iterator[str]:
+def lines_of(benchmark: str, ratios: Sequence[Ratio]) -> Iterator[str]:
     """The comparison in words, the slowest first."""
-    ordered = sorted(comparison.ratios, key=lambda ratio: -1.0 if ratio.value is None else ratio.value, reverse=True)
-    for ratio in ordered:
+    for ratio in sorted(ratios, key=lambda ratio: -1.0 if ratio.value is None else ratio.value, reverse=True):
         value = "   new" if ratio.value is None else f"{ratio.value:6.2f}"
         note = "" if ratio.judged else "  (not judged)"
-        yield f"{value}  {_seconds(ratio.before)} -> {_seconds(ratio.now)}  {ratio.case}: {ratio.column}{note}"
-    values = comparison.values()
+        yield f"{value}  {_told(ratio.before)} -> {_told(ratio.now)}  {ratio.case}: {ratio.column}{note}"
+    values = judged_values(ratios)
     spread = f"worst {max(values):.2f}, median {statistics.median(values):.2f}" if values else "nothing to compare"
-    without = f"; {comparison.alone} cases only once" if comparison.alone else ""
-    yield f"{benchmark}: {spread} ({len(values)} times{without})"
+    yield f"{benchmark}: {spread} ({len(values)} times)"
 
 
-def _seconds(value: float | None) -> str:
+def judged_values(ratios: Sequence[Ratio]) -> list[float]:
+    """Of what is long enough to be judged."""
+    return [ratio.value for ratio in ratios if ratio.judged and ratio.value is not None]
+
+
+def _told(value: float | None) -> str:
     return " stopped" if value is None else f"{value:8.4g}"
-
-
-def read_rows(path: Path) -> list[Row]:
-    """Rows of a recorded benchmark, oldest first."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def main(arguments: list[str], folder: Path = RESULTS) -> int:
     """Compare the benchmarks named, or all; the exit status."""
-    known = {path.stem: path for path in sorted(folder.glob("*.csv")) if path.stem not in TIMELESS}
+    known = [name for name in CASES if (folder / f"{name}.csv").exists()]
     parser = argparse.ArgumentParser(prog="python -m tests.performance.compare")
     parser.add_argument("benchmarks", nargs="*", metavar="BENCHMARK", help=f"of: {', '.join(known)}; all by default")
     parser.add_argument("--against", default="", metavar="TEXT", help="part of the date or versions to compare with")
@@ -140,17 +109,9 @@ def main(arguments: list[str], folder: Path = RESULTS) -> int:
             parser.error(f"no benchmark {name}; there are {', '.join(known)}")
     slower = 0
     for name in options.benchmarks or known:
-        rows = read_rows(known[name])
-        if not rows:
-            continue
-        try:
-            columns = columns_of(name, list(rows[0]))
-        except ValueError as unknown:
-            sys.stdout.write(f"not compared: {unknown}\n")
-            continue
-        comparison = compared(rows, columns, options.against)
-        sys.stdout.write("".join(f"{line}\n" for line in lines_of(name, comparison)))
-        slower += sum(value > options.fail for value in comparison.values()) if options.fail is not None else 0
+        ratios = compared(read_rows(folder / f"{name}.csv"), name, options.against)
+        sys.stdout.write("".join(f"{line}\n" for line in lines_of(name, ratios)))
+        slower += sum(value > options.fail for value in judged_values(ratios)) if options.fail is not None else 0
     if slower:
         sys.stdout.write(f"{slower} times are more than {options.fail:g} times as long as before\n")
     return 1 if slower else 0

@@ -13,15 +13,21 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from tempfile import NamedTemporaryFile
-
-from tests.performance.columns import columns_of
 
 RESULTS = Path(__file__).parent / "results"
 PROJECT = Path(__file__).parents[2]
 REPEATS = 3
-OCCASION = ("date", "versions", "machine")
 LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
+Row = dict[str, str]
+
+CASES = {
+    "line": ("structure", "flow_rule"),
+    "results": ("step", "blocks"),
+    "rivals": ("structure", "rival"),
+    "stages": ("case", "stage"),
+    "sweep": ("sweep", "way", "points"),
+}
+"""columns that tell the cases of a benchmark apart"""
 
 
 def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float, float]:
@@ -38,60 +44,52 @@ def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float,
 def record(benchmark: str, row: Mapping[str, object]) -> None:
     """Put a row into ``results/BENCHMARK.csv`` and say it; numbers get four digits.
 
-    It replaces rows of the same case of that day, those versions and that machine: who measures again means the newest.
+    It replaces the row of the same case of that day, those versions and that machine: who measures again means the
+    newest.
 
     Raises
     ------
     ValueError
         the file has other columns: its figures are of another benchmark, and the row would land in the wrong ones
     """
-    RESULTS.mkdir(exist_ok=True)
     path = RESULTS / f"{benchmark}.csv"
     values = {name: f"{value:.4g}" if isinstance(value, float) else str(value) for name, value in row.items()}
     full = {"date": datetime.now(UTC).date().isoformat(), **values, "versions": versions(), "machine": machine()}
-    header, rows = _recorded(path)
-    if header and header != list(full):
-        raise ValueError(f"{path}: has the columns {', '.join(header)}, the row has {', '.join(full)}")
-    same = (*columns_of(benchmark, list(full)).case, *OCCASION)
+    rows = read_rows(path)
+    if rows and list(rows[0]) != list(full):
+        raise ValueError(f"{path}: has the columns {', '.join(rows[0])}, the row has {', '.join(full)}")
+    same = (*CASES[benchmark], "date", "versions", "machine")
     kept = [other for other in rows if any(other[name] != full[name] for name in same)]
-    with NamedTemporaryFile("w", newline="", encoding="utf-8", dir=RESULTS, delete=False) as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(full), lineterminator="\n")
         writer.writeheader()
         writer.writerows([*kept, full])
-    Path(file.name).chmod(0o644)  # a temporary file is its owner's alone
-    Path(file.name).replace(path)
     sys.stdout.write("  ".join(f"{name} {value}" for name, value in values.items()) + "\n")
 
 
-def _recorded(path: Path) -> tuple[list[str], list[dict[str, str]]]:
-    """Header and rows of a file, none where there is none."""
+def read_rows(path: Path) -> list[Row]:
+    """Rows of a recorded benchmark, oldest first; none where there is no file."""
     if not path.exists():
-        return [], []
+        return []
     with path.open(newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        return list(reader.fieldnames or []), list(reader)
+        return list(csv.DictReader(file))
 
 
 @cache
 def versions() -> str:
     """Versions that the figures depend on; of mbla also the last commit, with + where the files differ from it."""
     libraries = [f"{name} {version(name)}" for name in LIBRARIES]
-    libraries[0] += commit()
+    libraries[0] += f" ({commit()})" if commit() else ""
     return " ".join([f"python {platform.python_version()}", *libraries])
 
 
-def commit() -> str:
-    """`` (a1b2c3d)``: the last commit that changed the package; empty outside a repository."""
-
-    def git(*arguments: str) -> str:
-        command = ["git", *arguments, "--", "mbla"]
-        return subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout.strip()
-
+def commit(checkout: Path = PROJECT) -> str:
+    """Short name of the commit, with + where files differ from it; empty without version control."""
+    words = ["git", "-C", str(checkout), "describe", "--always", "--dirty=+", "--abbrev=9"]
     try:
-        last, changed = git("log", "-1", "--format=%h"), git("status", "--porcelain")
+        return subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return ""
-    return f" ({last}{'+' if changed else ''})" if last else ""
 
 
 def machine() -> str:

@@ -20,9 +20,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.program.resultants.assemble import ConvexProgram
 from mbla.program.resultants.conditions import MN, T1, T2, Entries
 from mbla.program.resultants.crushing import RESULTANTS, Corners, Edges
-
-LEAST_LIMIT = 1e-12
-"""Least radius of a cone of given size, in mean block loads: a cone that is a point has no inside to walk in."""
+from mbla.program.static import LEAST_LIMIT
 
 
 @dataclass(frozen=True)

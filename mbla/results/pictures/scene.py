@@ -169,8 +169,7 @@ class Scene:
         if not self.is_result or solution.mechanics is None:
             return None
         dimension = 3 if solution.size is None else solution.size.dimension
-        found = force_freedom(self.model, self.contacts, solution.mechanics, dimension)
-        return None if isinstance(found, str) else found
+        return force_freedom(self.model, self.contacts, solution.mechanics, dimension)
 
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:

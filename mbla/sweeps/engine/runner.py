@@ -14,7 +14,7 @@ from mbla.process.run_options import RunOptions
 from mbla.process.sharing import sharing
 from mbla.results.failures import words_of
 from mbla.results.files import OutputFolder
-from mbla.results.record.json_record import results_json
+from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
@@ -129,7 +129,7 @@ class PointRunner:
         results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, deck.title), None, started)
         if wanted(plan, state_of(results.exit_code)):
             keep_files(plan, task, results, status.getvalue(), deck.content.output)
-        record = results_json(results)
+        record = results_json(results, on_demand=True)
         return results.exit_code, reason_of(record), values_of(record, self._places)
 
 

@@ -14,8 +14,8 @@ import scipy.sparse as sp
 from scipy.optimize import linprog
 
 from mbla.arrays import FloatArray
-from tests.performance.rivals.answer import Answer, timed
 from tests.performance.rivals.statement import Statement
+from tests.performance.rivals.structure import Answer
 
 SIDES = 8
 
@@ -54,18 +54,16 @@ def _solved(statement: Statement, method: Literal["highs", "highs-ipm"]) -> Answ
     none = sp.csr_array((sides.shape[0], 1))
     cost: FloatArray = np.append(np.zeros(unknowns), -1.0)
     limits = [(0, None)] * points + [(None, None)] * (unknowns - points + 1)
-    answer, seconds = timed(
-        lambda: linprog(
-            cost,
-            A_ub=sp.hstack([sides, none], format="csr"),
-            b_ub=np.zeros(sides.shape[0]),
-            A_eq=sp.hstack([statement.matrix, sp.csr_array(statement.live.reshape(-1, 1))], format="csr"),
-            b_eq=-statement.dead,
-            bounds=limits,
-            method=method,
-        )
+    answer = linprog(
+        cost,
+        A_ub=sp.hstack([sides, none], format="csr"),
+        b_ub=np.zeros(sides.shape[0]),
+        A_eq=sp.hstack([statement.matrix, sp.csr_array(statement.live.reshape(-1, 1))], format="csr"),
+        b_eq=-statement.dead,
+        bounds=limits,
+        method=method,
     )
     if answer.status != 0 or answer.fun is None or answer.x is None:
-        return Answer(str(answer.message), None, None, None, seconds)
+        return Answer(str(answer.message))
     factor = float(-answer.fun)
-    return Answer("optimal", factor, statement.residual(answer.x[:-1], factor), None, seconds)
+    return Answer("optimal", factor, statement.residual(answer.x[:-1], factor))

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
-from mbla.solution.associative.associative_form import associative_form
-from mbla.solution.cone_solvers.choice import cone_solver
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Checks, IterationRecord, Solution
+from mbla.solution.solution import Checks, Solution
 from mbla.solution.solve import solve_parts
 from mbla.solution.standing.standing import assess_dead_load
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
-from tests.performance.rivals.answer import Answer, timed
-from tests.performance.rivals.structure import Structure
+from tests.performance.rivals.structure import Answer, Structure
 
 
 def whole(structure: Structure) -> Answer:
@@ -25,18 +19,12 @@ def whole(structure: Structure) -> Answer:
     return _answer(structure, structure.deck.analysis)
 
 
-def load_factor_alone(structure: Structure) -> Answer:
-    """Load factor with proved bounds and verification; no standing."""
-    return _answer(structure, structure.deck.analysis.model_copy(update={"standing": False}))
-
-
 def standing(structure: Structure) -> Answer:
     """Only whether it stands from the stress-free assembly, which is what coupled rigid-block analysis asks."""
     reduced = _reduced(structure, structure.deck.analysis)
     settings = solver_settings(structure.deck.analysis)
-    found, seconds = timed(lambda: [assess_dead_load(program, settings, None).standing for program in reduced.parts])
-    verdicts = {str(result.verdict) for result in found}
-    return Answer("stands: " + ", ".join(sorted(verdicts)), None, None, None, seconds)
+    found = [assess_dead_load(program, settings, None).standing for program in reduced.parts]
+    return Answer("stands: " + ", ".join(sorted({str(result.verdict) for result in found})))
 
 
 def reference(structure: Structure) -> tuple[float, float]:
@@ -51,7 +39,7 @@ def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
     factor = None if solution.mechanics is None else solution.mechanics.load_factor
     residual = max(checks.equilibrium_residual, checks.yield_violation, checks.tension_violation)
     bounds = (checks.static_bound, checks.kinematic_bound)
-    return Answer(str(verified_status(solution, checks)), factor, residual, bounds, None)
+    return Answer(str(verified_status(solution, checks)), factor, residual, bounds)
 
 
 def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
@@ -63,18 +51,3 @@ def _reduced(structure: Structure, analysis: AnalysisSection) -> Reduced:
     model, contacts = structure.model, structure.contacts
     program = assemble(model, contacts, structure.load_case)
     return reduce_program(model, contacts, program, allowed_reductions(analysis), associative=True)
-
-
-def cone_program_seconds(structure: Structure) -> float:
-    """Seconds of the processor in the cone solver alone, for the program of the load factor, each part once."""
-
-    def silent(record: IterationRecord) -> None:
-        pass
-
-    settings, seconds = solver_settings(structure.deck.analysis), 0.0
-    for program in _reduced(structure, structure.deck.analysis).parts:
-        form = associative_form(program)
-        solver = cone_solver(form.cone_program, settings, silent)
-        assert not isinstance(solver, HighsProgram)  # only where the deck asks for it
-        seconds += timed(partial(solver.solve_once, 1, 1.0))[1]
-    return seconds

@@ -1,4 +1,4 @@
-"""Structures on which rivals are compared: walls and arches of the standard set, in their plane and in space."""
+"""What rivals get and what they answer: walls and arches of the standard set, in their plane and in space."""
 
 from __future__ import annotations
 
@@ -28,19 +28,34 @@ class Structure:
     planar: bool
 
 
+@dataclass(frozen=True)
+class Answer:
+    """Of one run from the contacts on.
+
+    status       : in the rival's own words
+    load_factor  : None where it gives none
+    residual     : largest lack of balance or excess over friction of its forces, over the mean block weight; None where
+                   it is not asked
+    bounds       : proved static and kinematic bound; None where the rival proves nothing
+    """
+
+    status: str
+    load_factor: float | None = None
+    residual: float | None = None
+    bounds: tuple[float, float] | None = None
+
+
 def compared() -> dict[str, tuple[Standard, bool]]:
     """Structures of the standard set by name, and whether they are taken as planar."""
     standard = {structure.name: structure for structure in STANDARD_SET}
     chosen: dict[str, tuple[Standard, bool]] = {}
-    for n in WALLS:
-        chosen[f"wall, planar, {n} x {n}"] = standard[f"wall, planar, {n} x {n}"], True
-    for n in WALLS:
-        chosen[f"wall, spatial, {n} x {n}"] = standard[f"wall, spatial, {n} x {n}"], False
-    for n in ARCHES:
-        chosen[f"arch, planar, {n} voussoirs"] = standard[f"arch, {n} voussoirs"], True
-    for n in ARCHES:
-        arch = standard[f"arch, {n} voussoirs"]
-        chosen[f"arch, spatial, {n} voussoirs"] = replace(arch, overrides=(*arch.overrides, *SPATIAL)), False
+    for way in ("planar", "spatial"):
+        for n in WALLS:
+            chosen[f"wall, {way}, {n} x {n}"] = standard[f"wall, {way}, {n} x {n}"], way == "planar"
+    for way, more in (("planar", ()), ("spatial", SPATIAL)):
+        for n in ARCHES:
+            arch = standard[f"arch, {n} voussoirs"]
+            chosen[f"arch, {way}, {n} voussoirs"] = replace(arch, overrides=(*arch.overrides, *more)), way == "planar"
     return chosen
 
 

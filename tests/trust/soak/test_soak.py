@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from mbla.cli import main
-from tests.performance.bench_sweep_memory import POINTS, watched, written
 from tests.trust.counts import record_counts
 from tests.trust.soak.rows import rows_of
+from tests.trust.soak.watching import POINTS, watched, written
 
 CLAIM = (
     "A sweep of 10,000 points in one worker loses no point and repeats none, each row has the load factor of the "

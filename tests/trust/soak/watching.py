@@ -1,15 +1,6 @@
-"""Memory over a sweep of 10,000 points of one block; appends to results/sweep_memory.csv.
-
-::
-
-    python -m tests.performance.bench_sweep_memory [POINTS]
+"""Memory over a sweep of points of one block, watched from outside.
 
 Friction, width and direction of the push are varied, so that geometry, contacts and cone program are all built anew.
-Each of ``mbla sweep -j 1`` and ``-j 2`` is watched from outside: resident memory of the command, which with ``-j 2``
-holds Dask's client, scheduler and workers too, and the greatest of the processes that solve points. ``first`` is the
-most that was held in the first tenth of the points, ``last`` in the last tenth, in MB; ``growth`` their ratio less
-one. The command holds the answer of every point until the table is written: ``kilobytes_per_point`` is its growth over
-the points between. Processes of points have nothing to hold; ``replaced`` counts how often one was begun anew.
 """
 
 from __future__ import annotations
@@ -17,20 +8,17 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from resource import RUSAGE_CHILDREN, getrusage
 
 import numpy as np
 import yaml
 
 from mbla.sweeps.engine.line_process import PACKAGES
 from tests.line import BLOCK
-from tests.performance.recording import record
 from tests.sweeps.killed_sweeps import descendants
 
 POINTS = 10_000
@@ -128,27 +116,3 @@ def resident(pid: int) -> float:
         pages = int(Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE") / MEGABYTE
     return 0.0
-
-
-def main(points: int) -> None:
-    """One and two workers, a row for the command and one for the processes of points of each."""
-    for workers in (1, 2):
-        used = _processor()
-        with tempfile.TemporaryDirectory() as folder:
-            found = watched(Path(folder), points, workers)
-        for what, memory in (("command", found.command), ("points", found.points)):
-            first, last = found.first(memory), found.last(memory)
-            row = {"workers": workers, "process": what, "points": points, "first": first, "last": last}
-            each = found.kilobytes_per_point if what == "command" else 0.0
-            replaced = len(found.begun) - workers
-            row |= {"growth": last / first - 1.0, "kilobytes_per_point": each, "replaced": replaced}
-            record("sweep_memory", {**row, "processor_seconds": _processor() - used})
-
-
-def _processor() -> float:
-    usage = getrusage(RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else POINTS)

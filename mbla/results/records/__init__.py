@@ -1,0 +1,1 @@
+"""Results as JSON: the object that ``--json`` prints and ``STEM.json`` holds."""
