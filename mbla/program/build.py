@@ -1,20 +1,27 @@
 """From the solids of a model to the program that is solved: contact points or interfaces, and what reductions leave.
 
-Every load case takes this way, whatever its contact model; the solids keep the way back to the blocks.
+Every load case takes this way, whatever its contact model; the solids keep the way back to the blocks. Conditions on
+interfaces are torsion where it is asked for, and crushing wherever it can be. Where a program has none, notices say
+what the contact model is known to get wrong for the joints of a model.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from mbla.arrays import BoolArray, starts
+from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.model.model import LoadCase
+from mbla.errors import Notice
+from mbla.model.model import LoadCase, Model
+from mbla.model.solids.ragged import next_item
 from mbla.process.stopwatch import timed
 from mbla.program.assemble import assemble
-from mbla.program.choice import has_conditions_on_interfaces
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
-from mbla.program.reductions.steps import glued_step, told_apart
+from mbla.program.reductions.steps import glued_step
 from mbla.program.resultants.assemble import ConvexProgram, assemble_convex, size_of_convex
 
 
@@ -45,5 +52,71 @@ def build_program(solids: Solids, load_case: LoadCase, analysis: AnalysisSection
         return CaseProgram(solids, replace(as_it_is, steps=(glued_step(solids, size_of_convex(convex)),)), convex)
     program, associative = assemble(model, contacts, case), analysis.flow_rule == "associative"
     reduced = reduce_program(model, contacts, program, allowed_reductions(analysis), associative=associative)
-    steps = told_apart(reduced.steps, switched_on=analysis.reductions)
-    return CaseProgram(solids, replace(reduced, steps=(glued_step(solids, steps[0].before), *steps)))
+    return CaseProgram(solids, replace(reduced, steps=(glued_step(solids, reduced.steps[0].before), *reduced.steps)))
+
+
+def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:
+    """Interfaces with a compressive strength, (n_interfaces,)."""
+    strengths = np.array([model.joints[name].compressive_strength for name in contacts.joint_names])
+    return np.asarray(np.isfinite(strengths)[contacts.joints] if len(contacts) else np.zeros(0, dtype=bool))
+
+
+def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contacts: Contacts) -> bool:
+    """Whether the program has conditions on interfaces; without, joints crush at their contact points."""
+    if analysis.contact_model == "convex":
+        return True
+    return takes_stress_blocks(analysis) and bool(crushable_interfaces(model, contacts).any())
+
+
+def takes_stress_blocks(analysis: AnalysisSection) -> bool:
+    """Whether flow rule, scheme and solver of an analysis go with conditions on interfaces."""
+    schemes = ("auto", "proximal")
+    by_flow = analysis.flow_rule == "associative" or (
+        analysis.flow_rule == "non_associative" and analysis.scheme in schemes
+    )
+    by_solver = analysis.friction_cone == "circular" and analysis.solver in ("auto", "clarabel")
+    return by_flow and by_solver and not analysis.force_ranges
+
+
+STRAIGHT = 1e-9
+"""1 - cosine of the angle between edges that are parts of one: 4.5e-5 radians"""
+
+
+def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection) -> tuple[Notice, ...]:
+    """Warnings about joint laws in use that the contact model represents on the unsafe side."""
+    crushable = crushable_interfaces(model, contacts)
+    if not crushable.any() or has_conditions_on_interfaces(analysis, model, contacts):
+        return ()
+    names = ", ".join(contacts.joint_names[joint] for joint in np.unique(contacts.joints[crushable]))
+    text = (
+        f"joint law {names}: with this flow rule, scheme or solver compressive strength limits each contact point to "
+        "its share of the area"
+    )
+    if not (crushable & _corners_alone(contacts)).any():
+        text += (
+            "; an interface bears moments that exceed those of stress blocks by at most (fc + ft) b h^2/(8 n^2), with "
+            "the tensile strength ft, its length h in n parts and its greatest breadth b (four times that where it is "
+            "no parallelogram)"
+        )
+        return (Notice("notice", "crushing-at-points", text),)
+    text += (
+        ", which overstates an interface under eccentric load: it bears N (1 + 2 e/b) <= fc A, a stress block only "
+        "N <= fc A (1 - 2 e/b), with eccentricity e and width b; scheme: auto crushes as stress blocks do, more points "
+        "(contacts.points) bring the difference down"
+    )
+    return (Notice("warning", "eccentric-crushing-overstated", text),)
+
+
+def _corners_alone(contacts: Contacts) -> BoolArray:
+    """Interfaces with an edge that has contact points at its ends only, (n_interfaces,)."""
+    place = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
+    rows = np.flatnonzero(place < contacts.outline[contacts.interface_of_point])
+    owner = contacts.interface_of_point[rows]
+    following = next_item(starts(contacts.outline))
+    step = contacts.points[rows[following]] - contacts.points[rows]
+    step /= np.linalg.norm(step, axis=1)[:, None]
+    turns = np.empty(len(rows), dtype=bool)  # at the end of each edge
+    turns[:] = np.einsum("ij,ij->i", step, step[following]) < 1 - STRAIGHT
+    begins = np.empty_like(turns)
+    begins[following] = turns
+    return np.asarray(np.bincount(owner, turns & begins, minlength=len(contacts)) > 0)

@@ -13,7 +13,7 @@ from mbla.deck import Deck
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.process.stopwatch import Stopwatch
-from mbla.program.choice import program_notices
+from mbla.program.build import program_notices
 from mbla.results.provenance import collect_provenance, deck_record, settings_in_words, threads_in_words
 from mbla.results.results import CaseResult, Results, now
 from mbla.solution.settings import SolverSettings

@@ -3,8 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.program.assemble import _scaling
-from mbla.program.equilibrium import equilibrium_matrix
+from mbla.program.assemble import _scaling, equilibrium_matrix
 from mbla.solution.verification.statics import contact_resultants, contact_velocities
 from tests.line import BLOCK, WALL, line_of
 

@@ -9,8 +9,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.assemble import assemble, yield_limits
-from mbla.program.equilibrium import _arms, equilibrium_matrix, lever_arms
+from mbla.program.assemble import _arms, assemble, equilibrium_matrix, lever_arms, yield_limits
 from mbla.program.program import Program, Reduction, Scaling
 from mbla.program.yield_conditions import YieldLimits
 from tests.line import BLOCK, Line, line_of

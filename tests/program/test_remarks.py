@@ -6,7 +6,7 @@ import pytest
 
 from mbla.contacts import find_contacts
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.program.choice import program_notices
+from mbla.program.build import program_notices
 from mbla.results.series import factor_of
 from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, model_of, section

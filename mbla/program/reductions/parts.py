@@ -11,31 +11,17 @@ million times as heavy all its loads would pass for rounding.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 from mbla.program.reductions.scene import Scene, part_of
 
 
-@dataclass(frozen=True)
-class Parts:
-    """Free blocks by the part that they belong to.
-
-    part_of_block : (n_free,) numbered in the order of first blocks
-    loaded        : (n_parts,) those that a live load acts on
-    """
-
-    part_of_block: IntArray
-    loaded: BoolArray
-
-
-def find_parts(scene: Scene) -> Parts:
-    """Which blocks can interact, and whether a live load acts on them."""
+def part_of_blocks(scene: Scene) -> IntArray:
+    """Part that each free block belongs to, (n_free,), numbered in the order of first blocks."""
     n = len(scene.centroids)
     both = (scene.bodies >= 0).all(axis=1)
     pairs = scene.bodies[both]
@@ -46,20 +32,12 @@ def find_parts(scene: Scene) -> Parts:
     first = np.unique(label, return_index=True)[1]
     rank = np.empty(count, dtype=np.int64)
     rank[np.argsort(first)] = np.arange(count)
-    part = rank[label]
-    loaded = np.bincount(part, np.any(scene.loads()[1], axis=1), count) > 0
-    return Parts(part, loaded)
+    return np.asarray(rank[label])
 
 
-def split_into_parts(scene: Scene, *, apart: bool = True, unloaded: bool = True) -> list[Scene]:
-    """Scenes that are solved one by one, in the order of their first blocks; the same scene where that is one.
-
-    apart    : parts with live load are solved one by one, else in one program
-    unloaded : parts without live load are solved apart from those with one, else with the first of these
-    """
-    parts = find_parts(scene)
-    program_of_part = _programs(parts, apart, unloaded)
-    label = program_of_part[parts.part_of_block]
+def split_into_parts(scene: Scene) -> list[Scene]:
+    """Scenes that are solved one by one, in the order of their first blocks; the same scene where that is one."""
+    label = part_of_blocks(scene)
     if not np.any(label):
         return [scene]
     label_of_point = label[scene.bodies.max(axis=1)]  # the greater body is free: fixed bodies have no contacts
@@ -67,19 +45,6 @@ def split_into_parts(scene: Scene, *, apart: bool = True, unloaded: bool = True)
         _alone(scene, np.flatnonzero(label == number), np.flatnonzero(label_of_point == number))
         for number in range(label.max() + 1)
     ]
-
-
-def _programs(parts: Parts, apart: bool, unloaded: bool) -> IntArray:
-    """Number of the program of each part, in the order of first parts."""
-    number = np.arange(len(parts.loaded))
-    if not parts.loaded.any() or parts.loaded.all():
-        return number if apart else np.zeros_like(number)
-    first = {flag: int(np.flatnonzero(parts.loaded == flag)[0]) for flag in (True, False)}
-    if not apart:
-        number = np.where(parts.loaded, first[True], first[False])
-    if not unloaded:
-        number = np.where(parts.loaded, number, first[True])
-    return np.unique(number, return_inverse=True)[1]
 
 
 def _alone(scene: Scene, blocks: IntArray, points: IntArray) -> Scene:

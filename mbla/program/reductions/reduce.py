@@ -18,7 +18,7 @@ from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import tidy
 from mbla.program.reductions.scene import Scene, scene_of
-from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of, step_of
+from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def reduce_program(
     if program.guided and program.reduction is not None:
         program = program.reduction.full  # guides come last, on what the other reductions leave
     scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
-    scenes = split_into_parts(scene, apart=switches.parts, unloaded=switches.unloaded)
+    scenes = split_into_parts(scene) if switches.on else [scene]
     steps += _steps_of_parts(scene, scenes, switches)
     smaller = [_reduced_part(part, switches, associative, model.mirrors) for part in scenes]
     steps += _steps_of_planes(scenes, smaller, switches, associative or bool(model.mirrors))
@@ -82,9 +82,9 @@ def _with_fewer_points(
 ) -> tuple[Scene, list[ReductionStep]]:
     """Contact points that cannot matter left out."""
     allowed = switches.points and associative
-    left = without_inner_points(scene) if allowed else scene
+    left = without_inner_points(scene) if allowed and switches.on else scene
     found = len(scene.points) - len(left.points)
-    return left, [step_of("points", allowed, found, size_of([scene.program]), size_of([left.program]))]
+    return left, [switches.step("points", allowed, found, size_of([scene.program]), size_of([left.program]))]
 
 
 def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSwitches) -> list[ReductionStep]:
@@ -97,8 +97,8 @@ def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSw
         len(part.centroids) for part in scenes if np.any(part.program.live_load) or not n_loaded
     )
     return [
-        step_of("unloaded", switches.unloaded, left_out, before, loaded),
-        step_of("parts", switches.parts, n_loaded if n_loaded > 1 else 0, loaded, split),
+        switches.step("unloaded", True, left_out, before, loaded),
+        switches.step("parts", True, n_loaded if n_loaded > 1 else 0, loaded, split),
     ]
 
 
@@ -118,8 +118,8 @@ def _steps_of_planes(
     n_halved = sum(mirror is not None for _, mirror in smaller)
     sizes = size_of(whole), size_of(planar), size_of([program for program, _ in smaller])
     return [
-        step_of("planar", switches.planar, n_planar, sizes[0], sizes[1]),
-        step_of("mirror", switches.mirror and mirrored, n_halved, sizes[1], sizes[2]),
+        switches.step("planar", True, n_planar, sizes[0], sizes[1]),
+        switches.step("mirror", switches.mirror and mirrored, n_halved, sizes[1], sizes[2]),
     ]
 
 
@@ -141,11 +141,10 @@ def _reduced_part(
     part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors
 ) -> tuple[Program, Mirror | None]:
     """The planar program, that of one half with its mirror, or the part's own."""
-    wanted = switches.planar or switches.mirror
-    mirror = _first_mirror(part, switches, given) if wanted and len(part.points) else None
+    mirror = _first_mirror(part, given) if switches.on and len(part.points) else None
     if mirror is None:
         return part.program, None
-    if switches.planar and is_planar(part, mirror):
+    if is_planar(part, mirror):
         return planar_program(part, mirror), None
     if switches.mirror and (associative or _is_given(part, mirror.normal, given)):
         return half_of(part, mirror), mirror
@@ -181,14 +180,14 @@ def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
     return False
 
 
-def _first_mirror(part: Scene, switches: ReductionSwitches, given: Mirrors) -> Mirror | None:
+def _first_mirror(part: Scene, given: Mirrors) -> Mirror | None:
     """The first plane that makes the part planar, else the first plane of symmetry, those given before all others."""
     first = None
     for normal in (*(np.array(plane[:3]) for plane in given), *mirror_candidates(part)):
         mirror = mirror_about(part, normal)
         if mirror is None:
             continue
-        if switches.planar and is_planar(part, mirror):
+        if is_planar(part, mirror):
             return mirror
         first = first or mirror
     return first

@@ -11,7 +11,6 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.process.sharing import shared
-from mbla.program.equilibrium import lever_arms
 from mbla.program.program import Program
 
 COPLANAR = 1e-9
@@ -67,10 +66,11 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
     """The scene of the program of the whole model."""
     row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
     row[program.free] = np.arange(len(program.free))
+    units = program.scaling.row.reshape(-1, 6)
     return Scene(
         program=program,
         centroids=model.blocks.centroids[program.free],
-        arms=lever_arms(model, contacts, program.free),
+        arms=units[:, 0] / units[:, 3],
         points=contacts.points,
         frames=contacts.frames,
         areas=contacts.point_areas,

@@ -11,7 +11,7 @@ finite strengths high enough give the same load factor, which the tests show.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -74,19 +74,6 @@ def size_of(programs: Iterable[Program]) -> ProgramSize:
     )
 
 
-def step_of(name: str, allowed: bool, found: int, before: ProgramSize, after: ProgramSize) -> ReductionStep:
-    """The record of a reduction that was tried, or not allowed."""
-    state = StepState.NONE if allowed else StepState.OFF
-    return ReductionStep(name, StepState.APPLIED if found else state, found, before, after)
-
-
-def told_apart(steps: Sequence[ReductionStep], *, switched_on: bool) -> tuple[ReductionStep, ...]:
-    """Steps not allowed although the deck has reductions switched on are those that would change its answer."""
-    return tuple(
-        replace(step, state=StepState.BARRED) if switched_on and step.state is StepState.OFF else step for step in steps
-    )
-
-
 def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
     """Blocks that glue makes part of a larger body or holds; contact points inside of these were never set up.
 
@@ -106,25 +93,32 @@ def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
     return ReductionStep("glued", state, joined + held, before, left)
 
 
+REDUCTIONS = ("planar", "mirror", "parts", "unloaded", "points")
+"""Names of what is looked for and left out before the solver; the answer is the same without.
+
+planar structures are solved with three unknowns a block; of a symmetric structure only one half, under associative
+flow; parts that cannot interact are solved apart; parts without live load only have to stand, which is shown apart;
+contact points that cannot matter under associative flow are left out.
+"""
+
+
 @dataclass(frozen=True)
 class ReductionSwitches:
-    """What is looked for and left out before the solver; the answer is the same without.
+    """Which reductions are used.
 
-    planar   : planar structures are solved with three unknowns a block
-    mirror   : associative flow: only one half of a symmetric structure is solved
-    parts    : parts that cannot interact are solved apart
-    unloaded : parts without live load only have to stand, which is shown apart
-    points   : associative flow: contact points that cannot matter are left out
+    on     : false: none at all
+    mirror : halves of symmetric structures may be left out, where the flow rule lets them
+    points : contact points may be left out, where the flow rule lets them
     """
 
-    planar: bool = True
+    on: bool = True
     mirror: bool = True
-    parts: bool = True
-    unloaded: bool = True
     points: bool = True
 
-
-NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False)
+    def step(self, name: str, allowed: bool, found: int, before: ProgramSize, after: ProgramSize) -> ReductionStep:
+        """The record of a reduction that was tried, or not allowed."""
+        state = StepState.NONE if allowed and self.on else StepState.BARRED if self.on else StepState.OFF
+        return ReductionStep(name, StepState.APPLIED if found else state, found, before, after)
 
 
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
@@ -134,7 +128,5 @@ def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
     would be another law; nor for the range of forces, which is wider than that of symmetric forces. For that range the
     points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
     """
-    if not analysis.reductions:
-        return NONE
     half = analysis.friction_cone == "circular" and not analysis.force_ranges
-    return replace(ReductionSwitches(), mirror=half, points=not analysis.force_ranges)
+    return ReductionSwitches(analysis.reductions, mirror=half, points=not analysis.force_ranges)

@@ -11,7 +11,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
-from mbla.program.reductions.steps import ReductionSwitches
+from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.listing.solving import METHODS
 from mbla.results.record.stored import ANSWERS, stored
@@ -123,7 +123,7 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
         columns = [get[f"reductions/{name}_{when}"] for name in ProgramSize.__dataclass_fields__]
         sizes[when] = [ProgramSize(*row) for row in np.column_stack(columns).tolist()]
     found = get["reductions/name"], get["reductions/state"], get["reductions/found"].tolist()
-    if not set(found[0]) <= {"glued", *vars(ReductionSwitches())}:
+    if not set(found[0]) <= {"glued", *REDUCTIONS}:
         raise ValueError("name of a reduction")
     rows = zip(*found, sizes["before"], sizes["after"], strict=True)
     return tuple(ReductionStep(name, StepState(state), *row) for name, state, *row in rows)

@@ -17,7 +17,7 @@ import numpy as np
 from mbla.deck import Deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.model.model import Model
-from mbla.program.choice import crushable_interfaces, takes_stress_blocks
+from mbla.program.build import crushable_interfaces, takes_stress_blocks
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing

@@ -35,7 +35,6 @@ load_cases:
   push: {live: [{acceleration: %s}]}
 analysis: {flow_rule: associative}
 """
-NONE = ReductionSwitches(planar=False, mirror=False, parts=False, points=False)
 
 
 def answer(tmp_path: Path, support: str, push: str, reduce: bool = True) -> tuple[float, int]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.reductions import reduce_program
-from mbla.program.reductions.parts import _unit_of_force, find_parts, split_into_parts
+from mbla.program.reductions.parts import _unit_of_force, part_of_blocks, split_into_parts
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
@@ -81,9 +81,7 @@ def test_parts_know_their_loads_and_strengths() -> None:
     )
     push = "load_cases.push.live=[{acceleration: [1, 0, 0], on: other}]"
     whole = scene(text, push, "parameters.c=1000", "parameters.ft=500")
-    parts = find_parts(whole)
-    assert parts.part_of_block.tolist() == [0, 1]
-    assert parts.loaded.tolist() == [False, True]
+    assert part_of_blocks(whole).tolist() == [0, 1]
     alone = split_into_parts(whole)
     assert len(alone) == 2
     for part, weight in zip(alone, (2.0, 4.0), strict=True):

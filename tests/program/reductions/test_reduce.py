@@ -18,8 +18,6 @@ from mbla.solution.parts import to_full
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 
-NONE = ReductionSwitches(planar=False, mirror=False, parts=False, unloaded=False, points=False)
-
 ARCH = (
     HEAD
     + """\
@@ -169,29 +167,6 @@ def test_parts_that_cannot_interact_are_solved_apart() -> None:
     assert set(groups[moving]) == {"other"}
 
 
-def test_a_part_without_live_load_only_has_to_stand() -> None:
-    line = line_of(TWO_WALLS, "load_cases.push.live=[{acceleration: [1, 0, 0], on: wall}]")
-    solution, _, status = verified(line)
-    assert status == "solved"
-    assert solution.mechanics is not None
-    assert solution.mechanics.load_factor == pytest.approx(factor_of(line_of(WALL)), rel=1e-6)
-
-
-def test_a_part_without_live_load_that_falls_is_found() -> None:
-    text = WALL.replace(
-        "supports:",
-        """  - box: {group: base, material: stone, min: [5, 0, 0], max: [6, 1, 1]}
-  - box: {group: over, material: stone, min: [5.9, 0, 1], max: [7, 1, 2]}
-supports:""",
-    )
-    line = line_of(text, "load_cases.push.live=[{acceleration: [1, 0, 0], on: wall}]")
-    solution, _, status = verified(line)
-    assert status == "no_equilibrium"
-    assert solution.certificate is not None
-    moving = np.abs(solution.certificate).max(axis=1) > 1e-3
-    assert {"over"} <= set(np.array(line.model.blocks.groups)[moving]) <= {"over", "base"}
-
-
 def test_points_inside_the_hull_are_left_out_of_associative_programs_only() -> None:
     """An L-shaped base: the inner corner lies within the hull of the others."""
     outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
@@ -211,19 +186,6 @@ def test_points_inside_the_hull_are_left_out_of_associative_programs_only() -> N
 
 def test_everything_can_be_switched_off() -> None:
     line = line_of(TWO_WALLS)
-    off = reduced(line, switches=NONE)
+    off = reduced(line, switches=ReductionSwitches(on=False))
     assert off.parts == (line.program,)
     assert off.size == unreduced(line.program, line.contacts).size
-
-
-@pytest.mark.parametrize("name", ["planar", "mirror", "parts", "points"])
-def test_each_switch_is_obeyed(name: str) -> None:
-    texts = {"planar": WALL, "mirror": WALL, "parts": TWO_WALLS, "points": WALL}
-    live = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
-    line = line_of(texts[name], *((live,) if name == "mirror" else ()))
-    on, off = reduced(line).size, reduced(line, switches=ReductionSwitches(**{name: False})).size
-    changed = {"planar": "dimension", "mirror": "mirror_planes", "parts": "parts"}.get(name)
-    if changed is not None:
-        assert getattr(on, changed) != getattr(off, changed)
-    else:
-        assert on == off  # a wall has no point to leave out

@@ -1,38 +1,35 @@
-"""Records of reductions: what was found, what was not allowed, and by whom; sizes of programs that have a load."""
+"""Which reductions an analysis allows, the record of each, and matrices of smaller programs without rounding."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
-from mbla.program.reductions.steps import ProgramSize, StepState, size_of, step_of, told_apart
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.program.reductions import allowed_reductions
+from mbla.program.reductions.restrict import tidy
+from mbla.program.reductions.steps import ProgramSize, ReductionSwitches, StepState, size_of
+from mbla.solution.solution import Status
+from tests.line import WALL, line_of, verified
 from tests.solution.by_hand import own_points
 
 SMALL, LARGE = ProgramSize(6, 4, 40, 6), ProgramSize(12, 8, 80, 12)
 
 
 @pytest.mark.parametrize(
-    ("allowed", "found", "state"),
-    [(True, 3, StepState.APPLIED), (True, 0, StepState.NONE), (False, 0, StepState.OFF)],
+    ("on", "allowed", "found", "state"),
+    [
+        (True, True, 3, StepState.APPLIED),
+        (True, True, 0, StepState.NONE),
+        (True, False, 0, StepState.BARRED),
+        (False, True, 0, StepState.OFF),
+        (False, False, 0, StepState.OFF),
+    ],
 )
-def test_what_became_of_a_reduction(allowed: bool, found: int, state: StepState) -> None:
-    step = step_of("planar", allowed, found, LARGE, SMALL)
+def test_what_became_of_a_reduction(on: bool, allowed: bool, found: int, state: StepState) -> None:
+    step = ReductionSwitches(on=on).step("planar", allowed, found, LARGE, SMALL)
     assert (step.name, step.state, step.found, step.before, step.after) == ("planar", state, found, LARGE, SMALL)
-
-
-def test_what_the_deck_has_on_and_is_off_was_barred() -> None:
-    steps = [
-        step_of("planar", True, 1, LARGE, SMALL),
-        step_of("mirror", False, 0, SMALL, SMALL),
-        step_of("points", False, 0, SMALL, SMALL),
-        step_of("glued", False, 0, SMALL, SMALL),
-    ]
-    told = told_apart(steps, switched_on=True)
-    assert [step.state for step in told] == [StepState.APPLIED, *[StepState.BARRED] * 3]
-    assert [replace(step, state=StepState.OFF) for step in told] == [replace(s, state=StepState.OFF) for s in steps]
-    assert told_apart(steps, switched_on=False) == tuple(steps)
 
 
 def test_programs_without_live_load_do_not_count() -> None:
@@ -43,3 +40,49 @@ def test_programs_without_live_load_do_not_count() -> None:
     assert size_of([larger, loaded]).largest == 6
     assert size_of([idle]) == ProgramSize(0, 0, 0, 0)
     assert np.count_nonzero(idle.live_load) == 0
+
+
+def test_without_reason_to_the_contrary_the_deck_is_followed() -> None:
+    assert allowed_reductions(AnalysisSection()) == ReductionSwitches()
+    assert not allowed_reductions(AnalysisSection(reductions=False)).on
+
+
+@pytest.mark.parametrize(
+    ("analysis", "off"),
+    [
+        (AnalysisSection(flow_rule="associative", friction_cone="polyhedral"), {"mirror"}),
+        (AnalysisSection(flow_rule="associative", force_ranges=True), {"mirror", "points"}),
+    ],
+)
+def test_what_would_change_the_answer_is_off(analysis: AnalysisSection, off: set[str]) -> None:
+    allowed = vars(allowed_reductions(analysis))
+    assert {name for name, switched_on in allowed.items() if not switched_on} == off
+
+
+def test_a_pentagon_is_no_mirror_image_of_itself() -> None:
+    """One half with its mirror image gave 0.1176 for the circumscribed pentagon, which verification refused."""
+    overrides = ("parameters.n=3", "parameters.mu=0.1", "load_cases.push.live=[{acceleration: [0, 1, 0]}]")
+    pentagon = ("analysis.friction_cone=polyhedral", "analysis.sides=5", "analysis.standing=false")
+    solution, checks, status = verified(line_of(WALL, *overrides, *pentagon))
+    assert status is Status.APPROXIMATE, checks.failures
+    assert checks.verified
+    assert solution.size is not None
+    assert solution.size.mirror_planes == 0
+    assert checks.static_bound < 0.1 < checks.kinematic_bound < 0.106
+
+
+def test_rounding_of_the_largest_entry_is_left_out() -> None:
+    matrix = tidy(sp.coo_array((np.array([1e-16, -4.0, 1e-3, 0.0]), ([1, 0, 1, 0], [0, 1, 1, 0])), shape=(2, 3)))
+    assert matrix.indices.tolist() == [1, 1]
+    assert matrix.data.tolist() == [-4.0, 1e-3]
+    assert matrix.shape == (2, 3)
+    assert tidy(sp.coo_array((2, 3))).nnz == 0
+
+
+def test_entries_come_in_order() -> None:
+    given = sp.csr_array((np.array([3.0, 1.0, 4.0]), np.array([2, 0, 1]), np.array([0, 2, 3])), shape=(2, 3))
+    assert not given.has_sorted_indices
+    for matrix in (given, sp.csc_array(given), sp.coo_array(given)):
+        clean = tidy(matrix)
+        assert clean.has_canonical_format
+        assert clean.toarray().tolist() == [[1.0, 0.0, 3.0], [0.0, 4.0, 0.0]]
