@@ -190,7 +190,7 @@ def _solve(
     shown = shown_folders(prepared.plan, prepared.sweep.content.deck)
     started = time.perf_counter()
     with closing(outcomes):
-        for outcome in map(shown.in_outcome, outcomes):
+        for outcome in map(shown, outcomes):
             task = by_key[outcome.key]
             journal.add(task, outcome)
             progress.add(outcome.state == FAILED, time.perf_counter() - started)

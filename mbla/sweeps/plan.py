@@ -1,13 +1,13 @@
-"""What workers are asked for and what they answer, as plain data: JSON in, JSON out, whatever process or machine."""
+"""What workers are asked for and what they answer, as plain data, whatever process or machine."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from mbla.deck.overrides import LABEL
 
@@ -97,59 +97,27 @@ def _written(value: Plain) -> str:
     return json.dumps(value, allow_nan=False, ensure_ascii=False).replace("\x85", "\\u0085")
 
 
-LISTS = ("fixed", "cases", "results")
-"""fields of a plan that are tuples, which JSON has not"""
-
-
-def record_of(item: Plan | Task | Outcome) -> dict[str, Any]:
-    """Fields by name."""
-    return asdict(item)
-
-
-def plan_of(record: Mapping[str, Any]) -> Plan:
-    """The plan that ``record_of`` wrote."""
-    return Plan(**{**record, **{name: tuple(record[name]) for name in LISTS}})
-
-
-def task_of(record: Mapping[str, Any]) -> Task:
-    """The task that ``record_of`` wrote."""
-    return Task(**record)
-
-
-def outcome_of(record: Mapping[str, Any]) -> Outcome:
-    """The outcome that ``record_of`` wrote."""
-    return Outcome(**record)
-
-
 BEGINS = r"""(?<![^\s'"(=:,;])"""
 """where a path may begin in a text"""
 SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
 """place of a value that a point sets: the user did not write it; its key and value stand behind it"""
 
 
-@dataclass(frozen=True)
-class ShownFolders:
-    """How the folders of a sweep are shown.
+def shown_folders(plan: Plan, deck: str) -> Callable[[Outcome], Outcome]:
+    """What makes an outcome tell of files as the user names them, not by the folders of this machine.
 
-    folders : a folder as this machine has it, with a stroke at its end, and what is shown in its place; the longest
-              first
+    The base deck's folder is shown as ``deck``, the path in the sweep file, has it; nothing for that of the sweep.
     """
-
-    folders: tuple[tuple[str, str], ...]
-
-    def in_outcome(self, outcome: Outcome) -> Outcome:
-        """The same outcome with these folders shown so in its reason."""
-        reason = SETTING.sub("", outcome.reason)
-        for folder, shown in self.folders:
-            reason = shown.join(re.split(BEGINS + re.escape(folder), reason))
-        return replace(outcome, reason=reason)
-
-
-def shown_folders(plan: Plan, deck: str) -> ShownFolders:
-    """The base deck's folder as ``deck``, the path in the sweep file, has it; nothing for that of the sweep's files."""
     named = Path(deck).parent
     folders = {Path(plan.folder): "", Path(plan.deck).parent: "" if named == Path() else f"{named}/"}
     own = {
         f"{str(each).rstrip('/')}/": shown for folder, shown in folders.items() for each in (folder, folder.resolve())
     }
-    return ShownFolders(tuple(sorted(own.items(), key=lambda item: -len(item[0]))))
+
+    def told(outcome: Outcome) -> Outcome:
+        reason = SETTING.sub("", outcome.reason)
+        for folder, shown in sorted(own.items(), key=lambda item: -len(item[0])):
+            reason = shown.join(re.split(BEGINS + re.escape(folder), reason))
+        return replace(outcome, reason=reason)
+
+    return told

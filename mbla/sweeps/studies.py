@@ -101,7 +101,7 @@ def solved(
     found: dict[int, Outcome] = {}
     with closing(engine.run(plan, tasks)) as outcomes:
         try:
-            for outcome in map(shown.in_outcome, outcomes):
+            for outcome in map(shown, outcomes):
                 found[numbers[outcome.key]] = outcome
                 if report is not None:
                     report(len(found))

@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 
 from mbla.sweeps.command import Finished, Prepared, SweepOptions, prepare, run_sweep
 from mbla.sweeps.design.design import Design
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.file.read import read_sweep
 from mbla.sweeps.plan import Plain
 from tests.decks.folder import DECKS

@@ -36,7 +36,7 @@ import yaml
 
 import mbla
 from mbla.sweeps.command import FAILED_POINTS
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.plan import Plain, Plan, Task
 from tests.decks.folder import BENCHMARKS

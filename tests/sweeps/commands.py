@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES
 from mbla.sweeps.journal import journals_in
 from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.killed_sweeps import keys_in_journals, table_of

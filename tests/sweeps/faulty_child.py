@@ -19,7 +19,7 @@ LOG = "MBLA_TEST_LOG"
 def main() -> None:
     """As the real process."""
     from mbla.sweeps.engine import child
-    from mbla.sweeps.engine.runner import PointRunner
+    from mbla.sweeps.engine.child import PointRunner
     from mbla.sweeps.plan import Outcome, Plain, Task
 
     class Faulty(PointRunner):

@@ -44,7 +44,7 @@ def plan_in(folder: str, deck: str) -> Plan:
 )
 def test_files_have_the_names_that_the_sweep_file_gives_them(deck: str, named: str, reason: str, shown: str) -> None:
     outcome = Outcome("key", FAILED, 3, reason, {}, 1, 0.0)
-    assert shown_folders(plan_in("/a/b/s.out", deck), named).in_outcome(outcome).reason == shown
+    assert shown_folders(plan_in("/a/b/s.out", deck), named)(outcome).reason == shown
 
 
 def written(folder: Path) -> dict[str, str]:

@@ -1,64 +1,76 @@
 """The process that solves points: imports everything once, then one point after the other.
 
-Started as ``python -P -m mbla.sweeps.engine.child``. Lines of JSON on standard input: the plan, then tasks.
-Lines on standard output: ``program`` once everything is imported; ``base``, bytes held with the base deck, or
-``refused`` with the words of the error; then for each task its ``outcome``, with the bytes held after it. Standard
-input stays open as long as the parent lives: its end ends this process, in the middle of a point too.
+Started as ``python -P -m mbla.sweeps.engine.child NUMBER``, the number of its end of a pipe. The plan comes first; the
+answer is empty, or says why it is refused. Then each task is answered with its outcome. The end of the pipe, when the
+parent is gone, ends this process, in the middle of a point too.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import importlib
-import json
+import io
 import os
 import pkgutil
 import platform
 import queue
-import signal
 import sys
 import threading
+import time
 import traceback
+from dataclasses import replace
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
+from mbla.deck import read_deck
+from mbla.deck.deck import Deck
 from mbla.errors import UsageError
-from mbla.process.memory_limit import STATUS, can_limit, limited, written
+from mbla.process.memory_limit import can_limit, limited, written
+from mbla.process.run_options import RunOptions
+from mbla.process.sharing import Memory, sharing
 from mbla.results.failures import words_of
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.results.files import OutputFolder
+from mbla.results.records.json_record import results_json
+from mbla.results.sta import StatusFile
+from mbla.results.write import write_results
+from mbla.run import solve_deck
 from mbla.sweeps.identity import fingerprint_of, program_identity
-from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_texts
+from mbla.sweeps.results import reason_of, result_places, values_of
 
 STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
 LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
 """libraries that the stages import when they need them; some are optional"""
-PR_SET_PDEATHSIG = 1
-"""of linux/prctl.h"""
 
 
 def main() -> None:
-    """Answer tasks until standard input ends; whatever libraries print goes to standard error."""
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)
-    lines: queue.Queue[str] = queue.Queue()
-    threading.Thread(target=_listen, args=(lines,), daemon=True).start()
-    _die_with_the_parent()
+    """Answer the plan and tasks until the parent is gone."""
+    pipe: Connection[Any, Any] = Connection(int(sys.argv[1]))
+    questions: queue.Queue[Any] = queue.Queue()
+    threading.Thread(target=_listen, args=(pipe, questions), daemon=True).start()
     import_everything()
-    _tell(answers, {"program": program_identity()})
-    plan = plan_of(json.loads(lines.get()))
+    plan: Plan = questions.get()
     try:
         runner = prepared(plan)
     except Exception as error:
-        _tell(answers, {"refused": " ".join(words_of(error)[1].split())})
+        pipe.send(" ".join(words_of(error)[1].split()))
         return
     most = None if plan.memory_limit is None else written() + plan.memory_limit
-    _tell(answers, {"base": resident()})
+    pipe.send("")
     while True:
-        task = task_of(json.loads(lines.get()))
+        task: Task = questions.get()
         with limited(most):
             outcome = runner.run(task)
-        _tell(answers, {"outcome": record_of(outcome), "held": resident()})
+        pipe.send(outcome)
+
+
+def _listen(pipe: Connection[Any, Any], questions: queue.Queue[Any]) -> None:
+    """Hand on what the parent asks; its end ends everything here, whatever is under way."""
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            questions.put(pipe.recv())
+    os._exit(0)
 
 
 def import_everything() -> None:
@@ -70,15 +82,6 @@ def import_everything() -> None:
     for library in LATE:
         with contextlib.suppress(ImportError):
             importlib.import_module(library)
-
-
-def resident() -> float:
-    """Bytes that this process holds (VmRSS, proc(5)); 0 where the system does not tell."""
-    try:
-        lines = STATUS.read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return 0.0
-    return next((1024.0 * float(line.split()[1]) for line in lines if line.startswith("VmRSS:")), 0.0)
 
 
 def prepared(plan: Plan) -> PointRunner:
@@ -102,22 +105,88 @@ def prepared(plan: Plan) -> PointRunner:
     return PointRunner(plan)
 
 
-def _listen(lines: queue.Queue[str]) -> None:
-    """Hand on what the parent says; its end ends everything here, whatever is under way."""
-    for line in sys.stdin:
-        lines.put(line)
-    os._exit(0)
+# --- points -----------------------------------------------------------------------------------------------------------
+
+FOLDER = "points"
+"""in the folder of the sweep; one folder for each point in it, by its number"""
 
 
-def _die_with_the_parent() -> None:
-    """Where the system can: at once, also while a library keeps every thread of Python waiting."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+ON_REQUEST = (
+    *("best_iterate", "complete", "factor_unique", "greatest_load_factor", "iterations", "least_load_factor", "path"),
+    *("peak_load_factor", "programs", "range", "reductions", "remarks", "settings", "solver", "spread", "time"),
+)
+"""first keys of columns that need, or may depend on, the range of the load factor or a peak on the way to it"""
 
 
-def _tell(answers: IO[str], record: dict[str, Any]) -> None:
-    answers.write(json.dumps(record) + "\n")
-    answers.flush()
+def requested_only(deck: Deck, plan: Plan) -> Deck:
+    """The deck of a point, without range and peak where no column and no file shows them.
+
+    They are further results on the state that was found (``further_results``), change no other value, and may take
+    longer than the state itself.
+    """
+    if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
+        return deck
+    analysis = deck.analysis.model_copy(update={"range": False, "peak": False})
+    return replace(deck, content=deck.content.model_copy(update={"analysis": analysis}))
+
+
+ANSWERED = (0, 5)
+"""exit codes with a verified answer for every case: 5 is that there is no load factor"""
+
+
+def state_of(exit_code: int) -> str:
+    """State of a point whose deck would end with this exit code."""
+    return DONE if exit_code in ANSWERED else FAILED
+
+
+class PointRunner:
+    """Points of one plan, one after the other.
+
+    What points have in common is worked out once: ``memory``. Files that the deck names are taken as they were when
+    they were first read.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.memory = Memory()
+        self._places = result_places(plan.results, plan.cases)
+
+    def run(self, task: Task) -> Outcome:
+        """Solve one point; what goes wrong with it is in the outcome."""
+        started = time.perf_counter()
+        results: dict[str, Plain] = {}
+        try:
+            code, reason, results = self._shared(task)
+        except Exception as error:
+            code, reason = words_of(error)
+        return Outcome(task.key, state_of(code), code, reason, results, 1, time.perf_counter() - started)
+
+    def _shared(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        """Solve it with what earlier points left; without, where that leaves too little memory for this one."""
+        if not self.plan.shared:
+            return self._solve(task)
+        for memory in (self.memory, Memory()):
+            self.memory = memory
+            try:
+                with sharing(memory):
+                    return self._solve(task)
+            except MemoryError:
+                if not len(memory):
+                    raise
+        raise AssertionError  # nothing was left in the second
+
+    def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        plan, started = self.plan, time.perf_counter()
+        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
+        deck = requested_only(deck, plan)
+        status, stem = io.StringIO(), Path(plan.deck).stem
+        results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, deck.title), None, started)
+        if plan.keep in ("all", state_of(results.exit_code)):
+            with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
+                out.write_text(f"{stem}.sta", status.getvalue())
+                write_results(results, out, deck.content.output)
+        record = results_json(results, on_demand=True)
+        return results.exit_code, reason_of(record), values_of(record, self._places)
 
 
 if __name__ == "__main__":

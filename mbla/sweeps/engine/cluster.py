@@ -11,15 +11,15 @@ import queue
 import uuid
 from collections import deque
 from collections.abc import Generator, Sequence
-from dataclasses import dataclass, field
+from contextlib import suppress
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 from mbla.errors import UsageError
 from mbla.sweeps.engine.connection import LOOK, REPLY, Connection
-from mbla.sweeps.engine.engine import EngineOptions
+from mbla.sweeps.engine.engine import Engine, EngineOptions
 from mbla.sweeps.engine.on_worker import end_processes, run_batch
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, outcome_of, record_of
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 
 SECONDS = 1.0
 """that a batch should take: hundreds of times what handing it out costs"""
@@ -29,6 +29,7 @@ MEMORY = 0.1
 """share of the last point in the mean time of a point"""
 STRIKES = 2
 """workers that may die of a point before it is given up"""
+GIVEN_UP = f"its worker was ended, as was that of each try before; given up after {STRIKES} tries"
 
 
 class Batches:
@@ -80,31 +81,14 @@ WINDOW = 2
 """batches under way for each thread of the workers: one is solved, the next waits beside it"""
 
 
-@dataclass(frozen=True)
-class Batch:
-    """One batch under way."""
-
-    tasks: tuple[Task, ...]
-    future: Any
-
-
-@dataclass
-class Window:
-    """Batches under way, and the keys of those that are finished."""
-
-    running: dict[str, Batch] = field(default_factory=dict)
-    finished: queue.Queue[str] = field(default_factory=queue.Queue)
-
-
-class ClusterEngine:
-    """Context manager; the local workers, or the connection, are there inside the block and gone after it."""
+class ClusterEngine(Engine):
+    """The local workers, or the connection, are there inside the block and gone after it."""
 
     def __init__(self, options: EngineOptions) -> None:
         """UsageError where the extra is not installed."""
         self._connection = Connection(options)
-        self._outcomes: Generator[Outcome, None, None] | None = None
 
-    def __enter__(self) -> ClusterEngine:
+    def __enter__(self) -> Self:
         """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
         self._connection.__enter__()
         return self
@@ -112,71 +96,50 @@ class ClusterEngine:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        if self._outcomes is not None:
-            self._outcomes.close()
+        super().__exit__(kind, error, traceback)
         self._connection.__exit__(kind, error, traceback)
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        """Outcomes as they are done; raises as ``Engine.run`` does, and FileError where the scheduler is gone."""
-        self._outcomes = self._solved(plan, tasks)
-        return self._outcomes
-
     def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        batches, window = Batches(tasks), Window()
+        connection, batches = self._connection, Batches(tasks)
+        running: dict[str, tuple[tuple[Task, ...], Any]] = {}  # tasks and future by the key of the batch
+        finished: queue.Queue[str] = queue.Queue()
         try:
-            while batches or window.running:
-                places = WINDOW * max(self._connection.threads, 1)
-                while batches and len(window.running) < places:
-                    self._submit(plan, batches.take(places), window)
-                for outcome in self._next(batches, window):
-                    batches.learn(outcome)
-                    yield outcome
-        finally:
-            self._end(window)
+            while batches or running:
+                places = WINDOW * max(connection.threads, 1)
+                while batches and len(running) < places:
+                    batch, key = batches.take(places), f"mbla-points-{uuid.uuid4().hex}"
+                    with connection.lost_where_it_fails():
+                        arguments = plan, batch, connection.libraries
+                        future = connection.client.submit(run_batch, *arguments, key=key, pure=False)
+                    running[key] = batch, future
+                    future.add_done_callback(lambda future: finished.put(future.key))
+                connection.look(every=LOOK)
+                with suppress(queue.Empty):
+                    for outcome in self._outcomes_of(*running.pop(finished.get(timeout=LOOK)), batches):
+                        batches.learn(outcome)
+                        yield outcome
+        finally:  # nothing goes on for nobody: what is under way is cancelled, the processes of the workers are ended
+            if running:
+                futures = [future for _, future in running.values()]
+                connection.ask_quietly(lambda client: client.cancel(futures, force=True))
+            connection.ask_quietly(lambda client: client.run(end_processes, on_error="ignore"))
 
-    def _submit(self, plan: Plan, tasks: tuple[Task, ...], window: Window) -> None:
-        key, connection = f"mbla-points-{uuid.uuid4().hex}", self._connection
-        arguments = record_of(plan), [record_of(task) for task in tasks], connection.libraries
-        with connection.lost_where_it_fails():
-            future = connection.client.submit(run_batch, *arguments, key=key, pure=False)
-        window.running[key] = Batch(tasks, future)
-        future.add_done_callback(lambda future: window.finished.put(future.key))
-
-    def _next(self, batches: Batches, window: Window) -> list[Outcome]:
-        """Outcomes of the next batch that is finished; none where none was in a while."""
+    def _outcomes_of(self, tasks: tuple[Task, ...], future: Any, batches: Batches) -> list[Outcome]:
+        """Outcomes of a finished batch; what of it was not solved is given back."""
         connection = self._connection
-        connection.look(every=LOOK)
         try:
-            key = window.finished.get(timeout=LOOK)
-        except queue.Empty:
-            return []
-        batch = window.running.pop(key)
-        try:
-            answer = batch.future.result(timeout=REPLY)
+            outcomes: list[Outcome]
+            outcomes, refused = future.result(timeout=REPLY)
         except connection.dask.KilledWorker:
-            return [_given_up(task) for task in batches.died(batch.tasks)]
+            return [Outcome(task.key, FAILED, 1, GIVEN_UP, {}, STRIKES, 0.0) for task in batches.died(tasks)]
         except (OSError, *connection.dask.cancelled) as error:
             connection.refuse_lost(error)
-            batches.give_back(batch.tasks)  # the worker is gone with its answer
+            batches.give_back(tasks)  # the worker is gone with its answer
             return []
         except Exception as error:
             words = f"{type(error).__name__}: {' '.join(str(error).split())}"
             raise UsageError("worker-refused", f"a worker cannot solve points: {words}") from error
-        if "refused" in answer:
-            raise UsageError("worker-refused", f"a worker cannot solve points of this sweep: {answer['refused']}")
-        outcomes = [outcome_of(record) for record in answer["outcomes"]]
-        batches.give_back(batch.tasks[len(outcomes) :])
+        if refused:
+            raise UsageError("worker-refused", f"a worker cannot solve points of this sweep: {refused}")
+        batches.give_back(tasks[len(outcomes) :])
         return outcomes
-
-    def _end(self, window: Window) -> None:
-        """Nothing goes on for nobody: what is under way is cancelled, the processes of the workers are ended."""
-        futures = [batch.future for batch in window.running.values()]
-        window.running.clear()
-        if futures:
-            self._connection.ask_quietly(lambda client: client.cancel(futures, force=True))
-        self._connection.ask_quietly(lambda client: client.run(end_processes, on_error="ignore"))
-
-
-def _given_up(task: Task) -> Outcome:
-    words = f"its worker was ended, as was that of each try before; given up after {STRIKES} tries"
-    return Outcome(task.key, FAILED, 1, words, {}, STRIKES, 0.0)

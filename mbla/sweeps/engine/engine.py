@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Protocol
+from typing import Self
 
 from mbla.errors import LimitError, UsageError
 from mbla.sweeps.engine.supervised import SupervisedRunner
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
-
-if TYPE_CHECKING:
-    from mbla.sweeps.engine.cluster import ClusterEngine
-
 
 NOT_BEGUN = "not run: the time limit was over"
 """reason of a point that was not begun"""
@@ -77,8 +74,19 @@ def check_options(options: EngineOptions) -> None:
         raise UsageError("sweep-option", "\n".join(wrong))
 
 
-class Engine(Protocol):
-    """Hands tasks to workers."""
+class Engine(ABC):
+    """Hands tasks to workers; a context manager, of which nothing goes on after its block."""
+
+    _outcomes: Generator[Outcome, None, None] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._outcomes is not None:
+            self._outcomes.close()
 
     def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes in the order in which they are done; one for every task, also where its worker died.
@@ -89,12 +97,18 @@ class Engine(Protocol):
         ------
         UsageError
             no worker can be had, or one has another mbla or reads another base deck
+        FileError
+            the scheduler is gone
         """
-        ...
+        self._outcomes = self._solved(plan, tasks)
+        return self._outcomes
+
+    @abstractmethod
+    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]: ...
 
 
-class SerialEngine:
-    """Context manager; tasks are done in their order."""
+class SerialEngine(Engine):
+    """Tasks are done in their order, by one process beside this one."""
 
     def __init__(self, until: float | None = None, threads: int = 1) -> None:
         """
@@ -102,21 +116,6 @@ class SerialEngine:
         threads : of the process of points
         """
         self._until, self._threads = until, threads
-        self._outcomes: Generator[Outcome, None, None] | None = None
-
-    def __enter__(self) -> SerialEngine:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        if self._outcomes is not None:
-            self._outcomes.close()
-
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        """Outcomes in the order of the tasks; raises as ``Engine.run`` does."""
-        self._outcomes = self._solved(plan, tasks)
-        return self._outcomes
 
     def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         with SupervisedRunner(plan, until=self._until, threads=self._threads) as runner:
@@ -127,7 +126,7 @@ class SerialEngine:
                     yield runner.run(task)
 
 
-def engine_for(options: EngineOptions) -> SerialEngine | ClusterEngine:
+def engine_for(options: EngineOptions) -> Engine:
     """The engine; it is started by entering its context.
 
     Raises

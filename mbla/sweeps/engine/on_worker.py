@@ -1,4 +1,4 @@
-"""Points in a worker of a cluster: plain data in and out, each solved in a supervised process of the worker.
+"""Points in a worker of a cluster, each solved in a supervised process of the worker.
 
 The functions are called by their import path. A worker has as many processes as it has threads that ask; they are kept
 for the next batch of the same plan, and ended when none has come for a while or the client says so.
@@ -16,7 +16,7 @@ from typing import Any
 from mbla.errors import UsageError
 from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
 from mbla.sweeps.identity import difference, library_versions, program_identity
-from mbla.sweeps.plan import Plan, plan_of, record_of, task_of
+from mbla.sweeps.plan import Outcome, Plan, Task
 
 IDLE = 60.0
 """seconds without a batch after which the processes are ended: their client is gone"""
@@ -95,35 +95,32 @@ def describe() -> dict[str, Any]:
     return {"program": program_identity(), "libraries": library_versions(), "machine": platform.node()}
 
 
-def run_batch(
-    plan_record: Mapping[str, Any], task_records: Sequence[Mapping[str, Any]], libraries: Mapping[str, str]
-) -> dict[str, Any]:
+def run_batch(plan: Plan, tasks: Sequence[Task], libraries: Mapping[str, str]) -> tuple[list[Outcome], str]:
     """Solve points until all are done or enough time is over.
 
     libraries : versions that the client has; a worker that came later may have others
 
     Returns
     -------
-    dict
-        ``outcomes`` of the first tasks; ``refused``, in words, where this worker cannot solve points of this plan
+    tuple
+        outcomes of the first tasks; why this worker cannot solve points of this plan, empty where it can
     """
-    plan = plan_of(plan_record)
-    outcomes: list[dict[str, Any]] = []
+    outcomes: list[Outcome] = []
     if words := difference(libraries, library_versions()):
-        return {"outcomes": outcomes, "refused": words}
+        return outcomes, words
     runner = PROCESSES.lend(plan)
     until = time.monotonic() + ENOUGH
     try:
         with suppress(StoppedError):  # nobody waits for these any more
-            for record in task_records:
-                outcomes.append(record_of(runner.run(task_of(record))))
+            for task in tasks:
+                outcomes.append(runner.run(task))
                 if time.monotonic() > until:
                     break
     except UsageError as error:
-        return {"outcomes": outcomes, "refused": str(error)}
+        return outcomes, str(error)
     finally:
         PROCESSES.give_back(runner)
-    return {"outcomes": outcomes}
+    return outcomes, ""
 
 
 def end_processes() -> None:

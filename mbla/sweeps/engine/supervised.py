@@ -1,17 +1,32 @@
-"""Points in a process of their own: limits of time and memory, and what becomes of a point that its process dies of."""
+"""Points in a process of their own: limits of time and memory, and what becomes of a point that its process dies of.
+
+The process has a session of its own, so that an interrupt from the keyboard reaches the parent alone, which stops it
+with all its copies. Plan, tasks and outcomes go over a pipe, whose end each side sees when the other is gone.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import os
+import signal
+import subprocess
 import sys
+import tempfile
 import time
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from pathlib import Path
 from types import TracebackType
+from typing import IO, Any
 
 from mbla.errors import LimitError, UsageError
-from mbla.sweeps.engine.line_process import LineProcess
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, outcome_of, record_of
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 
 COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.engine.child")
+PACKAGES = Path(__file__).parents[3]
+"""folder from which this mbla is imported; the process takes the same"""
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS")
 """variables that are set whatever the user's own say: with more than one thread the last digits may be others"""
 TRIES = 2
@@ -19,10 +34,12 @@ TRIES = 2
 STARTS = 20
 """of a process that is ended by a signal before it is ready: no point is to blame, and what sent it may be over soon;
 one that ends by itself then would do so again"""
-GROWTH = 3.0
-"""a process that holds so many times what it held after its first point is replaced"""
 START = 120.0
 """seconds in which a process must be ready; importing takes a few, and some more from a busy network disk"""
+PATIENCE = 5.0
+"""seconds that a process which closed its end of the pipe is given to end"""
+LAST_WORDS = 2000
+"""bytes of standard error that are read of one that broke"""
 NO_MEMORY = ("memory allocation of", "bad_alloc", "Cannot allocate memory", "MemoryError", "emory allocation")
 """what libraries say last when they end a process because an allocation failed"""
 MEGABYTE = 1e6
@@ -34,19 +51,6 @@ class StoppedError(Exception):
     """The runner was stopped from another thread while it solved a point."""
 
 
-@dataclass(frozen=True)
-class Attempt:
-    """What came of a point once.
-
-    outcome : None where the process died, with ``words``
-    memory  : the limit on memory was met
-    """
-
-    outcome: Outcome | None
-    words: str = ""
-    memory: bool = False
-
-
 class SupervisedRunner:
     """Context manager; solves points of one plan, one after the other, in a process that is replaced when it must be.
 
@@ -55,19 +59,21 @@ class SupervisedRunner:
     """
 
     def __init__(
-        self, plan: Plan, command: tuple[str, ...] = COMMAND, *, until: float | None = None, threads: int = 1
+        self, plan: Plan, command: Sequence[str] = COMMAND, *, until: float | None = None, threads: int = 1
     ) -> None:
         """The process is started when it is first needed.
 
         until : time.monotonic() at which a point is stopped in any case
         """
         self.plan = plan
-        self._until = until
         self.started = 0
-        self._process = LineProcess(command, dict.fromkeys(THREADS, str(threads)))
-        self._fresh = True
-        self._first = self._held = 0.0
         self.stopped = False
+        self._command, self._until = tuple(command), until
+        path = os.pathsep.join(each for each in (str(PACKAGES), os.environ.get("PYTHONPATH", "")) if each)
+        self._environment = os.environ | dict.fromkeys(THREADS, str(threads)) | {"PYTHONPATH": path}
+        self._process: subprocess.Popen[bytes] | None = None
+        self._pipe: Connection[Any, Any] | None = None
+        self._errors: IO[bytes] | None = None
 
     def __enter__(self) -> SupervisedRunner:
         return self
@@ -75,12 +81,13 @@ class SupervisedRunner:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        self._process.stop()
+        self._stop()
 
     def kill(self) -> None:
         """End what is under way, from another thread; ``run`` raises StoppedError there, now and later."""
         self.stopped = True
-        self._process.kill()
+        if (process := self._process) is not None and process.poll() is None:  # else its number may be another's
+            _kill_all(process)
 
     def run(self, task: Task) -> Outcome:
         """Solve one point.
@@ -95,95 +102,137 @@ class SupervisedRunner:
         StoppedError
             ``kill`` was called
         """
-        started = time.perf_counter()
-        for number in range(1, TRIES + 1):
-            self._prepare()
-            fresh, started = self._fresh, time.perf_counter()
-            attempt = self._attempt(task)
+        for tries in range(1, TRIES + 1):
+            fresh = self._make_ready()
+            outcome, settled = self._attempt(task, fresh)
             if self.stopped:
                 raise StoppedError
-            settled = fresh if attempt.memory else attempt.outcome is not None
-            if settled or number == TRIES:
-                return self._told(task, attempt, number, time.perf_counter() - started)
+            if settled or tries == TRIES:
+                return replace(outcome, tries=tries)
         raise AssertionError  # the last try always returns
 
-    # --- one try ----------------------------------------------------------------------------------------------------
+    def _attempt(self, task: Task, fresh: bool) -> tuple[Outcome, bool]:
+        """What comes of a point, and whether that is all that can come of it; ``fresh``: it is its process's first."""
+        started, limit = time.monotonic(), self.plan.time_limit
+        ends = [end for end in (None if limit is None else started + limit, self._until) if end is not None]
 
-    def _attempt(self, task: Task) -> Attempt:
-        limit, process, started = self.plan.time_limit, self._process, time.monotonic()
-        process.send(record_of(task))
-        self._fresh = False
+        def failed(code: int, words: str) -> Outcome:
+            return Outcome(task.key, FAILED, code, words, {}, 1, time.monotonic() - started)
+
         try:
-            ends = [] if limit is None else [started + limit]
-            answer = process.next(min([*ends, *([] if self._until is None else [self._until])], default=None))
+            outcome: Outcome = self._ask(task, min(ends, default=None))
         except TimeoutError:
-            process.stop()
+            self._stop()
             own = limit is not None and time.monotonic() >= started + limit
             words = f"stopped at the limit of {limit:g} s for a point" if own else STOPPED
-            seconds = time.monotonic() - started
-            return Attempt(Outcome(task.key, FAILED, LimitError.exit_status, words, {}, 1, seconds))
-        if answer is None:
-            said = process.last_words()
-            words = process.death()
-            memory = self.plan.memory_limit is not None and any(sign in said for sign in NO_MEMORY)
-            return Attempt(None, words, memory)
-        outcome = outcome_of(answer["outcome"])
-        self._held = answer["held"]
-        self._first = self._first or self._held
-        memory = self.plan.memory_limit is not None and outcome.reason == "out of memory"
-        if memory:
-            process.stop()  # what was left half done when memory ran out is not worth looking through
-        return Attempt(outcome, memory=memory)
+            return failed(LimitError.exit_status, words), True
+        except (EOFError, OSError):
+            said, (words, _) = self._last_words(), self._death()
+            if self.plan.memory_limit is not None and any(sign in said for sign in NO_MEMORY):
+                return failed(LimitError.exit_status, f"{self._memory_words()} ({words})"), fresh
+            return failed(1, f"{words}; given up after {TRIES} tries"), False
+        if self.plan.memory_limit is not None and outcome.reason == "out of memory":
+            self._stop()  # what was left half done when memory ran out is not worth looking through
+            return failed(LimitError.exit_status, self._memory_words()), fresh
+        return replace(outcome, reason="; ".join(outcome.reason.splitlines())), True  # a deck may have several faults
 
-    def _told(self, task: Task, attempt: Attempt, tries: int, seconds: float) -> Outcome:
-        if attempt.memory:
-            assert self.plan.memory_limit is not None
-            words = f"more than the {self.plan.memory_limit / MEGABYTE:g} MB of memory that a point may take"
-            words += f" ({attempt.words})" if attempt.words else ""
-            return Outcome(task.key, FAILED, LimitError.exit_status, words, {}, tries, seconds)
-        if attempt.outcome is None:
-            words = f"{attempt.words}; given up after {tries} tries"
-            return Outcome(task.key, FAILED, 1, words, {}, tries, seconds)
-        reason = "; ".join(attempt.outcome.reason.splitlines())  # a deck may have several faults
-        return replace(attempt.outcome, reason=reason, tries=tries)
+    def _memory_words(self) -> str:
+        assert self.plan.memory_limit is not None
+        return f"more than the {self.plan.memory_limit / MEGABYTE:g} MB of memory that a point may take"
 
     # --- the process ------------------------------------------------------------------------------------------------
 
-    def _prepare(self) -> None:
-        """A process that is ready for a point; one that has grown too much is replaced."""
-        if self._process.runs() and not self._held > GROWTH * self._first:
-            return
-        words = ""
+    def _make_ready(self) -> bool:
+        """Have a process that is ready for a point; whether it is a new one."""
+        if self._process is not None and self._process.poll() is None:
+            return False
+        words, status = "", 0
         for number in range(1, STARTS + 1):
             if self.stopped:
                 raise StoppedError
-            words = self._begin()
+            words, status = self._begin()
             if not words:
-                return
-            if self._process.status >= 0 and number >= TRIES:
+                return True
+            if status >= 0 and number >= TRIES:
                 break
         raise UsageError("worker-refused", f"the process that solves points cannot be started: {words}")
 
-    def _begin(self) -> str:
-        """Start a process; what went wrong in words. Raises UsageError where it refuses the plan."""
-        process = self._process
-        self._fresh, self._first, self._held = True, 0.0, 0.0
-        until = time.monotonic() + START
+    def _begin(self) -> tuple[str, int]:
+        """Start a process; what went wrong in words, and its exit status. UsageError where it refuses the plan."""
+        self._stop()
         try:
-            process.start()
-            self.started += 1
+            self._start()
             if self.stopped:  # ``kill`` may have come before there was anything to kill
-                process.stop()
+                self._stop()
                 raise StoppedError
-            if process.next(until) is not None:
-                process.send(record_of(self.plan))
-                if (answer := process.next(until)) is not None:
-                    if "refused" in answer:
-                        process.stop()
-                        raise UsageError("worker-refused", answer["refused"])
-                    return ""
-        except OSError as error:  # a TimeoutError is one
-            process.stop()
-            process.status = 0
-            return str(error) or f"not ready after {START:g} s"
-        return process.death()
+            refused: str = self._ask(self.plan, time.monotonic() + START)
+        except TimeoutError:
+            self._stop()
+            return f"not ready after {START:g} s", 0
+        except (EOFError, OSError) as error:
+            return (str(error), 0) if self._process is None else self._death()
+        if refused:
+            self._stop()
+            raise UsageError("worker-refused", refused)
+        return "", 0
+
+    def _start(self) -> None:
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the process
+        self._pipe, theirs = Pipe()
+        with theirs:
+            self._process = subprocess.Popen(
+                (*self._command, str(theirs.fileno())),
+                stdin=subprocess.DEVNULL,
+                stdout=self._errors,
+                stderr=self._errors,
+                env=self._environment,
+                pass_fds=[theirs.fileno()],
+                start_new_session=True,
+            )
+        self.started += 1
+
+    def _ask(self, question: Plan | Task, until: float | None) -> Any:
+        """The answer of the process; TimeoutError after that time.monotonic(), EOFError or OSError where it is gone."""
+        assert self._pipe is not None
+        self._pipe.send(question)
+        if not self._pipe.poll(None if until is None else max(until - time.monotonic(), 0.0)):
+            raise TimeoutError
+        return self._pipe.recv()
+
+    def _death(self) -> tuple[str, int]:
+        """How a process ended that closed its end of the pipe, in words, and its exit status, negative for a signal."""
+        assert self._process is not None
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(PATIENCE)
+        status, said = self._process.poll() or 0, self._last_words()
+        self._stop()
+        if status < 0:
+            name = signal.Signals(-status).name if -status in list(signal.Signals) else f"signal {-status}"
+            memory = ", as the system does where memory runs out" if name == "SIGKILL" else ""
+            return f"its process was ended by {name}{memory}", status
+        return f"its process ended with status {status}{f': {said}' if said else ''}", status
+
+    def _last_words(self) -> str:
+        """The last line that it wrote to standard error; empty where there is none."""
+        assert self._errors is not None
+        size = self._errors.seek(0, os.SEEK_END)
+        self._errors.seek(max(size - LAST_WORDS, 0))
+        said = self._errors.read().decode("utf-8", errors="replace").strip().splitlines()
+        return said[-1] if said else ""
+
+    def _stop(self) -> None:
+        """Gone for certain, with all copies."""
+        process, self._process = self._process, None
+        if process is not None:
+            _kill_all(process)
+            process.wait()
+        for stream in (self._pipe, self._errors):
+            if stream is not None:
+                stream.close()
+        self._pipe = self._errors = None
+
+
+def _kill_all(process: subprocess.Popen[bytes]) -> None:
+    """End a process that leads a session, with all its copies."""
+    with contextlib.suppress(OSError):  # no such process any more
+        os.killpg(process.pid, signal.SIGKILL)

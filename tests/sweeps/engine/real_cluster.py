@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES
 from tests.sweeps.engine.test_supervised import wait_for
 
 

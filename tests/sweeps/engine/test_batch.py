@@ -11,7 +11,7 @@ from mbla.errors import UsageError
 from mbla.sweeps.engine import on_worker
 from mbla.sweeps.engine.on_worker import Processes, end_processes, run_batch
 from mbla.sweeps.identity import library_versions
-from mbla.sweeps.plan import DONE, Outcome, Plan, Task, record_of
+from mbla.sweeps.plan import DONE, Outcome, Plan, Task
 from tests.sweeps.small_plan import frictions, plan_over
 
 
@@ -48,10 +48,10 @@ def processes(monkeypatch: pytest.MonkeyPatch) -> Processes:
     return found
 
 
-def answer(folder: Path, **libraries: str) -> dict[str, Any]:
-    """Of three points."""
-    records = [record_of(task) for task in frictions(3)]
-    return run_batch(record_of(plan_over(folder)), records, library_versions() | libraries)
+def answer(folder: Path, **libraries: str) -> tuple[list[str], str]:
+    """Of three points: keys of those that were solved, and the refusal."""
+    outcomes, refused = run_batch(plan_over(folder), frictions(3), library_versions() | libraries)
+    return [outcome.key for outcome in outcomes], refused
 
 
 def lent(processes: Processes, plan: Plan) -> Any:
@@ -59,14 +59,8 @@ def lent(processes: Processes, plan: Plan) -> Any:
     return processes.lend(plan)
 
 
-def keys(answer: dict[str, Any]) -> list[str]:
-    return [outcome["key"] for outcome in answer["outcomes"]]
-
-
 def test_all_points_of_a_batch(processes: Processes, tmp_path: Path) -> None:
-    found = answer(tmp_path)
-    assert keys(found) == ["key1", "key2", "key3"]
-    assert "refused" not in found
+    assert answer(tmp_path) == (["key1", "key2", "key3"], "")
     end_processes()
 
 
@@ -74,21 +68,20 @@ def test_a_batch_is_handed_back_when_enough_time_is_over(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(on_worker, "ENOUGH", -1.0)
-    assert keys(answer(tmp_path)) == ["key1"]
+    assert answer(tmp_path) == (["key1"], "")
     processes.end()
 
 
 def test_other_libraries_than_those_of_the_client_are_refused(processes: Processes, tmp_path: Path) -> None:
     words = f"its numpy is {library_versions()['numpy']}, here it is 0.1"
-    assert answer(tmp_path, numpy="0.1") == {"outcomes": [], "refused": words}
+    assert answer(tmp_path, numpy="0.1") == ([], words)
 
 
 def test_a_process_that_refuses_the_plan_leaves_what_was_solved(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Runner, "error", UsageError("deck-changed", "another deck"))
-    found = answer(tmp_path)
-    assert (keys(found), found["refused"]) == (["key1"], "another deck")
+    assert answer(tmp_path) == (["key1"], "another deck")
     processes.end()
 
 

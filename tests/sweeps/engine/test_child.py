@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import UsageError
 from mbla.sweeps.engine import child
 from mbla.sweeps.engine.child import prepared
-from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES
 from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import plan_over
@@ -25,7 +25,7 @@ from mbla.sweeps.engine.supervised import SupervisedRunner
 from tests.sweeps.small_plan import ROW, plan_over
 runner = SupervisedRunner(plan_over(Path(sys.argv[1]), ROW))
 runner.run(Task("small", 1, {}))
-print(runner._process._process.pid, flush=True)
+print(runner._process.pid, flush=True)
 runner.run(Task("large", 2, {"parameters.n": 40}))
 print("solved")
 """

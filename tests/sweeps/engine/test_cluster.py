@@ -13,7 +13,7 @@ from distributed import Client
 
 from mbla.errors import FileError, UsageError
 from mbla.sweeps.engine.engine import EngineOptions, engine_for
-from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES
 from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.engine.certificates import write_certificates
 from tests.sweeps.engine.real_cluster import kill, real_cluster

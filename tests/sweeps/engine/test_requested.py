@@ -14,7 +14,7 @@ from mbla.results.records.description import RUN_RECORD
 from mbla.results.records.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
-from mbla.sweeps.engine.runner import ON_REQUEST, PointRunner, requested_only
+from mbla.sweeps.engine.child import ON_REQUEST, PointRunner, requested_only
 from mbla.sweeps.plan import Plan, Task, override_texts
 from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.plan import DONE, Task
 from tests.sweeps.small_plan import plan_over
 

@@ -7,12 +7,11 @@ from typing import Any
 
 import pytest
 
-from mbla.process.sharing import sharing
+from mbla.process.sharing import Memory, sharing
 from mbla.results.results import Results
 from mbla.run import solve_deck
-from mbla.sweeps.engine import runner as runner_module
-from mbla.sweeps.engine.memory import Memory
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.engine import child
+from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.plan import Plain, Plan, Task
 from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
 
@@ -79,7 +78,7 @@ def test_a_point_whose_memory_earlier_ones_took_is_solved_without_them(monkeypat
             raise MemoryError
         return solve_deck(*args)
 
-    monkeypatch.setattr(runner_module, "solve_deck", scarce)
+    monkeypatch.setattr(child, "solve_deck", scarce)
     outcome = runner.run(task)
     assert (outcome.state, outcome.results) == ("done", expected.results)
     assert "structure" not in runner.memory.found, "it starts anew"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
 import sys
@@ -14,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import UsageError
-from mbla.sweeps.engine.supervised import GROWTH, StoppedError, SupervisedRunner
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task, record_of
+from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
+from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over
 
@@ -23,21 +22,21 @@ pytestmark = pytest.mark.long
 
 TASK = Task("key", 1, {})
 SAYS = (
-    "import sys, os, json, time\n"
-    "def say(record): print(json.dumps(record), flush=True)\n"
-    "say({'program': ''}); sys.stdin.readline(); say({'base': 1.0})\n"
-    "for number, line in enumerate(sys.stdin, start=1):\n"
-    "    outcome, held = json.loads(os.environ['OUTCOME']), 1.0\n"
+    "import sys, os, time\n"
+    "from dataclasses import replace\n"
+    "from multiprocessing.connection import Connection\n"
+    "from mbla.sweeps.plan import DONE, FAILED, Outcome\n"
+    "pipe = Connection(int(sys.argv[1])); pipe.recv(); pipe.send('')\n"
+    "for number in range(1, 99):\n"
+    "    task = pipe.recv()\n"
+    "    outcome = Outcome('key', DONE, 0, '', {'load_factor': 0.5}, 1, 0.1)\n"
 )
 """the start of a process that speaks as the real one does"""
 
 
-def runner_that(monkeypatch: pytest.MonkeyPatch, plan: Plan, code: str, before: str = "") -> SupervisedRunner:
-    """With a process that runs ``code`` at each point, then answers with ``outcome``; ``before`` when it starts."""
-    done = Outcome("key", DONE, 0, "", {"load_factor": 0.5}, 1, 0.1)
-    monkeypatch.setenv("OUTCOME", json.dumps(record_of(done)))
-    answer = "    say({'outcome': outcome, 'held': held})\n"
-    return SupervisedRunner(plan, (sys.executable, "-c", before + SAYS + f"    {code}\n" + answer))
+def runner_that(plan: Plan, code: str) -> SupervisedRunner:
+    """With a process that runs ``code`` at each point, then answers with ``outcome``."""
+    return SupervisedRunner(plan, (sys.executable, "-c", f"{SAYS}    {code}\n    pipe.send(outcome)\n"))
 
 
 def children() -> list[int]:
@@ -72,10 +71,10 @@ def test_points_are_solved_and_faulty_ones_told(tmp_path: Path) -> None:
     assert outcomes[3].results == outcomes[0].results
 
 
-def test_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_time_limit(tmp_path: Path) -> None:
     """A point without end is stopped; the next has a process of its own."""
-    code = "json.loads(line)['number'] == 1 and time.sleep(60)"
-    with runner_that(monkeypatch, plan_over(tmp_path, time_limit=0.5), code) as runner:
+    code = "task.number == 1 and time.sleep(60)"
+    with runner_that(plan_over(tmp_path, time_limit=0.5), code) as runner:
         stopped, done = (runner.run(task) for task in frictions(2))
         assert runner.started == 2
     assert (stopped.state, stopped.exit_code, stopped.tries, stopped.results) == (FAILED, 7, 1, {})
@@ -92,25 +91,21 @@ def test_memory_limit(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("say", ["memory allocation of 8000000000 bytes failed", "std::bad_alloc"])
-def test_a_library_that_aborts_under_the_memory_limit(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, say: str
-) -> None:
+def test_a_library_that_aborts_under_the_memory_limit(tmp_path: Path, say: str) -> None:
     code = f"print({say!r}, file=sys.stderr, flush=True); os.abort()"
-    with runner_that(monkeypatch, plan_over(tmp_path, memory_limit=1e8), code) as runner:
+    with runner_that(plan_over(tmp_path, memory_limit=1e8), code) as runner:
         outcome = runner.run(TASK)
         assert runner.started == 1  # it was the first point of its process
     assert (outcome.exit_code, outcome.tries) == (7, 1)
     assert outcome.reason == ("more than the 100 MB of memory that a point may take (its process was ended by SIGABRT)")
-    with runner_that(monkeypatch, plan_over(tmp_path), code) as runner:
+    with runner_that(plan_over(tmp_path), code) as runner:
         unlimited = runner.run(TASK)
     assert (unlimited.exit_code, unlimited.tries) == (1, 2)
 
 
-def test_memory_that_earlier_points_left_is_not_held_against_a_point(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    code = "number > 1 and outcome.update(state='failed', exit_code=7, reason='out of memory')"
-    with runner_that(monkeypatch, plan_over(tmp_path, memory_limit=1e8), code) as runner:
+def test_memory_that_earlier_points_left_is_not_held_against_a_point(tmp_path: Path) -> None:
+    code = "outcome = replace(outcome, state=FAILED, exit_code=7, reason='out of memory') if number > 1 else outcome"
+    with runner_that(plan_over(tmp_path, memory_limit=1e8), code) as runner:
         outcomes = [runner.run(TASK) for _ in range(2)]
     assert [(outcome.state, outcome.tries) for outcome in outcomes] == [(DONE, 1), (DONE, 2)]
 
@@ -132,8 +127,8 @@ def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> N
     assert found[0].results == again.results  # to the last bit, in whatever process and after whatever points
 
 
-def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with runner_that(monkeypatch, plan_over(tmp_path), "os.kill(os.getpid(), 9)") as runner:
+def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path) -> None:
+    with runner_that(plan_over(tmp_path), "os.kill(os.getpid(), 9)") as runner:
         outcome = runner.run(TASK)
         assert runner.started == 2
     assert (outcome.state, outcome.exit_code, outcome.tries) == (FAILED, 1, 2)
@@ -142,14 +137,8 @@ def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path, monkeypatch:
     )
 
 
-def test_a_process_that_grows_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with runner_that(monkeypatch, plan_over(tmp_path), f"held = 1.0 + (number == 3) * {GROWTH}") as runner:
-        assert [runner.run(TASK).tries for _ in range(4)] == [1, 1, 1, 1]
-        assert runner.started == 2
-
-
 def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
-    code = "import sys; print('{}'); sys.stdin.readline(); print('{\"refused\": \"another deck\"}', flush=True)"
+    code = SAYS.replace("send('')", "send('another deck')")
     with (
         SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner,
         pytest.raises(UsageError, match=r"^another deck$"),
@@ -170,9 +159,9 @@ def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
         runner.run(TASK)
 
 
-def test_stopped_from_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stopped_from_another_thread(tmp_path: Path) -> None:
     mark = tmp_path / "begun"
-    with runner_that(monkeypatch, plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)") as runner:
+    with runner_that(plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)") as runner:
 
         def kill_when_begun() -> None:
             wait_for(mark.exists)

@@ -12,7 +12,7 @@ from mbla.deck.units import Units
 from mbla.model import build_model
 from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.design.directions import horizontal
-from mbla.sweeps.engine.runner import PointRunner
+from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.interaction.domain import Point, domain_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
 from mbla.sweeps.interaction.study import Study, question_of, study_points

@@ -492,7 +492,7 @@ def load_that_travels_without_an_answer(folder: Path, patch: Patch) -> object:
 
 @brings("worker-refused")
 def worker_that_does_not_start(folder: Path, patch: Patch) -> None:
-    SupervisedRunner(plan_over(folder, BLOCK), (sys.executable, "-c", "raise SystemExit(3)"))._prepare()
+    SupervisedRunner(plan_over(folder, BLOCK), (sys.executable, "-c", "raise SystemExit(3)"))._make_ready()
 
 
 @brings("wrong-value")

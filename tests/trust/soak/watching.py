@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from mbla.sweeps.engine.line_process import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES
 from tests.line import BLOCK
 from tests.sweeps.killed_sweeps import descendants
 
