@@ -57,5 +57,5 @@ def _with_modes(
 
     convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case), contact_model)
     of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
-    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    resultants = convex.resultants_of(forces)
     return replace(mechanics, modes=modes_of(convex, of_solids, slope), resultants=resultants)

@@ -13,6 +13,7 @@ being the map from contact forces to resultants, W = motionᵀ.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -32,15 +33,27 @@ from mbla.program.yield_conditions import YieldLimits
 
 
 @dataclass(frozen=True)
+class InterfaceStrengths:
+    """Strengths of all interfaces, (n_interfaces,) each, in the unit of force of the program.
+
+    friction, cohesion   : μ and cA that torsion has; zero where torsion is not limited
+    tension, compression : f_t A and f_c A, the latter inf where it is unlimited
+    """
+
+    friction: FloatArray
+    cohesion: FloatArray
+    tension: FloatArray
+    compression: FloatArray
+
+
+@dataclass(frozen=True)
 class ConvexProgram:
     """One load case with conditions on interfaces, non-dimensional as ``Program``.
 
     contact_model : ``convex`` with torsion, ``concave`` without
     points     : the program of the contact points alone, which do not crush
-    program    : the same with the unknowns of the conditions behind the velocities of the blocks
     shapes     : of the interfaces, in the deck's units
-    torsion, crushing : limits of the conditions
-    conditions : torsion, crushing as rows
+    strengths  : of the interfaces
     interface_of_point : (n_points,)
     resultants : (6 n_interfaces, 3 n_points) from contact forces to N, T1, T2 and moments about normal, tangent 1 and
                  tangent 2 at the centroid; lengths in the deck's units
@@ -48,18 +61,52 @@ class ConvexProgram:
 
     contact_model: str
     points: Program
-    program: Program
     shapes: InterfaceShapes
-    torsion: TorsionLimits
-    crushing: CrushingLimits
-    conditions: tuple[ConditionRows, ConditionRows]
+    strengths: InterfaceStrengths
     interface_of_point: IntArray
     resultants: sp.csr_array
+
+    @cached_property
+    def torsion(self) -> TorsionLimits:
+        """What bounds the torsion of interfaces."""
+        return torsion_limits(self.shapes, self.strengths.friction, self.strengths.cohesion)
+
+    @cached_property
+    def crushing(self) -> CrushingLimits:
+        """What bounds the normal forces and moments of interfaces."""
+        return crushing_limits(self.shapes, self.strengths.compression, self.strengths.tension)
+
+    @cached_property
+    def conditions(self) -> tuple[ConditionRows, ConditionRows]:
+        """Torsion, crushing as rows."""
+        n = self.n_interfaces
+        return torsion_rows(self.torsion, n), crushing_rows(self.crushing, n)
+
+    @cached_property
+    def program(self) -> Program:
+        """The program of the points with the unknowns of the conditions behind the velocities of the blocks."""
+        rows, points = joined(self.conditions), self.points
+        motion = -(rows.motion.T @ self.resultants)
+        return replace(
+            points,
+            equilibrium_matrix=sp.csr_array(sp.vstack([points.equilibrium_matrix, motion])),
+            dead_load=np.concatenate([points.dead_load, -rows.cost]),
+            live_load=np.concatenate([points.live_load, np.zeros(len(rows.cost))]),
+        )
+
+    @property
+    def n_interfaces(self) -> int:
+        """Number of interfaces."""
+        return len(self.shapes.radii)
 
     @property
     def n_block_rows(self) -> int:
         """Velocities of the free blocks; those of the conditions follow."""
         return len(self.points.dead_load)
+
+    def resultants_of(self, forces: FloatArray) -> FloatArray:
+        """Resultants of the interfaces, (n_interfaces, 6), from contact forces, (n_points, 3)."""
+        return np.asarray((self.resultants @ forces.ravel()).reshape(-1, 6))
 
     def flows(self, velocities: FloatArray) -> FloatArray:
         """Motion of every interface by torsion and by crushing, (n_interfaces, 2, 6), in the program's units."""
@@ -69,6 +116,20 @@ class ConvexProgram:
         motions = (of_torsion.motion @ psi[:n_torsion], of_crushing.motion @ psi[n_torsion:])
         return np.stack([motion.reshape(-1, 6) for motion in motions], axis=1)
 
+    def with_crushing_of(self, interfaces: BoolArray) -> ConvexProgram:
+        """The program in which only some interfaces that can crush, (n_interfaces,), do: nothing limits the others."""
+        compression = np.where(interfaces, self.strengths.compression, np.inf)
+        return replace(self, strengths=replace(self.strengths, compression=compression))
+
+    def in_unit_of_force(self, unit: float) -> ConvexProgram:
+        """The program with forces in a unit given in its own; velocities and motions stay what they are."""
+        if unit == 1.0:
+            return self
+        own = self.strengths
+        cohesion, tension, compression = (force / unit for force in (own.cohesion, own.tension, own.compression))
+        strengths = InterfaceStrengths(own.friction, cohesion, tension, compression)
+        return replace(self, points=self.points.in_unit_of_force(unit), strengths=strengths)
+
 
 def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase, contact_model: str) -> ConvexProgram:
     """Build the program of one load case with conditions on interfaces: crushing, and torsion where that is asked for.
@@ -76,71 +137,27 @@ def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase, conta
     contact_model : ``convex`` with torsion; ``concave`` without: shear is that of the points alone
     """
     program = assemble(model, contacts, load_case, own=False)  # interface resultants are in the common unit
-    shapes = interface_shapes(contacts)
     laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
     scale = contacts.areas / program.scaling.force
-    strength = np.array([law.compressive_strength for law in laws]) * scale
     shear = float(contact_model == "convex")
-    torsion = torsion_limits(
-        shapes,
-        shear * np.array([law.friction for law in laws]),
-        shear * np.array([law.cohesion for law in laws]) * scale,
-    )
-    tension = np.array([law.tensile_strength for law in laws]) * scale
-    crushing = crushing_limits(shapes, strength, tension)
-    n_interfaces = len(contacts)
-    conditions = (torsion_rows(torsion, n_interfaces), crushing_rows(crushing, n_interfaces))
-    points = replace(program, limits=without_crushing(program.limits))
-    resultants = resultants_map(contacts)
     return ConvexProgram(
         contact_model=contact_model,
-        points=points,
-        program=_with_conditions(points, joined(conditions), resultants),
-        shapes=shapes,
-        torsion=torsion,
-        crushing=crushing,
-        conditions=conditions,
+        points=replace(program, limits=without_crushing(program.limits)),
+        shapes=interface_shapes(contacts),
+        strengths=InterfaceStrengths(
+            friction=shear * np.array([law.friction for law in laws]),
+            cohesion=shear * np.array([law.cohesion for law in laws]) * scale,
+            tension=np.array([law.tensile_strength for law in laws]) * scale,
+            compression=np.array([law.compressive_strength for law in laws]) * scale,
+        ),
         interface_of_point=contacts.interface_of_point,
-        resultants=resultants,
+        resultants=resultants_map(contacts),
     )
-
-
-def with_crushing_of(convex: ConvexProgram, interfaces: BoolArray) -> ConvexProgram:
-    """The program in which only some interfaces that can crush, (n_interfaces,), do: nothing limits the others."""
-    limits, n = convex.crushing, len(interfaces)
-    kept = interfaces[limits.interfaces]
-    rows = limits.interfaces[kept]
-    strength, tension = np.full(n, np.inf), np.zeros(n)
-    strength[rows], tension[rows] = (limits.strength - limits.tension)[kept], limits.tension[kept]
-    return _with_strengths(convex, strength, tension)
-
-
-def in_unit_of_force(convex: ConvexProgram, unit: float) -> ConvexProgram:
-    """The program with forces in a unit given in its own; velocities and motions stay what they are."""
-    if unit == 1.0:
-        return convex
-    limits, n = convex.crushing, len(convex.shapes.radii)
-    strength, tension = np.full(n, np.inf), np.zeros(n)
-    strength[limits.interfaces] = (limits.strength - limits.tension) / unit
-    tension[limits.interfaces] = limits.tension / unit
-    torsion = replace(convex.torsion, cohesion=convex.torsion.cohesion / unit)
-    conditions = (torsion_rows(torsion, n), convex.conditions[1])
-    points = convex.points.in_unit_of_force(unit)
-    return _with_strengths(replace(convex, points=points, torsion=torsion, conditions=conditions), strength, tension)
-
-
-def _with_strengths(convex: ConvexProgram, strength: FloatArray, tension: FloatArray) -> ConvexProgram:
-    """The program with other strengths of its interfaces, (n_interfaces,)."""
-    crushing = crushing_limits(convex.shapes, strength, tension)
-    conditions = (convex.conditions[0], crushing_rows(crushing, len(strength)))
-    program = _with_conditions(convex.points, joined(conditions), convex.resultants)
-    return replace(convex, program=program, crushing=crushing, conditions=conditions)
 
 
 def near_crushing(convex: ConvexProgram, forces: FloatArray) -> BoolArray:
     """Interfaces that forces, (n_points, 3), bring beyond what they carry or near to it, (n_interfaces,)."""
-    found = np.zeros(len(convex.shapes.radii), dtype=bool)
-    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    found, resultants = np.zeros(convex.n_interfaces, dtype=bool), convex.resultants_of(forces)
     rows = convex.crushing.interfaces
     carried = resultants[rows, 0] + convex.crushing.tension
     found[rows] = crushing_violation(convex.crushing, resultants) > -NEAR * np.maximum(carried, 0.0)
@@ -214,16 +231,6 @@ def _stabilising(convex: ConvexProgram, n_unknowns: int) -> FloatArray:
     first = convex.n_block_rows + convex.conditions[0].motion.shape[1]
     weights[first : first + convex.conditions[1].motion.shape[1]] *= OF_CRUSHING
     return weights
-
-
-def _with_conditions(program: Program, rows: ConditionRows, resultants: sp.csr_array) -> Program:
-    motion = -(rows.motion.T @ resultants)
-    return replace(
-        program,
-        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, motion])),
-        dead_load=np.concatenate([program.dead_load, -rows.cost]),
-        live_load=np.concatenate([program.live_load, np.zeros(len(rows.cost))]),
-    )
 
 
 def without_crushing(limits: YieldLimits) -> YieldLimits:

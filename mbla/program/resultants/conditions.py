@@ -13,7 +13,7 @@ is solved beforehand: ζ = cones @ ψ with free unknowns ψ.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.sparse as sp
@@ -22,6 +22,9 @@ from mbla.arrays import FloatArray, IntArray
 
 N, T1, T2, MN, M1, M2 = range(6)
 """Resultants in their order."""
+
+RESULTANTS = (N, M1, M2)
+"""Those that linear forms have coefficients of, behind their constant."""
 
 
 @dataclass(frozen=True)
@@ -59,10 +62,59 @@ class Entries:
         self.columns.append(columns)
         self.values.append(np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(rows)))
 
+    def add_forms(self, rows: IntArray, interfaces: IntArray, forms: FloatArray) -> None:
+        """Add linear forms in 1, N, M_1, M_2 of interfaces, (n, 4), a row of G each, without their constants."""
+        for place, resultant in enumerate(RESULTANTS, start=1):
+            self.add(rows, 6 * interfaces + resultant, forms[:, place])
+
     def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
         """All entries as a matrix."""
         place = (np.concatenate(self.rows), np.concatenate(self.columns))
         return sp.csr_array(sp.coo_array((np.concatenate(self.values), place), shape=shape))
+
+
+@dataclass
+class ConeRows:
+    """Vectors G r + H y + g in cones, as they come."""
+
+    given: Entries = field(default_factory=Entries.none)
+    helping: Entries = field(default_factory=Entries.none)
+    parts: list[FloatArray] = field(default_factory=list)
+    sizes: list[IntArray] = field(default_factory=list)
+    n_rows: int = 0
+    n_helpers: int = 0
+
+    def take(self, size: int, count: int, constants: FloatArray) -> IntArray:
+        """First rows of ``count`` further cones of one size with constants (count, size)."""
+        first = self.n_rows + size * np.arange(count)
+        self.n_rows += size * count
+        self.parts.append(constants.ravel())
+        self.sizes.append(np.full(count, size))
+        return first
+
+    def helper(self, count: int) -> IntArray:
+        """Further helping unknowns."""
+        self.n_helpers += count
+        return np.arange(self.n_helpers - count, self.n_helpers)
+
+    def resultants(self, n_interfaces: int) -> sp.csr_array:
+        """G, (n_rows, 6 n_interfaces)."""
+        return self.given.matrix((self.n_rows, 6 * n_interfaces))
+
+    @property
+    def helpers(self) -> sp.csr_array:
+        """H, (n_rows, n_helpers)."""
+        return self.helping.matrix((self.n_rows, self.n_helpers))
+
+    @property
+    def constants(self) -> FloatArray:
+        """g, (n_rows,)."""
+        return np.concatenate(self.parts)
+
+    @property
+    def cone_sizes(self) -> IntArray:
+        """Dimensions of the cones in their order, 1 for half-lines."""
+        return np.concatenate(self.sizes).astype(np.int64)
 
 
 def joined(conditions: Sequence[ConditionRows]) -> ConditionRows:

@@ -23,13 +23,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.program.resultants.conditions import M1, M2, ConditionRows, Entries, N, joined
+from mbla.program.resultants.conditions import RESULTANTS, ConditionRows, ConeRows, Entries
 from mbla.program.resultants.shapes import InterfaceShapes
-
-RESULTANTS = (N, M1, M2)
-"""Those that linear forms have coefficients of, behind their constant."""
 
 HEAD = 5
 """Unknowns of a corner before those of its bounds: α_0, α_1, β_0, β_1, β_2."""
@@ -192,13 +190,13 @@ def values(forms: FloatArray, resultants: FloatArray, interface: IntArray) -> Fl
     return np.asarray(forms[..., 0] + np.einsum("n...k,nk->n...", forms[..., 1:], chosen))
 
 
-def corner_values(corners: Corners, resultants: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """L, (n,), bounds, (n_bounds,), and the least bounds of Q_1 and Q_2, (n, 2)."""
+def corner_values(corners: Corners, resultants: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """L, (n,), and the least bounds of Q_1 and Q_2, (n, 2), at resultants, (n_interfaces, 6)."""
     lead = values(corners.lead, resultants, corners.interfaces)
     bounds = values(corners.bounds, resultants, corners.interfaces[corners.owner])
     q = np.full((len(lead), 2), np.inf)
     np.minimum.at(q, (corners.owner, corners.side), bounds)
-    return lead, bounds, q
+    return lead, q
 
 
 def crushing_violation(limits: CrushingLimits, resultants: FloatArray) -> FloatArray:
@@ -207,7 +205,7 @@ def crushing_violation(limits: CrushingLimits, resultants: FloatArray) -> FloatA
     resultants : (n_interfaces, 6)
     """
     corners, edges = limits.corners, limits.edges
-    lead, _, q = corner_values(corners, resultants)
+    lead, q = corner_values(corners, resultants)
     needed = np.sqrt(np.maximum(lead, 0.0) ** 3 / corners.strength)
     at_corners = 0.5 * (np.hypot(q[:, 0] - q[:, 1], 2.0 * needed) - q.sum(axis=1))
     cones = values(edges.cones, resultants, edges.interfaces)
@@ -218,51 +216,55 @@ def crushing_violation(limits: CrushingLimits, resultants: FloatArray) -> FloatA
     return most[limits.interfaces]
 
 
+def crushing_cones(limits: CrushingLimits, rows: ConeRows) -> None:
+    """Add the vectors that the conditions of all interfaces hold in cones.
+
+    Bounds of Q;  (L + 1, L − 1, 2 g);  (φ(g + h), φ(g − h), 2 L);  (Q_1 + Q_2, Q_1 − Q_2, 2 h);  edges. The helping
+    unknowns are g, h and Q of all corners.
+    """
+    corners, edges = limits.corners, limits.edges
+    n, owner, phi, lead = len(corners.interfaces), corners.owner, corners.strength**0.25, corners.lead[:, 0]
+    g, h, q = rows.helper(n), rows.helper(n), rows.helper(2 * n).reshape(n, 2)
+    bound = rows.take(1, len(owner), corners.bounds[:, 0])
+    rows.given.add_forms(bound, corners.interfaces[owner], corners.bounds)
+    rows.helping.add(bound, q[owner, corners.side], -1.0)
+    alpha = rows.take(3, n, np.column_stack([lead + 1.0, lead - 1.0, np.zeros(n)]))
+    beta = rows.take(3, n, np.column_stack([np.zeros((n, 2)), 2.0 * lead]))
+    gamma = rows.take(3, n, np.zeros((n, 3)))
+    for place, factor in ((alpha, 1.0), (alpha + 1, 1.0), (beta + 2, 2.0)):
+        rows.given.add_forms(place, corners.interfaces, factor * corners.lead)
+    rows.helping.add(alpha + 2, g, 2.0)
+    for row, sign in ((0, 1.0), (1, -1.0)):
+        rows.helping.add(beta + row, g, phi)
+        rows.helping.add(beta + row, h, sign * phi)
+        rows.helping.add(gamma + row, q[:, 0], 1.0)
+        rows.helping.add(gamma + row, q[:, 1], sign)
+    rows.helping.add(gamma + 2, h, 2.0)
+    edge = rows.take(4, len(edges.interfaces), edges.cones[:, :, 0])
+    rows.given.add_forms(
+        (edge[:, None] + np.arange(4)).ravel(), np.repeat(edges.interfaces, 4), edges.cones.reshape(-1, 4)
+    )
+
+
 def crushing_rows(limits: CrushingLimits, n_interfaces: int) -> ConditionRows:
     """The conditions of all interfaces in the form of the cone program."""
-    return joined([_corner_rows(limits.corners, n_interfaces), _edge_rows(limits.edges, n_interfaces)])
+    rows = ConeRows()
+    crushing_cones(limits, rows)
+    multipliers = sp.csr_array(
+        sp.block_diag([_corner_multipliers(limits.corners), sp.eye_array(4 * len(limits.edges.interfaces))])
+    )
+    motion = sp.csr_array(rows.resultants(n_interfaces).T @ multipliers)
+    return ConditionRows(motion, multipliers.T @ rows.constants, multipliers, rows.cone_sizes)
 
 
-def _edge_rows(edges: Edges, n_interfaces: int) -> ConditionRows:
-    """Unknowns are the multipliers of the cones themselves."""
-    n_unknowns = 4 * len(edges.interfaces)
-    column = np.arange(n_unknowns)
-    motion, cones = Entries.none(), Entries.none()
-    forms = edges.cones.reshape(-1, 4)
-    _add_forms(motion, np.repeat(edges.interfaces, 4), column, forms)
-    cones.add(column, column, 1.0)
-    shape = (6 * n_interfaces, n_unknowns)
-    sizes = np.full(len(edges.interfaces), 4, dtype=np.int64)
-    return ConditionRows(motion.matrix(shape), forms[:, 0], cones.matrix((n_unknowns, n_unknowns)), sizes)
+def _corner_multipliers(corners: Corners) -> sp.csr_array:
+    """Q ≥ 0; α with α_2 = −φ(β_0 + β_1)/2, φ = K^¼; β; γ = (Σq, Σ ± q, −φ(β_0 − β_1))/2.
 
-
-def _add_forms(motion: Entries, interface: IntArray, column: IntArray, forms: FloatArray) -> None:
-    """Gᵀ of unknowns that multiply linear forms, (n, 4)."""
-    for place, resultant in enumerate(RESULTANTS, start=1):
-        motion.add(6 * interface + resultant, column, forms[:, place])
-
-
-def _corner_rows(corners: Corners, n_interfaces: int) -> ConditionRows:
-    """Unknowns of a condition: α_0, α_1, β_0, β_1, β_2, then q_e."""
-    n, owner = len(corners.interfaces), corners.owner
-    begin = starts(np.bincount(owner, minlength=n))
-    first = HEAD * np.arange(n) + begin[:-1]
+    Unknowns of a condition: α_0, α_1, β_0, β_1, β_2, then q_e.
+    """
+    n, owner, half_phi = len(corners.interfaces), corners.owner, 0.5 * corners.strength**0.25
+    first = HEAD * np.arange(n) + starts(np.bincount(owner, minlength=n))[:-1]
     q = np.arange(len(owner)) + HEAD * (owner + 1)
-    n_unknowns = HEAD * n + len(owner)
-    motion, cost = Entries.none(), np.zeros(n_unknowns)
-    _add_forms(motion, corners.interfaces[owner], q, corners.bounds)
-    cost[q] = corners.bounds[:, 0]
-    for place, factor, constant in ((0, 1.0, 1.0), (1, 1.0, -1.0), (4, 2.0, 0.0)):
-        _add_forms(motion, corners.interfaces, first + place, factor * corners.lead)
-        cost[first + place] = factor * corners.lead[:, 0] + constant
-    cones, sizes = _corner_cones(corners, first, q)
-    shape = (int(sizes.sum()), n_unknowns)
-    return ConditionRows(motion.matrix((6 * n_interfaces, n_unknowns)), cost, cones.matrix(shape), sizes)
-
-
-def _corner_cones(corners: Corners, first: IntArray, q: IntArray) -> tuple[Entries, IntArray]:
-    """Q ≥ 0; α with α_2 = −φ(β_0 + β_1)/2, φ = K^¼; β; γ = (Σq, Σ ± q, −φ(β_0 − β_1))/2."""
-    n, half_phi = len(first), 0.5 * corners.strength**0.25
     cones = Entries.none()
     cones.add(np.arange(len(q)), q, 1.0)
     alpha = len(q) + 3 * np.arange(n)
@@ -277,5 +279,4 @@ def _corner_cones(corners: Corners, first: IntArray, q: IntArray) -> tuple[Entri
         cones.add(gamma + 2, column, -sign * half_phi)
     cones.add(gamma[corners.owner], q, 0.5)
     cones.add(gamma[corners.owner] + 1, q, np.where(corners.side == 0, 0.5, -0.5))
-    sizes = np.concatenate([np.ones(len(q)), np.full(3 * n, 3)]).astype(np.int64)
-    return cones, sizes
+    return cones.matrix((len(q) + 9 * n, HEAD * n + len(q)))

@@ -16,7 +16,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.kinematic import KinematicForm
 from mbla.program.resultants import ConvexProgram, convex_form
-from mbla.program.resultants.assemble import in_unit_of_force, near_crushing, with_crushing_of
+from mbla.program.resultants.assemble import near_crushing
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
@@ -96,7 +96,7 @@ class _Run:
 
     def program(self, sense: float) -> ConvexProgram:
         """The program in the unit of force for the live load as it is, or reversed."""
-        return in_unit_of_force(self.convex, self.unit_for(sense))
+        return self.convex.in_unit_of_force(self.unit_for(sense))
 
     def solve(self, convex: ConvexProgram, form: KinematicForm, sense: float) -> ConeSolution:
         """A program with the live load as it is, or reversed; in own units where ``forces`` give them."""
@@ -122,11 +122,11 @@ def solve_convex_associative(convex: ConvexProgram, settings: SolverSettings, lo
 
     Conditions on crushing are taken in where the forces without them need them: most interfaces are far from crushing.
     """
-    everything = np.isin(np.arange(len(convex.shapes.radii)), convex.crushing.interfaces)
+    everything = np.isin(np.arange(convex.n_interfaces), convex.crushing.interfaces)
     run = _Run(convex, replace(settings, regularization=KKT_REGULARIZATION), log, [])
-    crushing = np.zeros(len(convex.shapes.radii), dtype=bool)
+    crushing = np.zeros(convex.n_interfaces, dtype=bool)
     for _ in range(ROUNDS):
-        run.convex = with_crushing_of(convex, crushing)
+        run.convex = convex.with_crushing_of(crushing)
         result = _attempt(run)
         more = everything if result.status is Status.UNBOUNDED else _crushing_too(convex, result, crushing)
         if not np.any(more & ~crushing):
@@ -155,7 +155,7 @@ def _crushing_too(convex: ConvexProgram, result: ConvexAssociative, crushing: Bo
     """Interfaces that crush, or nearly, by forces; no more where none other is beyond what it carries."""
     if result.state is None:
         return crushing
-    resultants = (convex.resultants @ result.state.forces.ravel()).reshape(-1, 6)
+    resultants = convex.resultants_of(result.state.forces)
     beyond = np.zeros(len(crushing), dtype=bool)
     beyond[convex.crushing.interfaces] = crushing_violation(convex.crushing, resultants) > BEYOND
     return near_crushing(convex, result.state.forces) if np.any(beyond & ~crushing) else crushing

@@ -26,7 +26,8 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram
-from mbla.program.resultants.crushing import RESULTANTS, crushing_violation
+from mbla.program.resultants.conditions import RESULTANTS
+from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import friction_limit, nearest
 from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
@@ -64,7 +65,7 @@ class ConvexLaw:
 
     def motions(self, own: FloatArray) -> FloatArray:
         """Motions of the interfaces from η and ω, (3 n_torsion + 3 n_crushing,)."""
-        limits, n_interfaces = self.convex.torsion, len(self.convex.shapes.radii)
+        limits, n_interfaces = self.convex.torsion, self.convex.n_interfaces
         motions = np.zeros((n_interfaces, 2, 6))
         eta, omega = self.split(own)
         motions[limits.interfaces, 0, 1:3] = eta[:, :2]
@@ -91,7 +92,7 @@ class ConvexLaw:
         near : d of something near it
         """
         limits = self.convex.crushing
-        resultants = np.zeros((len(self.convex.shapes.radii), 6))
+        resultants = np.zeros((self.convex.n_interfaces, 6))
         resultants[self.convex.crushing.interfaces[:, None], RESULTANTS] = wanted / self.fields.scale
         outside = crushing_violation(limits, resultants) > 0.0
         shift = np.column_stack([limits.tension, np.zeros((len(wanted), 2))])
@@ -181,7 +182,7 @@ class _Trial:
         n_blocks, limits = convex.n_block_rows, convex.torsion
         points = _Points.at(program, anchor, rho, u)
         forces = points.forces
-        size = friction_limit(limits, (convex.resultants @ forces.ravel()).reshape(-1, 6))
+        size = friction_limit(limits, convex.resultants_of(forces))
         eta, omega = law.split(u[n_blocks:])
         wanted = (law.slips @ anchor.ravel()).reshape(-1, 3) - eta / rho
         found = nearest(wanted, size, limits.thetas)

@@ -17,7 +17,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.resultants import ConvexProgram
-from mbla.program.resultants.assemble import in_unit_of_force
 from mbla.program.resultants.friction_limit import friction_limit
 from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.program.static import gravity_form
@@ -131,7 +130,7 @@ def solve_convex_proximal(
     gravity = _gravity_state(run)
     if isinstance(gravity, ConvexSequence):
         return gravity
-    run.convex = convex = in_unit_of_force(convex, unit)
+    run.convex = convex = convex.in_unit_of_force(unit)
     anchor, least = gravity / unit, 1e-300 if unit == 1.0 else 1.0
     rho = STEP / max(float((anchor**2).sum()), least)
     form, law = convex_proximal_form(convex, rho), convex_law(convex)
@@ -160,7 +159,7 @@ def solve_convex_proximal(
 def _data(form: ConvexStaticForm, rho: float, anchor: FloatArray) -> tuple[FloatArray, FloatArray]:
     convex, limits = form.convex, form.convex.points.limits
     limit = np.maximum(limits.friction * anchor[:, 0] + limits.cohesion, 0.0)
-    size = friction_limit(convex.torsion, (convex.resultants @ anchor.ravel()).reshape(-1, 6))
+    size = friction_limit(convex.torsion, convex.resultants_of(anchor))
     return convex_proximal_data(form, rho, anchor, limit, size.share, np.maximum(size.total - size.share, 0.0))
 
 

@@ -24,8 +24,8 @@ from mbla.model.solids.ragged import next_item
 from mbla.process.stopwatch import timed
 from mbla.program.kinematic import KinematicForm
 from mbla.program.resultants import ConvexProgram, convex_form
-from mbla.program.resultants.assemble import in_unit_of_force
-from mbla.program.resultants.crushing import Corners, corner_values, values
+from mbla.program.resultants.conditions import ConeRows
+from mbla.program.resultants.crushing import CrushingLimits, corner_values, crushing_cones
 from mbla.program.resultants.torsion import TorsionLimits
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.repair import repaired_mechanisms
@@ -65,7 +65,7 @@ def repaired_convex_forces(
     sharp  : None too where they are not as near to equilibrium as ``GOOD_EQUILIBRIUM``
     """
     unit = unit_at_collapse(convex, load_factor)
-    convex, forces, load_factor = in_unit_of_force(convex, unit), forces / unit, load_factor / unit
+    convex, forces, load_factor = convex.in_unit_of_force(unit), forces / unit, load_factor / unit
     form = convex_form(convex)
     cones = ConeVectors.of(form.cone_program)
     units = units_of_unknowns(form, convex, forces)
@@ -155,7 +155,7 @@ def slacks_of(convex: ConvexProgram, form: KinematicForm, forces: FloatArray) ->
     x = _points_inside(limits, forces)
     strength = limits.cohesion + limits.friction * x[:, 0]
     shear = np.column_stack([strength, x[:, 1:]])
-    resultants = (convex.resultants @ x.ravel()).reshape(-1, 6)
+    resultants = convex.resultants_of(x)
     return np.concatenate(
         [
             x[rows.cut_off, 0] + limits.tension[rows.cut_off],
@@ -163,8 +163,7 @@ def slacks_of(convex: ConvexProgram, form: KinematicForm, forces: FloatArray) ->
             shear[rows.dry].ravel(),
             shear[rows.frictional].ravel(),
             _torsion_slacks(convex.torsion, resultants),
-            _corner_slacks(convex.crushing.corners, resultants),
-            values(convex.crushing.edges.cones, resultants, convex.crushing.edges.interfaces).ravel(),
+            _crushing_slacks(convex.crushing, resultants),
         ]
     )
 
@@ -243,16 +242,16 @@ def _largest_twist(share: FloatArray, shear: FloatArray, theta: FloatArray) -> F
     )
 
 
-def _corner_slacks(corners: Corners, resultants: FloatArray) -> FloatArray:
-    lead, bounds, q = corner_values(corners, resultants)
+def _crushing_slacks(limits: CrushingLimits, resultants: FloatArray) -> FloatArray:
+    """The vectors of all conditions at resultants, (n_interfaces, 6)."""
+    corners, rows = limits.corners, ConeRows()
+    crushing_cones(limits, rows)
+    lead, q = corner_values(corners, resultants)
     lead, q = np.maximum(lead, 0.0), np.maximum(q, 0.0) * (1.0 - INSIDE)
     h = np.sqrt(q[:, 0] * q[:, 1]) * (1.0 - INSIDE)
-    g = _between(lead, corners.strength, h)
-    phi = corners.strength**0.25
-    alpha = np.column_stack([lead + 1.0, lead - 1.0, 2.0 * g])
-    beta = np.column_stack([phi * (g + h), phi * (g - h), 2.0 * lead])
-    gamma = np.column_stack([q[:, 0] + q[:, 1], q[:, 0] - q[:, 1], 2.0 * h])
-    return np.concatenate([bounds - q[corners.owner, corners.side], alpha.ravel(), beta.ravel(), gamma.ravel()])
+    helpers = np.concatenate([_between(lead, corners.strength, h), h, q.ravel()])
+    given = rows.resultants(len(resultants)) @ resultants.ravel()
+    return np.asarray(given + rows.helpers @ helpers + rows.constants)
 
 
 def _between(normal: FloatArray, strength: FloatArray, h: FloatArray) -> FloatArray:

@@ -35,7 +35,7 @@ class ConvexState:
 
 def laws_of(convex: ConvexProgram) -> InterfaceLaws:
     """Strengths of the interfaces in the program's units."""
-    n, torsion = len(convex.shapes.radii), convex.torsion
+    n, torsion = convex.n_interfaces, convex.torsion
     friction, cohesion, tension = np.zeros(n), np.zeros(n), np.zeros(n)
     friction[torsion.interfaces], cohesion[torsion.interfaces] = torsion.friction, torsion.cohesion
     strength = np.full(n, np.inf)
@@ -71,7 +71,7 @@ def state_without_dilatancy(
     closing = float(np.where(np.isfinite(program.limits.compression), 0.0, -own[:, 0]).max(initial=0.0)) / speed
     of_points, at_points = _unexplained_at_points(program.limits, forces, own)
 
-    resultants = (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    resultants = convex.resultants_of(forces)
     size = friction_limit(limits, resultants)
     r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
     slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii

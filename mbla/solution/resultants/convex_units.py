@@ -48,7 +48,7 @@ def units_of_unknowns(form: KinematicForm, convex: ConvexProgram, forces: FloatA
     """
     rows = np.clip(carried_loads(convex.points, forces), LIGHTEST, 1.0)
     points = _least_along(convex.points.equilibrium_matrix, rows)
-    n_interfaces = len(convex.shapes.radii)
+    n_interfaces = convex.n_interfaces
     interfaces = np.ones(n_interfaces)
     np.minimum.at(interfaces, convex.interface_of_point, points.reshape(-1, 3).min(axis=1))
     of_conditions = []

@@ -12,7 +12,6 @@ from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.program.resultants import ConvexProgram
-from mbla.program.resultants.assemble import in_unit_of_force
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -72,7 +71,7 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
     mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)
     status, reason, programs = associative.status, associative.reason, associative.programs
     if sequence is not None:
-        own = in_unit_of_force(convex, unit)
+        own = convex.in_unit_of_force(unit)
         mechanics = _mechanics(own, sequence.state, np.zeros(convex.points.n_points))
         status, reason, programs = _status(associative, sequence), sequence.reason or reason, sequence.programs
     certificate, motions = _certificate(convex, associative)
@@ -131,7 +130,7 @@ def convex_mechanics(convex: ConvexProgram, state: ConvexState, dilatancy: Float
         contact_velocities=moved,
         mechanism=program.mechanism(velocities),
         modes=_modes(convex, state, dilatancy),
-        resultants=(convex.resultants @ forces.ravel()).reshape(-1, 6),
+        resultants=convex.resultants_of(forces),
         interface_motions=to_deck * motions,
     )
 
@@ -175,7 +174,7 @@ def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> 
     by_crushing = (convex.resultants.T @ state.motions[:, 1].ravel()).reshape(-1, 3)
     speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
     modes = contact_modes(state.forces, moved - by_torsion - by_crushing, program.limits, dilatancy, speed)
-    reserve = torsion_reserve(convex.torsion, (convex.resultants @ state.forces.ravel()).reshape(-1, 6))
+    reserve = torsion_reserve(convex.torsion, convex.resultants_of(state.forces))
     slips = (
         np.hypot(by_torsion[:, 1], by_torsion[:, 2]) > np.maximum(reserve, AT_REST)[convex.interface_of_point] * speed
     )
@@ -190,8 +189,8 @@ def _crushes(convex: ConvexProgram, state: ConvexState, by_crushing: FloatArray,
 
     What an interface has left counts as a share of the largest normal force.
     """
-    limits, found = convex.crushing, np.zeros(len(convex.shapes.radii), dtype=bool)
-    resultants = (convex.resultants @ state.forces.ravel()).reshape(-1, 6)
+    limits, found = convex.crushing, np.zeros(convex.n_interfaces, dtype=bool)
+    resultants = convex.resultants_of(state.forces)
     left = -crushing_violation(limits, resultants) / np.abs(resultants[:, 0]).max(initial=1e-300)
     own = np.zeros(len(found))
     np.maximum.at(own, convex.interface_of_point, np.abs(by_crushing).max(axis=1))

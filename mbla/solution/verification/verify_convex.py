@@ -17,7 +17,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.program.resultants.assemble import near_crushing, with_crushing_of, without_crushing
+from mbla.program.resultants.assemble import near_crushing, without_crushing
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.associative.bounds import LOCKED_IN
 from mbla.solution.associative.proofs import PASSED_ON_ROUNDING, PROVED_RESIDUAL
@@ -129,7 +129,7 @@ def _bounds(case: _Case, associative: Mechanics) -> tuple[float, float]:
     convex, load_case = case.program(), case.load_case
     scaling = convex.points.scaling
     crushes = np.any(_motions_of(case, associative)[:, 1] != 0.0, axis=1)
-    convex = with_crushing_of(convex, crushes | near_crushing(convex, associative.contact_forces / scaling.force))
+    convex = convex.with_crushing_of(crushes | near_crushing(convex, associative.contact_forces / scaling.force))
     forces = scaling.scaled_forces(associative.contact_forces)
     repaired = repaired_convex_forces(convex, forces, associative.load_factor / scaling.live)
     static = np.nan

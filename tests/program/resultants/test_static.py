@@ -64,7 +64,7 @@ def allowed(
     convex: ConvexProgram, forces: FloatArray, limit: FloatArray, share: FloatArray, rest: FloatArray
 ) -> FloatArray:
     """What each condition leaves, by the formulas; below zero where it is broken."""
-    law, r = convex.points.limits, (convex.resultants @ forces.ravel()).reshape(-1, 6)
+    law, r = convex.points.limits, convex.resultants_of(forces)
     left = [forces[:, 0] + law.tension, law.compression - forces[:, 0], limit - np.linalg.norm(forces[:, 1:], axis=1)]
     if len(share):
         of_torsion = r[convex.torsion.interfaces]
@@ -100,7 +100,7 @@ def test_forces_at_given_limits(name: str, law: str) -> None:
             forces[:, 0] = np.abs(forces[:, 0])
             forces[:, 1:] *= 0.2
         if name == "ell" and draw.random() < 0.5:  # four triangles at once: next to even pressure on each
-            pressed = np.bincount(convex.interface_of_point, minlength=len(convex.shapes.radii))
+            pressed = np.bincount(convex.interface_of_point, minlength=convex.n_interfaces)
             even = dict(zip(convex.crushing.interfaces.tolist(), convex.crushing.strength, strict=True))
             near = np.array([0.3 * even.get(row, 1.0) / pressed[row] for row in convex.interface_of_point.tolist()])
             forces[:, 0] = near * draw.uniform(0.9, 1.1, n)
