@@ -129,7 +129,7 @@ def solve_case(
     solids = solids_of(moving, contacts)
     for case in trials:
         program = build_program(solids, case, deck.analysis)
-        solution = solve(program, deck.analysis, settings, log)
+        solution = solve(program, settings, log)
         trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
     answer = trials.answer
     status = verified_status(answer.solution, answer.checks)

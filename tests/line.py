@@ -97,7 +97,7 @@ def solution_of(line: Line) -> Solution:
     reduced = reduce_program(
         line.model, line.contacts, line.program, allowed_reductions(analysis), associative=associative
     )
-    return solve_parts(reduced, analysis, solver_settings(analysis))
+    return solve_parts(reduced, solver_settings(analysis))
 
 
 def verified(line: Line) -> tuple[Solution, Checks, Status]:

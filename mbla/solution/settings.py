@@ -1,9 +1,9 @@
-"""Settings of the solver stage as one record: what ``accuracy`` and the single knobs of the deck come to."""
+"""Settings of the solver stage as one record: the analysis section, and what ``accuracy`` and single knobs come to."""
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mbla.deck.sections.accuracy import PRESETS, knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
@@ -14,7 +14,7 @@ MAX_ITERATIONS = 300
 
 @dataclass(frozen=True)
 class SolverSettings:
-    """One run of the cone solver.
+    """What the deck asks of the solver stage, passed down to whoever solves.
 
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program
@@ -24,6 +24,8 @@ class SolverSettings:
     cholesky       : of the condensed method, qdldl, superlu or cholmod; None: by size and by what is installed
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
+    range, peak, standing : whether these are found beside the load factor
+    analysis       : flow rule, scheme with its parameters, friction polyhedra, ranges of forces
     """
 
     tolerance: float
@@ -34,16 +36,18 @@ class SolverSettings:
     gap: float = PRESETS["standard"].gap
     residual: float = PRESETS["standard"].residual
     cholesky: str | None = None
+    range: bool = PRESETS["standard"].range
+    peak: bool = PRESETS["standard"].peak
+    standing: bool = PRESETS["standard"].standing
+    analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
 
 
 def solver_settings(analysis: AnalysisSection) -> SolverSettings:
     """Settings that a deck asks for; the time limit starts now."""
-    knobs = knobs_of(analysis)
     return SolverSettings(
-        tolerance=knobs.tolerance,
+        **vars(knobs_of(analysis)),
         max_iterations=analysis.max_iterations or MAX_ITERATIONS,
         deadline=None if analysis.time_limit is None else time.monotonic() + analysis.time_limit,
         solver=analysis.solver,
-        gap=knobs.gap,
-        residual=knobs.residual,
+        analysis=analysis,
     )

@@ -175,8 +175,8 @@ class Solution:
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was looked for
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
-    asked       : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis asks for,
-                  where the answer is no sharper only because no more was asked for; None otherwise
+    tolerance_requested : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis
+                  asks for, where the answer is no sharper only because no more was asked for; None otherwise
     """
 
     flow_rule: str
@@ -207,7 +207,7 @@ class Solution:
     contact_model: str = "concave"
     stress_blocks: bool = False
     solver: str = "auto"
-    asked: float | None = None
+    tolerance_requested: float | None = None
     reductions: tuple[ReductionStep, ...] = ()
 
     @property

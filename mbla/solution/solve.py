@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.program.build import CaseProgram
 from mbla.program.program import Program
@@ -17,7 +16,6 @@ from mbla.program.reductions import Reduced
 from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further_results import RequestedResults, with_further_results
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.law_state import LawState
@@ -25,10 +23,8 @@ from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
+from mbla.solution.solution import WITH_VALUE, IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
 from mbla.solution.standing.standing import worst_standing
-
-WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 FAILED = (
     Status.NO_EQUILIBRIUM,
@@ -75,25 +71,21 @@ class _Stage:
         return None if whole is None else mechanics_of(*whole, flow_rule)
 
 
-def solve(
-    program: CaseProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
-) -> Solution:
-    """Load factor of one load case by the flow rule of ``analysis``, and what is asked for beside it, on all blocks.
+def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None) -> Solution:
+    """Load factor of one load case by the flow rule of the analysis, and what is asked for beside it, on all blocks.
 
     log : called once per iteration of a cone program, as it goes
     """
     if program.convex is None:
-        solution = solve_parts(program.reduced, analysis, settings, log)
+        solution = solve_parts(program.reduced, settings, log)
     else:
         from mbla.solution.resultants.solve_convex import solve_convex  # late: interfaces are asked for rarely
 
-        solution = solve_convex(program.convex, analysis, settings, log)
+        solution = solve_convex(program.convex, settings, log)
     return solution_on_blocks(solution, program.solids)
 
 
-def solve_parts(
-    reduced: Reduced, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
-) -> Solution:
+def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = None) -> Solution:
     """The same of the contact points of solids: their parts one after the other, then the whole structure.
 
     log : called once per iteration of a cone program, as it goes
@@ -107,16 +99,15 @@ def solve_parts(
             log(iteration)
 
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
-    requested = RequestedResults(analysis, settings, record)
-    results = [_result_of(program, requested) for program in reduced.parts]
-    solution = _combined(stage, analysis, results)
+    results = [_result_of(program, settings, record) for program in reduced.parts]
+    solution = _combined(stage, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
     if standing is not None and standing.verdict is Standing.SELF_STRESS:
         solution = _without_claim(solution)
     return replace(
         solution,
-        sides=0 if solution.outer is None else analysis.sides,
+        sides=0 if solution.outer is None else settings.analysis.sides,
         standing=standing,
         programs=_renumbered([*(record for result in results for record in result.programs), *stage.more]),
         iterations=tuple(iterations),
@@ -127,31 +118,29 @@ def solve_parts(
     )
 
 
-def _result_of(program: Program, requested: RequestedResults) -> PartResult:
+def _result_of(program: Program, settings: SolverSettings, log: Log) -> PartResult:
     """What was found for one part; a system of equations that nobody expected to be singular is a failure told."""
     try:
-        return with_further_results(
-            solve_part(program, requested.analysis, requested.settings, requested.log), requested
-        )
+        return solve_part(program, settings, log)
     except np.linalg.LinAlgError as error:
         reason = BROKE_DOWN.format(str(error).lower())
         failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())
         return PartResult(program, failure, None, loaded=bool(np.any(program.live_load)))
 
 
-def _combined(stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult]) -> Solution:
+def _combined(stage: _Stage, results: Sequence[PartResult]) -> Solution:
     """The part that decides: one that cannot stand, one that could not be solved, or the first to collapse."""
     for status in FAILED:
         for part, result in enumerate(results):
             if result.associative.status is status:
-                return _without_load_factor(stage, analysis, part, result)
+                return _without_load_factor(stage, part, result)
     bounded = [part for part, result in enumerate(results) if _load_factor(result) < np.inf]
     if not bounded:
         loaded = [part for part, result in enumerate(results) if result.loaded]
-        return _without_load_factor(stage, analysis, loaded[0], results[loaded[0]])
+        return _without_load_factor(stage, loaded[0], results[loaded[0]])
     first = min(bounded, key=lambda part: _load_factor(results[part]))
     first_associative = min(range(len(results)), key=lambda part: _factor(results[part].associative.state))
-    return _with_load_factor(stage, analysis, results, first, first_associative)
+    return _with_load_factor(stage, results, first, first_associative)
 
 
 def _load_factor(result: PartResult) -> float:
@@ -163,7 +152,7 @@ def _factor(state: LawState | None) -> float:
     return np.inf if state is None else state.load_factor
 
 
-def _without_load_factor(stage: _Stage, analysis: AnalysisSection, part: int, result: PartResult) -> Solution:
+def _without_load_factor(stage: _Stage, part: int, result: PartResult) -> Solution:
     associative, lock = result.associative, None
     status, reason = associative.status, associative.reason
     if status is Status.UNBOUNDED:
@@ -172,18 +161,16 @@ def _without_load_factor(stage: _Stage, analysis: AnalysisSection, part: int, re
             status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED
     certificate = associative.certificate
     motion = None if certificate is None else motion_of(stage.parts[part], certificate)
-    return replace(_solution(analysis, status, reason), certificate=motion, lock=lock)
+    return replace(_solution(stage.settings, status, reason), certificate=motion, lock=lock)
 
 
-def _with_load_factor(
-    stage: _Stage, analysis: AnalysisSection, results: Sequence[PartResult], first: int, first_associative: int
-) -> Solution:
-    result = results[first]
+def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, first_associative: int) -> Solution:
+    result, analysis = results[first], stage.settings.analysis
     solved = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     solution = replace(
-        _solution(analysis, *_claim(results, first)),
-        asked=_asked(results),
+        _solution(stage.settings, *_claim(results, first)),
+        tolerance_requested=_tolerance_requested(results),
         associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
         outer=_outer(stage, results),
     )
@@ -214,11 +201,11 @@ def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:
     return result.status, result.reason
 
 
-def _asked(results: Sequence[PartResult]) -> float | None:
+def _tolerance_requested(results: Sequence[PartResult]) -> float | None:
     """Gap or residual asked for where every part that is not solved is approximate because of it; else None."""
     open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
-    asked = [result.asked for result in open_parts if result.status is Status.APPROXIMATE]
-    known = [value for value in asked if value is not None]
+    requested = [result.tolerance_requested for result in open_parts if result.status is Status.APPROXIMATE]
+    known = [value for value in requested if value is not None]
     return max(known) if known and len(known) == len(open_parts) else None
 
 
@@ -253,8 +240,9 @@ def _outer(stage: _Stage, results: Sequence[PartResult]) -> Mechanics | None:
     return stage.mechanics(first, states[first], "associative")
 
 
-def _solution(analysis: AnalysisSection, status: Status, reason: str) -> Solution:
+def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution:
     """A solution without forces and mechanism."""
+    analysis = settings.analysis
     return Solution(
         flow_rule=analysis.flow_rule,
         status=status,

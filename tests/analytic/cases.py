@@ -52,7 +52,7 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:
         solution = solve_parts(
-            unreduced(assemble(model, contacts, load_case), contacts), read.analysis, solver_settings(read.analysis)
+            unreduced(assemble(model, contacts, load_case), contacts), solver_settings(read.analysis)
         )
         checks = verify(model, contacts, load_case, solution)
         expected = read.content.expected[load_case.name]

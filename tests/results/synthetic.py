@@ -262,7 +262,7 @@ def full_solution(solution: Solution) -> Solution:
         level=replace(mechanics, load_factor=0.57),
         level_lock=np.arange(24.0, 48.0).reshape(8, 3),
         spread=(0.49, 0.51),
-        asked=5e-3,
+        tolerance_requested=5e-3,
         standing=StandingResult(
             Standing.SELF_STRESS, 1, "the tower hangs between two walls", mechanics.contact_forces, mechanics.mechanism
         ),

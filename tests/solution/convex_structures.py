@@ -66,7 +66,7 @@ def convex(line: Line, flow_rule: str = "associative") -> tuple[Solution, Checks
     """Solve and verify with interface resultants."""
     analysis = line.deck.analysis.model_copy(update={"flow_rule": flow_rule, "contact_model": "convex"})
     program = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    solution = solve_convex(program, analysis, solver_settings(analysis))
+    solution = solve_convex(program, solver_settings(analysis))
     return solution, verify(line.model, line.contacts, line.load_case, solution)
 
 

@@ -73,12 +73,14 @@ def test_a_wide_gap_that_was_asked_for_is_approximate_and_no_failure() -> None:
     rough = ("analysis.tolerance=1e-4", "analysis.solver=clarabel", "parameters.n=10")
     result = case(WALL, *rough, "analysis.gap=0.01")
     assert result.status is Status.APPROXIMATE
-    assert result.solution.asked == 0.01
+    assert result.solution.tolerance_requested == 0.01
     assert "within the gap of 0.01 that was asked for" in result.solution.reason
     assert exit_code([result]) == 0
     assert factor(result) == pytest.approx(WALL_10, rel=1e-2)
-    assert not meets_what_was_asked(replace(result.solution, asked=result.checks.gap / 2.0), result.checks)
-    assert exit_code([replace(result, solution=replace(result.solution, asked=None))]) == 4
+    assert not meets_what_was_asked(
+        replace(result.solution, tolerance_requested=result.checks.gap / 2.0), result.checks
+    )
+    assert exit_code([replace(result, solution=replace(result.solution, tolerance_requested=None))]) == 4
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +100,7 @@ def test_a_draft_without_normality_stops_at_its_residual(rough_dome: CaseResult)
 
 
 def test_what_misses_the_residual_asked_for_is_a_failure(rough_dome: CaseResult) -> None:
-    solution = replace(rough_dome.solution, asked=1e-4)
+    solution = replace(rough_dome.solution, tolerance_requested=1e-4)
     assert exit_code([replace(rough_dome, solution=solution)]) == 4
 
 

@@ -11,15 +11,24 @@ import pytest
 
 from mbla.errors import Message
 from mbla.solution import part
-from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.nonassociative import proximal
+from mbla.solution.nonassociative.interior_path import solve_interior as interior_module
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
-from mbla.solution.part import PartResult, solve_part
-from mbla.solution.settings import SolverSettings
+from mbla.solution.part import (
+    NOT_FOLLOWED,
+    NOT_PUBLISHED,
+    NOT_REACHED,
+    PartResult,
+    solve_nonassociative,
+    solve_part,
+)
+from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, line_of_file
 from tests.solution.standing_structures import deck, plane, prism
 
-SETTINGS = SolverSettings(1e-8)
 KERB = Path(__file__).parents[2] / "decks" / "regressions" / "block_at_a_kerb.yaml"
 ALONG = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
 
@@ -33,7 +42,7 @@ def wedge(friction: float) -> str:
 
 def result_of(text: str, *overrides: str) -> PartResult:
     line = line_of(text, *overrides)
-    return solve_part(line.program, line.deck.analysis, SETTINGS, lambda record: None)
+    return solve_part(line.program, solver_settings(line.deck.analysis), lambda record: None)
 
 
 def test_livesleys_correction_needs_associative_forces() -> None:
@@ -89,7 +98,7 @@ def test_a_part_without_live_load_has_only_to_stand(weight: float) -> None:
     line = line_of(BLOCK)
     program = line.program
     unloaded = replace(program, live_load=np.zeros_like(program.live_load), dead_load=weight * program.dead_load)
-    result = solve_part(unloaded, line.deck.analysis, SETTINGS, lambda record: None)
+    result = solve_part(unloaded, solver_settings(line.deck.analysis), lambda record: None)
     assert not result.loaded
     assert result.status is Status.UNBOUNDED
     assert result.reason == ("no live load acts on it" if weight else "")
@@ -103,7 +112,7 @@ def test_a_small_structure_is_looked_at_below_its_load_factor(
     """It falls at 3 % less, where it turns over the edge of a kerb without friction."""
     monkeypatch.setattr(part, "FEW_POINTS", few_points)
     line = line_of_file(KERB)
-    result = solve_part(line.program, line.deck.analysis, SETTINGS, lambda record: None)
+    result = solve_part(line.program, solver_settings(line.deck.analysis), lambda record: None)
     assert result.status is Status.SOLVED
     assert result.state is not None
     assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(factor, rel=1e-5)
@@ -114,7 +123,72 @@ def test_where_no_load_path_means_anything_none_is_followed(change: str) -> None
     """A support gives way: factors count from a reaction that was chosen. Published figures stay what they are."""
     line = line_of_file(KERB, *(["analysis.scheme=published"] if change == "published" else []))
     program = replace(line.program, settles=change == "settles")
-    result = solve_part(program, line.deck.analysis, SETTINGS, lambda record: None)
+    result = solve_part(program, solver_settings(line.deck.analysis), lambda record: None)
     assert result.state is not None
     assert program.scaling.load_factor(result.state.load_factor) > 1.02 * 0.9 / 0.47
     assert "load path" not in [record.kind for record in result.programs]
+
+
+def test_another_scheme_than_the_published_one_is_said_to_have_been_used() -> None:
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative", "analysis.scheme=published")
+    locked = AssociativeResult(Status.UNBOUNDED, None, None, "", ())
+    settings = replace(solver_settings(line.deck.analysis), tolerance=1e-8)
+    result = solve_nonassociative(line.program, locked, settings, lambda record: None)
+    assert NOT_PUBLISHED in result.remarks
+    assert result.state is not None
+    assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-9)
+
+
+def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another scheme would lead to another state, at many times the cost; what was missed is said."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative", "analysis.residual=1e-9")
+    state = LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 4e-8)
+    found = SequenceResult(Status.SOLVED, state, "", ())
+
+    def elsewhere(*arguments: object, **more: object) -> SequenceResult:
+        raise AssertionError("the interior scheme was begun")
+
+    monkeypatch.setattr(part, "solve_proximal", lambda *arguments: found)
+    monkeypatch.setattr(interior_module, "solve_interior", elsewhere)
+    monkeypatch.setattr(part, "sharpened", lambda *arguments: arguments[-1])  # the state has no forces to look at
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = replace(solver_settings(line.deck.analysis), tolerance=1e-10, residual=1e-9)
+    result = solve_nonassociative(line.program, nothing, settings, lambda record: None)
+    assert result.state is state
+    assert result.remarks == (NOT_REACHED.format(4e-8, 1e-9),)
+
+
+@pytest.mark.parametrize(("large", "miss", "followed"), [(0, 3e-5, False), (0, 3e-2, False), (10_000, 3e-5, True)])
+def test_no_interior_path_is_followed_unasked_on_large_structures(
+    monkeypatch: pytest.MonkeyPatch, *, large: int, miss: float, followed: bool
+) -> None:
+    """What the steps came to is kept, and that nothing else was tried is said."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative")
+    near = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.5, miss), "", ())
+    exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
+    monkeypatch.setattr(part, "LARGE", large)
+    monkeypatch.setattr(part, "solve_proximal", lambda *arguments: near)
+    monkeypatch.setattr(interior_module, "solve_interior", lambda *arguments, **more: exact)
+    monkeypatch.setattr(part, "sharpened", lambda *arguments: arguments[-1])
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = replace(solver_settings(line.deck.analysis), tolerance=1e-9, residual=1e-6)
+    result = solve_nonassociative(line.program, nothing, settings, lambda record: None)
+    assert result.state is (exact.state if followed else near.state)
+    assert (NOT_FOLLOWED in result.remarks) is not followed
+
+
+@pytest.mark.parametrize(("closing", "followed"), [(4e-3, False), (1.1e-2, True)])
+def test_a_rough_state_is_enough_if_verification_sees_it_so(
+    closing: float, followed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a dome steps ended at 3.3e-3, which with the normal forces of closing joints are 1.1e-2: no result."""
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative")
+    near = SequenceResult(Status.APPROXIMATE, LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 3.3e-3), "", ())
+    exact = SequenceResult(Status.SOLVED, LawState(np.zeros((0, 3)), np.zeros(0), 0.4, 0.0), "", ())
+    monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: closing)
+    monkeypatch.setattr(part, "solve_proximal", lambda *arguments: near)
+    monkeypatch.setattr(interior_module, "solve_interior", lambda *arguments, **more: exact)
+    nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
+    settings = replace(solver_settings(line.deck.analysis), tolerance=1e-9, residual=5e-3)
+    result = solve_nonassociative(line.program, nothing, settings, lambda record: None)
+    assert result.state is (exact.state if followed else near.state)

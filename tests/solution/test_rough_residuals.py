@@ -40,7 +40,7 @@ def test_schemes_that_creep_stop_where_they_were_told_to(scheme: tuple[str, ...]
     assert law_residual(sharp.checks) <= 1e-6
     assert rough.status is Status.APPROXIMATE
     assert 1e-4 < law_residual(rough.checks) <= ROUGH
-    assert rough.solution.asked == ROUGH
+    assert rough.solution.tolerance_requested == ROUGH
     assert exit_code([rough]) == 0
     assert iterations(rough) < iterations(sharp)
     assert factor(rough) == pytest.approx(factor(sharp), rel=ROUGH)

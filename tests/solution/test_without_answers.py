@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution import flow_rules as flow
+from mbla.solution import part
 from mbla.solution.associative import repair
 from mbla.solution.associative.polyhedral import _claim
 from mbla.solution.associative.repair import repaired_forces
@@ -122,7 +122,7 @@ def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypa
 
 def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     late = SequenceResult(Status.TIME_LIMIT, None, "the time limit was reached", ())
-    monkeypatch.setattr(flow, "solve_proximal", lambda *arguments: late)
+    monkeypatch.setattr(part, "solve_proximal", lambda *arguments: late)
     solution = solution_of(line_of(BLOCK, "analysis.flow_rule=non_associative"))
     assert solution.status is Status.TIME_LIMIT
     assert solution.reason == "the time limit was reached"

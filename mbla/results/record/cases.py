@@ -119,7 +119,7 @@ CASE_COLUMNS: tuple[Column, ...] = (
     _column("cases/*/range", range_of),
     _check("peak_load_factor"),
     _column("cases/*/spread", lambda case: case.solution.spread),
-    _column("cases/*/asked", lambda case: case.solution.asked),
+    _column("cases/*/tolerance_requested", lambda case: case.solution.tolerance_requested),
     _column(real("angle", "tilting table: angle of collapse", "degree"), angle_of),
     _column(
         real("angle_bounds", "tilting table: angle certainly borne, angle certainly not", "degree", "end"),

@@ -89,7 +89,9 @@ def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Soluti
         stress_blocks=stress_blocks,
         solver=settings.solver,
         sides=0 if solution.outer is None else analysis.sides,
-        asked=solution.asked if solution.asked is None or solution.asked in asked else settings.residual,
+        tolerance_requested=solution.tolerance_requested
+        if solution.tolerance_requested is None or solution.tolerance_requested in asked
+        else settings.residual,
     )
 
 

@@ -64,7 +64,7 @@ class AssociativeResult:
     certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
                   joints dissipate
     solver      : that the state comes from, empty without one: the program may have been solved by several
-    asked       : approximate: the distance of the bounds that was asked for, and reached; None where it was not
+    tolerance_requested : approximate: the distance of the bounds that was asked for, and reached; None where it was not
     apart       : approximate for no other reason than that the bounds are apart: how far, in words; else empty
     stress_free : what becomes of the dead load on the stress-free assembly, None where that was not looked at
     """
@@ -75,7 +75,7 @@ class AssociativeResult:
     reason: str
     programs: tuple[ProgramRecord, ...]
     solver: str = ""
-    asked: float | None = None
+    tolerance_requested: float | None = None
     apart: str = ""
     stress_free: Weakening | None = field(default=None, repr=False)
 

@@ -39,7 +39,7 @@ class SequenceResult:
     spread  : least and greatest load factor of several tries that did not agree, non-dimensional
     remarks : what a reader of the figure must know
     path    : the load path, where one was followed, load factors of the model
-    asked   : approximate: the residual at which the scheme was told to stop, and did; None where it fell short of it
+    tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
     """
 
     status: Status
@@ -49,7 +49,7 @@ class SequenceResult:
     spread: tuple[float, float] | None = None
     remarks: tuple[Message, ...] = ()
     path: tuple[PathPoint, ...] = ()
-    asked: float | None = None
+    tolerance_requested: float | None = None
 
 
 def law_state(

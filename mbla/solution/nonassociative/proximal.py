@@ -268,7 +268,7 @@ def rough_result(
     words = AS_ASKED.format(seen, wanted)
     if seen <= WARNED:
         return SequenceResult(Status.SOLVED, state, "", records, remarks=(words,))
-    return SequenceResult(Status.APPROXIMATE, state, words, records, asked=wanted)
+    return SequenceResult(Status.APPROXIMATE, state, words, records, tolerance_requested=wanted)
 
 
 def _stands_still(states: list[LawState]) -> bool:

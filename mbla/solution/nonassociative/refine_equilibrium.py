@@ -72,7 +72,9 @@ def sharpened(
         return replace(sequence, state=best)
     if least > SOLVED:
         return sequence
-    return replace(sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), asked=None)
+    return replace(
+        sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), tolerance_requested=None
+    )
 
 
 def misfit(program: Program, state: LawState) -> float:

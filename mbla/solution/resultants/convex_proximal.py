@@ -74,7 +74,7 @@ SPREAD_STEPS = 10
 class ConvexSequence:
     """Best state of a sequence; spread of load factors non-dimensional; with remarks.
 
-    asked : approximate: the residual at which it was told to stop, and did
+    tolerance_requested : approximate: the residual at which it was told to stop, and did
     """
 
     status: Status
@@ -83,7 +83,7 @@ class ConvexSequence:
     programs: tuple[ProgramRecord, ...]
     spread: tuple[float, float] | None = None
     remarks: tuple[Message, ...] = ()
-    asked: float | None = None
+    tolerance_requested: float | None = None
 
 
 @dataclass
@@ -236,7 +236,7 @@ def _finished(run: _Run) -> ConvexSequence:
         words = AS_ASKED.format(best.residual, wanted)
         if best.residual <= WARNED:
             return ConvexSequence(Status.SOLVED, best, "", records, remarks=(words,))
-        return ConvexSequence(Status.APPROXIMATE, best, words, records, asked=wanted)
+        return ConvexSequence(Status.APPROXIMATE, best, words, records, tolerance_requested=wanted)
     if best.residual <= SOLVED:
         return ConvexSequence(Status.SOLVED, best, "", records)
     words = Message(

@@ -8,14 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.accuracy import knobs_of
-from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.program.resultants import ConvexProgram
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further_results import standing_on_model
 from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
 from mbla.solution.resultants.convex_proximal import ConvexSequence, solve_convex_proximal
@@ -24,7 +21,7 @@ from mbla.solution.resultants.convex_units import unit_at_collapse
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Standing, Status
 from mbla.solution.solve import ONLY_BY_SELF_STRESS
-from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium
+from mbla.solution.standing.standing import assess_dead_load, standing_on_model, standing_without_equilibrium
 
 LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
@@ -36,10 +33,8 @@ NO_RANGE = Message(
 )
 
 
-def solve_convex(
-    convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log | None = None
-) -> Solution:
-    """Load factor of one load case by the flow rule of ``analysis``: associative, or non-associative.
+def solve_convex(convex: ConvexProgram, settings: SolverSettings, log: Log | None = None) -> Solution:
+    """Load factor of one load case by the flow rule of the analysis: associative, or non-associative.
 
     log : called once per iteration of a cone program, as it goes
     """
@@ -51,13 +46,14 @@ def solve_convex(
         if log is not None:
             log(iteration)
 
-    solution = _solved(convex, analysis, settings, record)
-    if knobs_of(analysis).standing:
+    solution = _solved(convex, settings, record)
+    if settings.standing:
         solution = _with_standing(convex, solution, settings)
     return replace(solution, iterations=tuple(iterations), seconds=time.perf_counter() - started)
 
 
-def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSettings, log: Log) -> Solution:
+def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Solution:
+    analysis = settings.analysis
     associative = solve_convex_associative(convex, settings, log)
     sequence, unit = None, 1.0
     locked = associative.status is Status.UNBOUNDED
@@ -93,7 +89,9 @@ def _solved(convex: ConvexProgram, analysis: AnalysisSection, settings: SolverSe
         contact_model=convex.contact_model,
         stress_blocks=bool(len(convex.crushing.interfaces)),
         solver=settings.solver,
-        asked=None if sequence is None or associative.status is Status.APPROXIMATE else sequence.asked,
+        tolerance_requested=None
+        if sequence is None or associative.status is Status.APPROXIMATE
+        else sequence.tolerance_requested,
         lock=None if associative.lock is None else convex.points.scaling.forces(associative.lock) / live,
     )
 

@@ -18,7 +18,7 @@ from mbla.arrays import FloatArray
 from mbla.process.sharing import shared
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
-from mbla.solution.mechanics import motion_of
+from mbla.solution.mechanics import forces_of, motion_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
@@ -84,6 +84,14 @@ def assess_dead_load(
     if weakening.outcome is Outcome.UNDECIDED:
         verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
     return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+
+
+def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
+    """Standing of a part with its forces and displacements as those of the model, where they are known."""
+    if state.forces is None or state.displacements is None:
+        return state.standing
+    forces = forces_of(program, state.forces)
+    return replace(state.standing, forces=forces, settlement=settlement_of(program, state.displacements))
 
 
 def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:

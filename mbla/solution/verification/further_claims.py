@@ -13,12 +13,10 @@ rigid-block analysis (Kao et al. 2022, doi:10.1016/j.cad.2022.103216), with the 
 *Lock*: contact forces z carry every multiple of the live load if they balance the live load alone on every free block
 and stay within the yield conditions however often they are taken: ‖T‖ ≤ μN, and no force where the joint can crush.
 Each block is judged by its own live load, the mean of the others' where it has none: a light block that breaks away
-from mbla.errors import Message
 must not be lost in the mean.
 
 *Range*: an end of the range of a load factor without normality is believed where its own forces balance the loads at
 its load factor, keep to the yield conditions and fit, by the flow rule claimed, the mechanism of the load factor
-from mbla.errors import Message
 reported. That nothing lies beyond the ends is the word of the solver; that everything between them is possible needs no
 more than the two, since the states of one mechanism are convex.
 

@@ -138,7 +138,7 @@ def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
     Associative flow: its proved bounds lie within the gap asked for. Other flow: every residual is within the one asked
     for, and the load factor not above the proved kinematic bound by more than that.
     """
-    asked = solution.asked
+    asked = solution.tolerance_requested
     if asked is None or solution.mechanics is None or not abs(checks.live_power - 1.0) <= LIVE_POWER_DEVIATION:
         return False
     residuals = (

@@ -43,7 +43,7 @@ def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
 
 
 def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
-    solution = solve_parts(_reduced(structure, analysis), analysis, solver_settings(analysis))
+    solution = solve_parts(_reduced(structure, analysis), solver_settings(analysis))
     return solution, verify(structure.model, structure.contacts, structure.load_case, solution)
 
 

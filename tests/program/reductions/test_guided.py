@@ -49,7 +49,7 @@ def answer(tmp_path: Path, support: str, push: str, reduce: bool = True) -> tupl
     reduced = unreduced(program, contacts)
     if reduce:
         reduced = reduce_program(model, contacts, program, ReductionSwitches(), associative=True)
-    solution = solve_parts(reduced, deck.analysis, solver_settings(deck.analysis))
+    solution = solve_parts(reduced, solver_settings(deck.analysis))
     checks = verify(model, contacts, case, solution)
     assert verified_status(solution, checks) is Status.SOLVED, checks.failures
     assert solution.mechanics is not None

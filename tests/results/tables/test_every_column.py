@@ -265,7 +265,15 @@ ELSEWHERE = {
     "interfaces": ("modes", "eccentricity", "torsion_use", "hinge_points", "hinge_directions"),
     "points": ("friction_use",),
     "cases": (
-        *("standing", "factor_unique", "associative_load_factor", "angle", "reaction_", "moving_", "asked"),
+        *(
+            "standing",
+            "factor_unique",
+            "associative_load_factor",
+            "angle",
+            "reaction_",
+            "moving_",
+            "tolerance_requested",
+        ),
         *(f"{mode.name.lower()}_interfaces" for mode in InterfaceMode),
     ),
 }

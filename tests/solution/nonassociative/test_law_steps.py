@@ -160,7 +160,7 @@ def test_steps_that_come_no_closer_may_be_as_close_as_asked(
     monkeypatch.setattr(proximal, "residual_with_closing", lambda *arguments: seen)
     result = proximal.finished(run, "the steps came no closer")
     assert result.status is Status.APPROXIMATE
-    assert result.asked == asked
+    assert result.tolerance_requested == asked
     assert ("came no closer" in result.reason) is (asked is None)
 
 

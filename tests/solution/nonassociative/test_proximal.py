@@ -217,7 +217,7 @@ def test_a_rough_state_is_solved_within_the_residual_of_a_warning(
     words = f"residual {seen:.2g}, within the requested 0.001"
     assert result.status is status
     assert (words in " ".join(result.remarks)) is (seen == 5e-5)
-    assert (words in result.reason, result.asked) == ((True, 1e-3) if seen == 5e-4 else (False, None))
+    assert (words in result.reason, result.tolerance_requested) == ((True, 1e-3) if seen == 5e-4 else (False, None))
 
 
 SLENDER = (

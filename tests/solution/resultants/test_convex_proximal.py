@@ -79,7 +79,7 @@ def test_a_state_is_judged_by_its_residual_and_what_was_asked_for(
     settings = replace(SETTINGS, residual=wanted)
     result = _finished(_Run(wall, settings, lambda record: None, [], made, [0.9, residual, residual]))
     assert result.status is status
-    assert result.asked == asked
+    assert result.tolerance_requested == asked
     assert result.state is not None
     assert result.state.residual == residual
     words = " ".join((result.reason, *result.remarks))

@@ -96,9 +96,7 @@ def test_a_mechanism_against_a_guide_is_not_verified() -> None:
     model = build_model(deck)
     contacts = find_contacts(model, deck.contacts)
     case = next(case for case in model.load_cases if case.name == "on_a_rail")
-    solution = solve_parts(
-        unreduced(assemble(model, contacts, case), contacts), deck.analysis, solver_settings(deck.analysis)
-    )
+    solution = solve_parts(unreduced(assemble(model, contacts, case), contacts), solver_settings(deck.analysis))
     assert verify(model, contacts, case, solution).verified
     assert solution.mechanics is not None
     mechanism = solution.mechanics.mechanism.copy()

@@ -216,7 +216,9 @@ def test_verified_by_the_program_that_gave_up_is_approximate() -> None:
 
 
 def meets(checks: Checks, rule: str = "associative", asked: float | None = 1e-3, factor: float = 1.0) -> bool:
-    return meets_what_was_asked(claim(answer(factor), Status.APPROXIMATE, flow_rule=rule, asked=asked), checks)
+    return meets_what_was_asked(
+        claim(answer(factor), Status.APPROXIMATE, flow_rule=rule, tolerance_requested=asked), checks
+    )
 
 
 def test_what_was_asked_of_associative_flow_is_the_gap() -> None:
@@ -241,8 +243,8 @@ def test_what_was_asked_of_other_flow_is_every_residual(rule: str) -> None:
 
 
 def test_nothing_is_met_that_was_not_asked_or_not_found() -> None:
-    assert not meets(found(), asked=None)
-    assert not meets_what_was_asked(claim(None, Status.APPROXIMATE, asked=1e-3), found())
+    assert not meets(found(), tolerance_requested=None)
+    assert not meets_what_was_asked(claim(None, Status.APPROXIMATE, tolerance_requested=1e-3), found())
 
 
 @pytest.mark.parametrize("rule", RULES)
