@@ -10,20 +10,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.text import number
+from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import (
-    BLUE,
-    GHOST,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    VERMILION,
-    WARNING,
-    Page,
-    add_words,
-    open_page,
-)
+from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
 from mbla.results.pictures.scene import Scene
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Status
@@ -36,52 +25,31 @@ LINES = (
 """residuals of an iteration: field, name, colour, line, marker"""
 MOST_NAMED = 24
 """names of programs that have room side by side"""
-LEFT, RIGHT, BOTTOM, BETWEEN = 0.09, 0.94, 0.09, 0.07
-"""frame of the diagrams, shares of the page"""
 
 
 def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
     """Write the iteration history of a case, and its load path where one was followed.
 
-    Raises
-    ------
-    UsageError
-        The extra for pictures is not installed.
-    FileError
-        The file cannot be written.
+    Raises as ``open_diagrams`` does.
     """
     solution = scene.case.solution
-    with open_page(path, options) as page:
-        count = 2 * bool(solution.iterations) + bool(solution.path)
-        words = scene.words_of("history")[:2]
-        if not count:
-            words.append("no iterations to draw: the case was decided without a cone program")
-        above = add_words(page, words, scene.mark_of("history"))
-        frames = _diagrams(page, above, max(count, 1))
+    count = 2 * bool(solution.iterations) + bool(solution.path)
+    words = scene.words_of("history")[:2]
+    words += ["no iterations to draw: the case was decided without a cone program"] * (not count)
+    with open_diagrams(path, options, words, scene.mark_of("history")) as sheet:
+        frames = sheet.frames(max(count, 1), columns=1)[:, 0]
         if solution.iterations:
-            _draw_iterations(page, frames[0], frames[1], scene)
+            _draw_iterations(sheet.page, frames[0], frames[1], scene)
         if solution.path:
-            _draw_path(page, frames[-1], scene)
+            _draw_path(sheet.page, frames[-1], scene)
         if not count:
             frames[0].set_axis_off()
 
 
-def _diagrams(page: Page, above: float, count: int) -> list[Any]:
-    """Axes one above the other between words and the lower edge, the first at the top."""
-    height = (1 - above - BOTTOM - 0.02 - BETWEEN * (count - 1)) / count
-    frames = []
-    for row in range(count):
-        bottom = BOTTOM + (count - 1 - row) * (height + BETWEEN)
-        axes = page.figure.add_axes((LEFT, bottom, RIGHT - LEFT, height))
-        axes.tick_params(labelsize=0.85 * page.letter, colors=INK)
-        axes.grid(visible=True, color="#DDDDDD", linewidth=0.6)
-        axes.spines[["top", "right"]].set_visible(False)
-        frames.append(axes)
-    return frames
-
-
 def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> None:
     """Load factor above, residuals below, over the iterations of all programs in their order."""
+    dress(page, factors, "", "load factor")
+    dress(page, residuals, "iteration", "relative residual")
     records = scene.case.solution.iterations
     place = np.arange(1, len(records) + 1)
     style = {"linewidth": 1.6 * page.scale, "markersize": 4 * page.scale}
@@ -96,18 +64,16 @@ def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> 
             label = name if number_of == program[0] else None
             shown = np.where(np.isfinite(row) & (row > 0), row, np.nan)  # nothing has no logarithm
             residuals.plot(place[own], shown, line, color=colour, marker=marker, label=label, **style)
-    _label(page, factors, "", "load factor")
     mechanics = scene.mechanics
     _keep_to_the_middle(factors, values, np.nan if mechanics is None else mechanics.load_factor)
     residuals.set_yscale("log")
-    _label(page, residuals, "iteration", "relative residual")
-    residuals.legend(fontsize=0.85 * page.letter, framealpha=0.9, loc="upper right", ncols=3)
+    residuals.legend(fontsize=page.small, framealpha=0.9, loc="upper right", ncols=3)
     _name_programs(page, (factors, residuals), scene, program)
     if mechanics is not None:
         colour = INK if scene.is_result else WARNING
         label = f"{'load factor' if scene.is_result else 'not a result:'} {number(mechanics.load_factor)}"
         factors.axhline(mechanics.load_factor, color=colour, linewidth=page.scale, linestyle="--", label=label)
-        factors.legend(fontsize=0.85 * page.letter, frameon=False, loc="best", labelcolor=colour)
+        factors.legend(fontsize=page.small, frameon=False, loc="best", labelcolor=colour)
 
 
 def _of_finite(values: list[float]) -> FloatArray:
@@ -158,60 +124,50 @@ def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
     path = scene.case.solution.path
     steps = [point.step for point in path]
     style = {"linewidth": 1.8 * page.scale, "markersize": 5 * page.scale}
+    dress(page, axes, "step of the load path", "load factor")
     axes.plot(steps, [point.load_factor for point in path], color=BLUE, marker="o", label="load factor", **style)
-    _label(page, axes, "step of the load path", "load factor")
     count = axes.twinx()
     count.plot(steps, [point.open for point in path], color=PURPLE, linestyle="--", label="open", **style)
     count.plot(steps, [point.slide for point in path], color=ORANGE, linestyle=":", label="sliding", **style)
     count.spines["top"].set_visible(False)
-    count.tick_params(labelsize=0.85 * page.letter, colors=INK)
-    count.set_ylabel("contact points", fontsize=0.9 * page.letter, color=INK)
+    count.tick_params(labelsize=page.small, colors=INK)
+    count.set_ylabel("contact points", fontsize=page.small, color=INK)
     handles = [*axes.get_lines(), *count.get_lines()]
-    axes.legend(handles=handles, fontsize=0.85 * page.letter, frameon=False, loc="lower right")
-
-
-def _label(page: Page, axes: Any, across: str, up: str) -> None:
-    axes.set_xlabel(across, fontsize=0.9 * page.letter, color=INK)
-    axes.set_ylabel(up, fontsize=0.9 * page.letter, color=INK)
+    axes.legend(handles=handles, fontsize=page.small, frameon=False, loc="lower right")
 
 
 def draw_series(path: Path, scene: Scene, series: Series, options: PictureOptions) -> None:
-    """Write the load factor of a travelling load over its position; raises as ``draw_history`` does.
+    """Write the load factor of a travelling load over its position; raises as ``open_diagrams`` does.
 
     Positions without a result are crosses at the foot, those that no load brings down arrows at the top.
     """
-    unit = scene.model.units.length
     place = np.array([position_of(case).distance for case in series.cases])
     values = np.array([factor_of(case) for case in series.cases])
     sure = np.array([case.status is Status.SOLVED for case in series.cases])
-    with open_page(path, options) as page:
-        words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
-        if series.worst is not None:
-            at, worst = position_of(series.worst), factor_of(series.worst)
-            words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
-        missing = int(np.isnan(values).sum())
-        mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
-        axes = _diagrams(page, add_words(page, words, mark), 1)[0]
+    words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
+    if series.worst is not None:
+        at, worst = position_of(series.worst), factor_of(series.worst)
+        words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
+    missing = int(np.isnan(values).sum())
+    mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
+    with open_diagrams(path, options, words, mark) as sheet:
+        page, axes = sheet.page, sheet.frames(1)[0, 0]
+        what = "position" if len(position_of(series.cases[0]).points) == 1 else "first axle"
+        dress(page, axes, f"{what} along the path [{scene.model.units.length}]", "load factor")
         _draw_positions(page, axes, place, values, sure)
         if series.worst is not None:
             axes.plot(at.distance, worst, "D", color=VERMILION, markersize=11 * page.scale, label="worst", zorder=5)
-        what = "position" if len(position_of(series.cases[0]).points) == 1 else "first axle"
-        _label(page, axes, f"{what} along the path [{unit}]", "load factor")
-        axes.legend(fontsize=0.85 * page.letter, frameon=False)
+        axes.legend(fontsize=page.small, frameon=False)
 
 
 def _draw_positions(page: Page, axes: Any, place: FloatArray, values: FloatArray, sure: Any) -> None:
     known = np.isfinite(values)
     size = 7 * page.scale
     axes.plot(place, np.where(known, values, np.nan), color=BLUE, linewidth=1.8 * page.scale)
-    marks = (
-        (known & sure, "o", BLUE, BLUE, "load factor"),
-        (known & ~sure, "o", "white", BLUE, "approximate"),
-    )
-    for chosen, marker, face, edge, name in marks:
+    for chosen, face, name in ((known & sure, BLUE, "load factor"), (known & ~sure, "white", "approximate")):
         if chosen.any():
-            look = {"markerfacecolor": face, "markeredgecolor": edge, "linestyle": "none", "markersize": size}
-            axes.plot(place[chosen], values[chosen], marker=marker, label=name, **look)
+            look = {"markerfacecolor": face, "markeredgecolor": BLUE, "linestyle": "none", "markersize": size}
+            axes.plot(place[chosen], values[chosen], marker="o", label=name, **look)
     if known.any():
         axes.set_ylim(bottom=min(0.0, 1.1 * float(values[known].min())))
     for chosen, level, marker, name in (

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -66,41 +67,46 @@ class PictureOptions:
         return round(width * self.dpi / DOTS_PER_INCH), round(height * self.dpi / DOTS_PER_INCH)
 
 
+def page_options(arguments: Any) -> PictureOptions:
+    """Size, dots per inch and format from the command line; UsageError for what is none."""
+    if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
+        raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
+    return PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
+
+
 def picture_options(arguments: Any) -> PictureOptions:
-    """The options of the command line, texts or None by their names; UsageError for what is none of them.
+    """All of them, texts or None by their names; UsageError for what is none of them.
 
     A single file without a kind is that of the mechanism.
     """
-    texts = vars(arguments)
-    output = texts.get("output")
-    single = output is not None and output.suffix and not output.is_dir()
-    dpi = texts["dpi"]
-    if not LEAST_DPI <= dpi <= MOST_DPI:
-        raise UsageError("picture-option", f"--dpi {dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
-    return PictureOptions(
-        kinds=parse_kinds(texts["kind"]) if texts["kind"] else ("mechanism",) if single else USUAL_KINDS,
-        animate=texts["animate"],
-        case=texts["case"],
-        view=parse_view(texts["view"]),
-        scale=parse_scale(texts["scale"]),
-        zoom=texts["zoom"] == "auto",
-        size=parse_size(texts["size"]),
-        dpi=dpi,
-        format=texts["format"],
+    output = vars(arguments).get("output")
+    usual = ("mechanism",) if output is not None and is_single(output) else USUAL_KINDS
+    return replace(
+        page_options(arguments),
+        kinds=parse_kinds(arguments.kind) if arguments.kind else usual,
+        animate=arguments.animate,
+        case=arguments.case,
+        view=parse_view(arguments.view),
+        scale=parse_scale(arguments.scale),
+        zoom=arguments.zoom == "auto",
     )
 
 
-def parse_kinds(text: str) -> tuple[str, ...]:
-    """``model,forces`` or ``all``, in the order of ``KINDS``; UsageError for others."""
+def is_single(target: Path) -> bool:
+    """Whether a path names one picture rather than a folder for them."""
+    return bool(target.suffix) and not target.is_dir()
+
+
+def parse_kinds(text: str, known: Sequence[str] = KINDS) -> tuple[str, ...]:
+    """``model,forces`` or ``all``, in the order of the known ones; UsageError for others."""
     asked = [part.strip() for part in text.split(",") if part.strip()]
     if asked == ["all"]:
-        return KINDS
-    unknown = [part for part in asked if part not in KINDS]
-    if unknown or not asked:
+        return tuple(known)
+    if not asked or set(asked) - set(known):
         raise UsageError(
-            "picture-option", f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them"
+            "picture-option", f"--kind {text}: there are {', '.join(known)}, or all; several with commas between them"
         )
-    return tuple(kind for kind in KINDS if kind in asked)
+    return tuple(kind for kind in known if kind in asked)
 
 
 def parse_view(text: str) -> tuple[float, float] | None:

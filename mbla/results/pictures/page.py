@@ -10,16 +10,16 @@ from __future__ import annotations
 import logging
 import textwrap
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
+from mbla.results.disk import writing_whole
+from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of, is_single
 
 ORANGE, SKY, GREEN = "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILION, PURPLE, BLACK = "#0072B2", "#D55E00", "#CC79A7", "#000000"
@@ -81,6 +81,8 @@ COLUMNS = 120
 LETTER = 14.0
 """points of letters on a page of the usual width"""
 USUAL_WIDTH = 1600
+LEAST_LETTER, SMALL = 8.0, 0.85
+"""points of the smallest letters, and size of those at axes against those of the words"""
 METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": "mbla"},
     "svg": {"Date": None},
@@ -92,42 +94,16 @@ EDGE = 0.015
 
 
 def matplotlib_parts() -> Any:
-    """What is used of matplotlib, by name; UsageError where the extra is not installed."""
-    quiet_matplotlib()
+    """The library matplotlib with its figures; UsageError where the extra is not installed."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # remarks on its cache folder are not for users
     try:
-        from matplotlib import colormaps, rc_context
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.cm import ScalarMappable
-        from matplotlib.collections import LineCollection, PolyCollection
-        from matplotlib.colors import ListedColormap, Normalize
-        from matplotlib.figure import Figure
-        from matplotlib.lines import Line2D
-        from matplotlib.patches import Patch, Rectangle
-        from matplotlib.ticker import MaxNLocator
+        import matplotlib.backends.backend_agg
+        import matplotlib.figure
     except ImportError as error:
         raise UsageError(
             "extra-missing", "pictures need an extra that is not installed: pip install 'mbla[pictures]'"
         ) from error
-    return SimpleNamespace(
-        colormaps=colormaps,
-        rc_context=rc_context,
-        FigureCanvasAgg=FigureCanvasAgg,
-        ScalarMappable=ScalarMappable,
-        ListedColormap=ListedColormap,
-        Normalize=Normalize,
-        LineCollection=LineCollection,
-        PolyCollection=PolyCollection,
-        Figure=Figure,
-        Line2D=Line2D,
-        Patch=Patch,
-        MaxNLocator=MaxNLocator,
-        Rectangle=Rectangle,
-    )
-
-
-def quiet_matplotlib() -> None:
-    """Remarks on its cache folder do not belong on a user's screen."""
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    return matplotlib
 
 
 @dataclass(frozen=True)
@@ -146,6 +122,19 @@ class Page:
     def letter(self) -> float:
         """Size of letters, points."""
         return LETTER * self.scale
+
+    @property
+    def small(self) -> float:
+        """Size of letters at axes and in legends, points."""
+        return max(LEAST_LETTER, SMALL * self.letter)
+
+    def line(self, label: str, **style: Any) -> Any:
+        """An entry of a legend: a line or marker."""
+        return self.parts.lines.Line2D([], [], label=label, **style)
+
+    def box(self, label: str, **style: Any) -> Any:
+        """An entry of a legend: a filled box."""
+        return self.parts.patches.Patch(label=label, **style)
 
     def height_of(self, artist: Any) -> float:
         """Height of words or a legend, share of the page."""
@@ -189,9 +178,9 @@ def open_frames(options: PictureOptions) -> Iterator[Page]:
     with parts.rc_context(style), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph")  # of a script that the font does not have: a box is drawn
         width, height = options.size
-        figure = parts.Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=options.dpi)
-        parts.FigureCanvasAgg(figure)
-        yield Page(parts, figure, options, min(max(width / USUAL_WIDTH, 0.55), 2.0))
+        figure = parts.figure.Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=options.dpi)
+        parts.backends.backend_agg.FigureCanvasAgg(figure)
+        yield Page(parts, figure, options, min(max(width / USUAL_WIDTH, LEAST_LETTER / LETTER), 2.0))
 
 
 def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:
@@ -211,7 +200,7 @@ def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:
         style["color"] = WARNING
         text = page.figure.text(EDGE, 1 - used - gap / 2, mark, fontsize=page.letter, weight="bold", **style)
         used += gap / 2 + page.height_of(text)
-        frame = page.parts.Rectangle((0, 0), 1, 1, fill=False, edgecolor=WARNING, linewidth=8 * page.scale)
+        frame = page.parts.patches.Rectangle((0, 0), 1, 1, fill=False, edgecolor=WARNING, linewidth=8 * page.scale)
         page.figure.add_artist(frame)
     return used + gap / 2
 
@@ -229,3 +218,41 @@ def add_legend(page: Page, handles: Sequence[Any]) -> float:
             break
         legend.remove()
     return page.height_of(legend)
+
+
+# --- Files ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One file to make: the end of its name after the stem, and what writes it."""
+
+    name: str
+    write: Callable[[Path], None]
+
+
+def write_pictures(pictures: Sequence[Picture], target: Path, stem: str, ending: str, choice: str) -> list[Path]:
+    """Pictures put in place each in one go; the paths written.
+
+    target : a file for a single picture; else a folder, created if missing, for ``STEM`` and their names
+    choice : options that choose one of them
+
+    Raises
+    ------
+    UsageError
+        Several pictures for one file.
+    FileError
+        A picture or the folder cannot be written.
+    """
+    paths = [target / f"{stem}{picture.name}.{ending}" for picture in pictures]
+    if is_single(target):
+        if len(pictures) > 1:
+            raise UsageError(
+                "several-pictures-one-file",
+                f"{target}: one file for {len(pictures)} pictures; name one with {choice}, or a folder",
+            )
+        paths = [target]
+    for picture, path in zip(pictures, paths, strict=True):
+        with writing_whole(path) as temporary:
+            picture.write(temporary)
+    return paths

@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from mbla.errors import UsageError
-from mbla.results.disk import writing_whole
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
-from mbla.results.pictures.options import KINDS, PictureOptions, format_of
+from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_single
+from mbla.results.pictures.page import Picture, write_pictures
 from mbla.results.pictures.plane.draw import draw_plane
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, no_such_case, series_of, told_cases
-
-
-@dataclass(frozen=True)
-class Picture:
-    """One file to make: the end of its name after the stem, and what writes it."""
-
-    name: str
-    write: Callable[[Path], None]
 
 
 def plot_results(results: Results, target: Path, stem: str, options: PictureOptions | None = None) -> list[Path]:
@@ -48,21 +40,9 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     options = options or PictureOptions()
     cases = _chosen_cases(results, options.case)
     pictures = _films(results, cases, options) if options.animate else pictures_of(results, cases, options)
-    ending = options.animate or options.format
-    if target.suffix and not target.is_dir():
+    if is_single(target):
         _check_name(target, options)
-        if len(pictures) > 1:
-            raise UsageError(
-                "several-pictures-one-file",
-                f"{target}: one file for {len(pictures)} pictures; name one with --case and --kind, or a folder",
-            )
-        paths = [target]
-    else:
-        paths = [target / f"{stem}{picture.name}.{ending}" for picture in pictures]
-    for picture, path in zip(pictures, paths, strict=True):
-        with writing_whole(path) as temporary:
-            picture.write(temporary)
-    return paths
+    return write_pictures(pictures, target, stem, options.animate or options.format, "--case and --kind")
 
 
 def _chosen_cases(results: Results, name: str | None) -> Sequence[CaseResult]:

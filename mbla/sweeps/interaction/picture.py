@@ -16,20 +16,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.listing.text import counted
+from mbla.results.pictures.diagrams import dress, hollow, open_diagrams
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import (
-    BLUE,
-    GHOST,
-    GREEN,
-    INK,
-    SKY,
-    VERMILION,
-    WARNING,
-    Page,
-    add_legend,
-    add_words,
-    open_page,
-)
+from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, SKY, VERMILION, WARNING, Page
 from mbla.sweeps.interaction.domain import Point, extremes
 from mbla.sweeps.interaction.question import DIRECTION
 from mbla.sweeps.interaction.words import ASSOCIATIVE, conclusions
@@ -50,21 +39,27 @@ def draw_study(path: Path, study: Study, options: PictureOptions | None = None) 
 
     Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
     """
-    with open_page(path, options or PictureOptions(size=SIZE)) as page:
-        left_out = sum(not point.answered for point in study.points)
-        mark = f"NOT VERIFIED at {counted(left_out, 'point')} of {len(study.points)}" if left_out else ""
-        if study.domain is not None and study.domain.crossings:
-            mark = "ERROR OF VERIFICATION: bounds contradict each other" + (f"; {mark}" if mark else "")
-        title = study.about.heading
-        above = add_words(page, [title, *study.question.words, *conclusions(study)[:2]], mark)
-        polar = study.question.kind == DIRECTION
-        edge = _edge(study)
+    left_out = sum(not point.answered for point in study.points)
+    mark = f"NOT VERIFIED at {counted(left_out, 'point')} of {len(study.points)}" if left_out else ""
+    if study.domain is not None and study.domain.crossings:
+        mark = "ERROR OF VERIFICATION: bounds contradict each other" + (f"; {mark}" if mark else "")
+    words = [study.about.heading, *study.question.words, *conclusions(study)[:2]]
+    edge = _edge(study)
+    with open_diagrams(path, options or PictureOptions(size=SIZE), words, mark) as sheet:
         if edge is None:
             return
-        axes = _polar_axes(page, above, edge) if polar else _plane_axes(page, above, study)
+        page, polar = sheet.page, study.question.kind == DIRECTION
+        layout = "compressed" if polar else "constrained"
+        axes = sheet.frames(1, layout=layout, subplot_kw={"projection": "polar" if polar else None})[0, 0]
+        dress(page, axes, *(() if polar else study.question.axes))
+        if polar:
+            axes.set_rlim(0.0, edge)
+            axes.set_thetagrids(range(0, 360, 30))
+            axes.set_rlabel_position(22.5)
+        else:
+            _limit(page, axes, study)
         handles = _draw_domain(page, axes, study, polar=polar)
-        handles += _draw_points(page, axes, study, edge, polar=polar)
-        add_legend(page, handles)
+        sheet.add_legend(handles + _draw_points(page, axes, study, edge, polar=polar))
 
 
 def _edge(study: Study) -> float | None:
@@ -78,34 +73,15 @@ def _edge(study: Study) -> float | None:
     return ROOM * max(map(abs, radii)) if any(radii) else (1.0 if study.points else None)
 
 
-def _polar_axes(page: Page, above: float, edge: float) -> Any:
-    axes = page.figure.add_axes((0.07, 0.08, 0.86, 0.87 - above), projection="polar")
-    axes.set_rlim(0.0, edge)
-    axes.set_thetagrids(range(0, 360, 30))
-    axes.set_rlabel_position(22.5)
-    axes.tick_params(labelsize=0.85 * page.letter, colors=INK)
-    axes.grid(visible=True, color="#DDDDDD", linewidth=0.7 * page.scale)
-    axes.set_axisbelow(True)
-    return axes
-
-
-def _plane_axes(page: Page, above: float, study: Study) -> Any:
-    axes = page.figure.add_axes((0.12, 0.12, 0.83, 0.85 - above))
-    places = [place for point in study.points for place in _places(point)]
-    reach = np.abs(np.array([*places, (0.0, 0.0)])).max(axis=0)
-    reach = np.where(reach > OFF_RAY * reach.max(initial=0.0), reach, max(reach.max(initial=0.0), 1e-300))
-    low = np.min([*places, (0.0, 0.0)], axis=0)
-    axes.set_xlim(-0.02 * ROOM * reach[0] if low[0] > -OFF_RAY * reach[0] else -ROOM * reach[0], ROOM * reach[0])
-    axes.set_ylim(-0.02 * ROOM * reach[1] if low[1] > -OFF_RAY * reach[1] else -ROOM * reach[1], ROOM * reach[1])
-    axes.tick_params(labelsize=0.85 * page.letter, colors=INK)
-    axes.grid(visible=True, color="#DDDDDD", linewidth=0.7 * page.scale)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
+def _limit(page: Page, axes: Any, study: Study) -> None:
+    """A plane that begins at the origin where no point lies beyond it."""
+    places = np.array([(0.0, 0.0), *(place for point in study.points for place in _places(point))])
+    reach = np.abs(places).max(axis=0)
+    reach = ROOM * np.where(reach > OFF_RAY * reach.max(), reach, max(reach.max(), 1e-300))
+    low = np.where(places.min(axis=0) > -OFF_RAY * reach, -0.02 * reach, -reach)
+    axes.set(xlim=(low[0], reach[0]), ylim=(low[1], reach[1]))
     axes.axhline(0.0, color=GHOST, linewidth=page.scale, zorder=1)
     axes.axvline(0.0, color=GHOST, linewidth=page.scale, zorder=1)
-    for words, setter in zip(study.question.axes, (axes.set_xlabel, axes.set_ylabel), strict=True):
-        setter(words, fontsize=0.9 * page.letter, color=INK, parse_math=False)
-    return axes
 
 
 def _places(point: Point) -> list[tuple[float, float]]:
@@ -128,12 +104,12 @@ def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[An
     if len(domain.inner) > 2 and not domain.crossings:  # nothing is called safe on bounds that contradict each other
         x, y = _onto(domain.inner, polar=polar)
         axes.fill(x, y, facecolor=SKY, alpha=0.35, edgecolor="none", zorder=2)
-        handles.append(page.parts.Patch(facecolor=SKY, alpha=0.35, label="safe by static bounds (associative flow)"))
+        handles.append(page.box("safe by static bounds (associative flow)", facecolor=SKY, alpha=0.35))
     if len(domain.outer) > 2:
         x, y = _onto([*domain.outer, domain.outer[0]], polar=polar)
         style = {"color": BLUE, "linewidth": 1.4 * page.scale, "linestyle": "--"}
         axes.plot(x, y, zorder=3, **style)
-        handles.append(page.parts.Line2D([], [], label="bound by mechanisms (associative flow)", **style))
+        handles.append(page.line("bound by mechanisms (associative flow)", **style))
     return handles
 
 
@@ -152,7 +128,7 @@ def _draw_points(page: Page, axes: Any, study: Study, edge: float, *, polar: boo
         dots = {"marker": "o", "markersize": size, "color": colour, "linestyle": "none"}
         axes.plot(*_onto([point.at(point.load_factor) for point in known], polar=polar), zorder=5, **dots)
         name = f"load factor, {study.about.flow_rule.replace('_', '-')} flow"
-        handles.append(page.parts.Line2D([], [], marker="o", markersize=size, label=name, **curve))
+        handles.append(page.line(name, marker="o", markersize=size, **curve))
     handles += _draw_least(page, axes, study, polar=polar)
     doubtful = [point for point in points if not point.answered]
     free = [point for point in points if point.unbounded]
@@ -163,12 +139,11 @@ def _draw_points(page: Page, axes: Any, study: Study, edge: float, *, polar: boo
         (fallen, "s", WARNING, "no load factor: dead load alone (at the origin)"),
     ):
         if chosen:
-            look = {"marker": marker, "markersize": 1.8 * size, "color": tint, "linestyle": "none"}
-            look |= {"markerfacecolor": "none", "markeredgewidth": 1.8 * page.scale}
+            look = hollow(page, marker, tint, 1.8 * size / page.scale, 1.8)
             radius = {"x": None, "^": edge, "s": 0.0}[marker]
             places = [rim_place(axes, point, edge, radius, polar=polar) for point in chosen]
             axes.plot(*_onto(places, polar=polar), zorder=7, clip_on=False, **look)
-            handles.append(page.parts.Line2D([], [], label=words, **look))
+            handles.append(page.line(words, **look))
     return handles
 
 
@@ -192,10 +167,9 @@ def _draw_least(page: Page, axes: Any, study: Study, *, polar: bool) -> list[Any
     chosen = [point for point in study.points if point.has_factor and point.angle in ends[0].angles]
     if len(chosen) == sum(point.has_factor for point in study.points):
         return []
-    look = {"marker": "o", "markersize": 14 * page.scale, "color": VERMILION, "linestyle": "none"}
-    look |= {"markerfacecolor": "none", "markeredgewidth": 2.0 * page.scale}
+    look = hollow(page, "o", VERMILION, 14.0, 2.0)
     axes.plot(*_onto([point.at(point.load_factor) for point in chosen], polar=polar), zorder=6, **look)
-    return [page.parts.Line2D([], [], label=f"least, {ends[0].load_factor:.6g}", **look)]
+    return [page.line(f"least, {ends[0].load_factor:.6g}", **look)]
 
 
 def joined_runs(points: Sequence[Point], *, closed: bool) -> list[list[Point]]:

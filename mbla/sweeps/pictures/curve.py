@@ -7,26 +7,23 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.results.listing.text import counted
+from mbla.results.pictures.diagrams import Diagrams, dress
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.answers import Answer, answers_of
 from mbla.sweeps.pictures.sheet import (
-    MOST_PANELS,
-    Sheet,
-    dress,
-    mark_handles,
+    add_scale,
+    drawn_values,
+    line_handles,
+    line_style,
     open_sheet,
-    panel_places,
-    panel_title,
     place_marks,
     scale_axis,
 )
-from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, View, pooled
+from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, Grid, View, gridded, pooled, several
 
-MOST_NAMED = 10
-"""lines that a legend names; more have a scale of colours beside them"""
-MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
+MOST_MARKED = 60
+"""points of a line with markers of their own"""
 
 
 def refusal(view: View) -> str:
@@ -41,100 +38,47 @@ def usual(view: View) -> bool:
     return not refusal(view)
 
 
-def curve_axes(view: View) -> tuple[Axis, Axis | None, Axis | None]:
-    """Axes of the abscissa, of the lines and of the diagrams; further parameters are taken together."""
-    first, *rest = view.axes
-    panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None
-    return first, rest[0] if rest else None, panels
-
-
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
-    x, lines, panels = curve_axes(view)
-    chosen = [axis for axis in (panels, lines, x) if axis is not None]
-    cells = _with_three(pooled(view.answers, chosen))
-    bounds = _bounds(view, chosen)
-    notes = _notes(view, chosen, cells, bounds)
-    what = f"{view.answers.label} over {x.label}" + (f", a line for each {lines.label}" if lines else "")
-    named = lines is not None and len(lines.levels) <= MOST_NAMED
-
-    def handles(page: Any) -> list[Any]:
-        sheet = Sheet(page, 0, 1)
-        of_lines = [
-            page.parts.Line2D([], [], label=f"{lines.column.name} {name}", **line_style(sheet, i, len(lines.levels)))
-            for i, name in enumerate(lines.names if lines and named else ())
-            if lines is not None
-        ]
-        return of_lines + mark_handles(page, cells.answer)
-
-    with open_sheet(path, view, what, options, handles, notes) as sheet:
-        _draw_panels(sheet, view, (x, lines, panels), cells, bounds)
-
-
-def _draw_panels(
-    sheet: Sheet, view: View, axes_of: tuple[Axis, Axis | None, Axis | None], cells: Cells, bounds: Any
-) -> None:
-    x, lines, panels = axes_of
-    rows, columns = panel_places(len(cells.value), sheet)
-    frames = sheet.panels(rows, columns, sharex=True, sharey=True)
-    for number, axes in enumerate(frames.flat):
-        if number >= len(cells.value):
-            axes.set_axis_off()
-            continue
-        dress(sheet, axes, x.label, view.answers.label, panel_title(panels, number))
-        for line in range(cells.value.shape[1]):
-            own = cells.part(number, line)
-            band = (bounds[0][number, line], bounds[1][number, line]) if bounds else None
-            draw_line(sheet, axes, view, x, own, line_style(sheet, line, cells.value.shape[1]), band)
-        if view.answers.is_factor and (cells.answer == Answer.NO_EQUILIBRIUM).any():
-            axes.axhline(0.0, color="#555555", linewidth=0.8 * sheet.page.scale, zorder=1)
-        scale_axis(sheet, axes, x, share=1 / columns)
-        if not np.isfinite(cells.value).any():
-            axes.set_yticks([])
-    for axes in frames.flat:
-        axes.label_outer()
-    if lines is not None and len(lines.levels) > MOST_NAMED:
-        add_scale(sheet, frames, lines)
+    grid = gridded(view.answers, *view.axes)
+    proved = _bounds(view, grid)
+    bands = proved if proved is not None else grid.cells if several(grid.cells) else None
+    what = f"{view.answers.label} over {grid.x.label}" + (f", a line for each {grid.lines.label}" if grid.lines else "")
+    notes = _notes(view, grid, proved=proved is not None)
+    with open_sheet(path, view, what, options, lambda page: line_handles(page, grid), notes) as sheet:
+        panels, lines, _ = grid.cells.shape
+        frames = sheet.frames(panels, sharex=True, sharey=True)
+        for panel, axes in enumerate(frames.flat[:panels]):
+            dress(sheet.page, axes, grid.x.label, view.answers.label, grid.title(panel))
+            for line in range(lines):
+                band = None if bands is None else bands[panel, line]
+                _draw_line(
+                    sheet, axes, view, grid.x, grid.cells[panel, line], line_style(sheet.page, line, lines), band
+                )
+            if view.answers.is_factor and (grid.cells.answer == Answer.NO_EQUILIBRIUM).any():
+                axes.axhline(0.0, color="#555555", linewidth=0.8 * sheet.page.scale, zorder=1)
+            scale_axis(sheet, axes, grid.x, share=1 / frames.shape[1])
+            if not np.isfinite(grid.cells.value).any():
+                axes.set_yticks([])
+        for axes in frames.flat:
+            axes.label_outer()
+        add_scale(sheet, frames, grid.lines)
 
 
-def draw_line(
-    sheet: Sheet, axes: Any, view: View, x: Axis, cells: Cells, style: dict[str, Any], band: Any = None
+def _draw_line(
+    sheet: Diagrams, axes: Any, view: View, x: Axis, cells: Cells, style: dict[str, Any], band: Cells | None
 ) -> None:
     """One line over an axis: broken where a point has no value, its markers where points have none."""
-    good = np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))
-    value = np.where(good, cells.value, np.nan)
-    low, high = band if band is not None else (cells.low, cells.high)
-    if band is not None or cells.several:
-        shown = good & np.isfinite(low) & np.isfinite(high)
-        axes.fill_between(x.coordinates, np.where(shown, low, np.nan), np.where(shown, high, np.nan), alpha=0.2,
-                          color=style["color"], linewidth=0.0, zorder=1)  # fmt: skip
-    line = style | ({"linestyle": "none"} if x.categorical else {})
-    if len(value) > 60:
-        line["marker"] = "none" if _joined(good) and not x.categorical else "."
-    axes.plot(x.coordinates, value, zorder=3, **line)
+    value = drawn_values(cells)
+    if band is not None:
+        shown = np.isfinite(value) & np.isfinite(band.low) & np.isfinite(band.high)
+        low, high = np.where(shown, band.low, np.nan), np.where(shown, band.high, np.nan)
+        axes.fill_between(x.coordinates, low, high, alpha=0.2, color=style["color"], linewidth=0.0, zorder=1)
+    style = style | ({"linestyle": "none"} if x.categorical else {})
+    if len(value) > MOST_MARKED:
+        style["marker"] = "none" if _joined(np.isfinite(value)) and not x.categorical else "."
+    axes.plot(x.coordinates, value, zorder=3, **style)
     place_marks(sheet, axes, x.coordinates, cells.answer, cells.value, view.answers)
-
-
-def line_style(sheet: Sheet, number: int, count: int) -> dict[str, Any]:
-    """Colour and marker of a line among ``count``."""
-    share = number / max(count - 1, 1)
-    marker = MARKERS[number] if count <= MOST_NAMED else "."
-    scale = sheet.page.scale
-    return {"color": sheet.colour(share), "marker": marker, "linewidth": 1.6 * scale, "markersize": 5.5 * scale}
-
-
-def add_scale(sheet: Sheet, frames: Any, lines: Axis) -> None:
-    """A bar of the colours of lines, a step for each, beside the diagrams."""
-    count = len(lines.levels)
-    parts = sheet.page.parts
-    colours = parts.ListedColormap([sheet.colour(i / max(count - 1, 1)) for i in range(count)])
-    mappable = parts.ScalarMappable(parts.Normalize(-0.5, count - 0.5), colours)
-    bar = sheet.figure.colorbar(mappable, ax=frames, fraction=0.04, pad=0.01, aspect=40)
-    step = -(-count // 16)
-    bar.set_ticks(np.arange(0, count, step), labels=lines.names[::step], fontsize=sheet.small)
-    bar.set_label(lines.label, fontsize=sheet.small)
-    for text in (*bar.ax.get_yticklabels(), bar.ax.yaxis.label):
-        text.set_parse_math(False)
 
 
 def _joined(good: Any) -> bool:
@@ -145,37 +89,31 @@ def _joined(good: Any) -> bool:
     return bool(np.all(beside[good]))
 
 
-def _with_three(cells: Cells) -> Cells:
-    """With axes of one value before those that there are: panels, lines, abscissa."""
-    return cells.shaped((1,) * (3 - cells.value.ndim) + cells.value.shape)
-
-
-def _bounds(view: View, chosen: list[Axis]) -> tuple[FloatArray, FloatArray] | None:
+def _bounds(view: View, grid: Grid) -> Cells | None:
     """Static and kinematic bound of a load factor where the table has both and each cell one point."""
-    if view.answers.column.path != "load_factor":
-        return None
     found = {column.path: column for column in view.table.of_role("result") if column.case == view.answers.column.case}
-    if not {"static_bound", "kinematic_bound"} <= set(found):
+    if view.answers.column.path != "load_factor" or not {"static_bound", "kinematic_bound"} <= set(found):
         return None
-    cells = [pooled(answers_of(view.table, found[name]), chosen) for name in ("static_bound", "kinematic_bound")]
-    if cells[0].several:
-        return None
-    low, high = (_with_three(each).value for each in cells)
-    return low, high
+    low, high = (
+        grid.shaped(pooled(answers_of(view.table, found[name]), grid.axes))
+        for name in ("static_bound", "kinematic_bound")
+    )
+    low["high"] = high.value
+    return None if several(low) else low
 
 
-def _notes(view: View, chosen: list[Axis], cells: Cells, bounds: Any) -> list[str]:
+def _notes(view: View, grid: Grid, *, proved: bool) -> list[str]:
     notes = []
-    if cells.several:
-        shown = {axis.column.dimension for axis in chosen}
+    if several(grid.cells):
+        shown = {axis.column.dimension for axis in grid.axes}
         others = [dimension.name for dimension in view.table.dimensions if dimension.name not in shown]
         notes.append(
-            f"line: median of up to {cells.count.max()} points of {', '.join(others) or 'equal values'}; "
+            f"line: median of up to {grid.cells.count.max()} points of {', '.join(others) or 'equal values'}; "
             "band: least to greatest"
         )
-    if bounds:
+    if proved:
         notes.append("band: static to kinematic bound")
-    if (cells.answer == NO_POINT).any():
-        empty = int((cells.answer == NO_POINT).sum())
+    empty = int((grid.cells.answer == NO_POINT).sum())
+    if empty:
         notes.append(f"{counted(empty, 'combination')} {'has' if empty == 1 else 'have'} no point")
     return notes

@@ -16,10 +16,11 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.results.pictures.diagrams import Diagrams, dress, tint
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import VERMILION
+from mbla.results.pictures.page import VERMILION, Page
 from mbla.sweeps.answers import Answers
-from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
+from mbla.sweeps.pictures.sheet import open_sheet
 from mbla.sweeps.pictures.view import View, axis_of, column_by_name, grid_axes, is_sampled
 
 CONFIDENCE = 0.95
@@ -84,25 +85,24 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     sampled = bool(view.table.samples)
     curves = [(name, cumulative(view.answers, own, sampled), own) for name, own in groups]
 
-    def handles(page: Any) -> list[Any]:
-        sheet = Sheet(page, 0, 1)
+    def handles(page: Page) -> list[Any]:
         lines = [
-            page.parts.Line2D([], [], label=name, linewidth=2 * page.scale, **_style(sheet, i, len(curves)))
+            page.line(name, linewidth=2 * page.scale, **_style(page, i, len(curves)))
             for i, (name, _, _) in enumerate(curves)
             if name
         ]
-        marked = [page.parts.Line2D([], [], color=VERMILION, linestyle="--", label="demand")] if view.demands else []
-        return lines + marked
+        return lines + [page.line("demand", color=VERMILION, linestyle="--")] * bool(view.demands)
 
     notes = _notes(view, [curve for _, curve, _ in curves])
     with open_sheet(path, view, f"distribution of {view.answers.label}", options, handles, notes) as sheet:
-        frames = sheet.panels(2, 1, sharex=True, height_ratios=(2, 3))
-        upper, lower = frames[:, 0]
-        dress(sheet, upper, "", "points")
-        dress(sheet, lower, view.answers.label, "probability of a lower value" if sampled else "share of the points")
+        upper, lower = sheet.frames(2, columns=1, sharex=True, height_ratios=(2, 3))[:, 0]
+        dress(sheet.page, upper, "", "points")
+        dress(
+            sheet.page, lower, view.answers.label, "probability of a lower value" if sampled else "share of the points"
+        )
         _draw_histogram(sheet, upper, view, [own for _, _, own in curves])
         for i, (_, curve, _) in enumerate(curves):
-            _draw_curve(sheet, lower, curve, _style(sheet, i, len(curves)), len(curves))
+            _draw_curve(sheet, lower, curve, _style(sheet.page, i, len(curves)), len(curves))
         lower.set_ylim(-0.02, 1.02)
         _draw_demands(sheet, (upper, lower), view)
 
@@ -125,29 +125,25 @@ def _groups(view: View) -> list[tuple[str, BoolArray]]:
     return [(name, own) for name, own in groups if own.any()]
 
 
-def _style(sheet: Sheet, number: int, count: int) -> dict[str, Any]:
-    return {
-        "color": sheet.colour(number / max(count - 1, 1) if count > 1 else 0.3),
-        "linestyle": ("-", "--", "-.", ":")[number % 4],
-    }
+def _style(page: Page, number: int, count: int) -> dict[str, Any]:
+    colour = tint(page, number, count) if count > 1 else tint(page, 3, 11)
+    return {"color": colour, "linestyle": ("-", "--", "-.", ":")[number % 4]}
 
 
-def _draw_histogram(sheet: Sheet, axes: Any, view: View, groups: Sequence[BoolArray]) -> None:
+def _draw_histogram(sheet: Diagrams, axes: Any, view: View, groups: Sequence[BoolArray]) -> None:
     values = view.answers.values
     known = values[view.answers.good]
     edges = np.histogram_bin_edges(known, bins="auto")
     if len(edges) - 1 > MOST_BINS:
         edges = np.histogram_bin_edges(known, bins=MOST_BINS)
     for i, own in enumerate(groups):
-        style = _style(sheet, i, len(groups))
+        style = _style(sheet.page, i, len(groups)) | {"histtype": "step", "linewidth": 1.6 * sheet.page.scale}
         if len(groups) == 1:
-            axes.hist(values[own & view.answers.good], bins=edges, color=style["color"], edgecolor="white")
-        else:
-            axes.hist(values[own & view.answers.good], bins=edges, histtype="step", linewidth=1.6 * sheet.page.scale,
-                      **style)  # fmt: skip
+            style = {"color": style["color"], "edgecolor": "white"}
+        axes.hist(values[own & view.answers.good], bins=edges, **style)
 
 
-def _draw_curve(sheet: Sheet, axes: Any, curve: Cumulative, style: dict[str, Any], count: int) -> None:
+def _draw_curve(sheet: Diagrams, axes: Any, curve: Cumulative, style: dict[str, Any], count: int) -> None:
     """Steps from what lies below every value to what lies not above the greatest."""
     if not len(curve.values):
         return
@@ -165,7 +161,7 @@ def _draw_curve(sheet: Sheet, axes: Any, curve: Cumulative, style: dict[str, Any
                       rasterized=dense, zorder=1, **style)  # fmt: skip
 
 
-def _draw_demands(sheet: Sheet, frames: Sequence[Any], view: View) -> None:
+def _draw_demands(sheet: Diagrams, frames: Sequence[Any], view: View) -> None:
     for demand in view.demands:
         for axes in frames:
             axes.axvline(demand, color=VERMILION, linestyle="--", linewidth=1.4 * sheet.page.scale, zorder=2)

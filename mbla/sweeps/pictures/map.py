@@ -8,21 +8,12 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.results.pictures.diagrams import SCALE, Diagrams, dress
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
-from mbla.results.pictures.page import GROUPS, INK
+from mbla.results.pictures.page import GROUPS, INK, Page
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.sheet import (
-    MARKS,
-    MOST_PANELS,
-    SCALE,
-    Sheet,
-    dress,
-    open_sheet,
-    panel_places,
-    panel_title,
-    scale_axis,
-)
-from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, View, pooled, value_words
+from mbla.sweeps.pictures.sheet import MARKS, drawn_values, open_sheet, scale_axis
+from mbla.sweeps.pictures.view import NO_POINT, Axis, Cells, View, gridded, value_words
 
 LEAST_CONTOURED = 5
 """values along each side from which contours tell more than the cells"""
@@ -47,42 +38,30 @@ def usual(view: View) -> bool:
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
-    x, y, *rest = view.axes
-    panels = rest[0] if rest and len(rest[0].levels) <= MOST_PANELS else None
-    chosen = [axis for axis in (panels, y, x) if axis is not None]
-    cells = pooled(view.answers, chosen)
-    notes = []
-    if cells.several and not view.answers.categories:
-        notes.append(f"cell: median of up to {cells.count.max()} points of the other parameters")
-    elif cells.several:
-        notes.append(f"cell: class of up to {cells.count.max()} points of the other parameters where it is the same")
-    count = len(panels.levels) if panels else 1
-    cells = cells.shaped((count, len(y.levels), len(x.levels)))
+    grid = gridded(view.answers, *view.axes)
+    x, y, cells = grid.x, grid.lines, grid.cells
+    assert y is not None  # as ``refusal`` says
+    notes = grid.median_words("cell")
+    if notes and view.answers.categories:
+        notes = [f"cell: class of up to {cells.count.max()} points of the other parameters where it is the same"]
 
-    def handles(page: Any) -> list[Any]:
+    def handles(page: Page) -> list[Any]:
         return _class_handles(page, view, cells) + hatch_handles(page, cells.answer)
 
     what = f"{view.answers.label} over {x.label} and {y.label}"
     with open_sheet(path, view, what, options, handles, notes) as sheet:
-        rows, columns = panel_places(count, sheet)
-        frames = sheet.panels(rows, columns, sharex=True, sharey=True)
-        limits = _limits(cells)
+        frames = sheet.frames(len(cells), sharex=True, sharey=True)
         image = None
-        for number, axes in enumerate(frames.flat):
-            if number >= count:
-                axes.set_axis_off()
-                continue
-            dress(sheet, axes, x.label, y.label, panel_title(panels, number))
-            image = _draw_cells(sheet, axes, view, (x, y), cells.part(number), limits, count) or image
-            scale_axis(sheet, axes, x, share=1 / columns)
-            scale_axis(sheet, axes, y, "y", share=1 / rows)
+        for number, axes in enumerate(frames.flat[: len(cells)]):
+            dress(sheet.page, axes, x.label, y.label, grid.title(number))
+            image = _draw_cells(sheet, axes, view, (x, y), cells[number], _limits(cells), len(cells)) or image
+            scale_axis(sheet, axes, x, share=1 / frames.shape[1])
+            scale_axis(sheet, axes, y, "y", share=1 / frames.shape[0])
             axes.grid(visible=False)
         for axes in frames.flat:
             axes.label_outer()
         if image is not None and not view.answers.categories:
-            bar = sheet.figure.colorbar(image, ax=frames, fraction=0.04, pad=0.01, aspect=40)
-            bar.ax.tick_params(labelsize=sheet.small)
-            bar.set_label(view.answers.label, fontsize=sheet.small, parse_math=False)
+            sheet.add_bar(image, frames, view.answers.label)
 
 
 def cell_edges(axis: Axis) -> FloatArray:
@@ -96,35 +75,32 @@ def cell_edges(axis: Axis) -> FloatArray:
 
 
 def _draw_cells(
-    sheet: Sheet, axes: Any, view: View, sides: tuple[Axis, Axis], cells: Cells, limits: Any, panels: int
+    sheet: Diagrams, axes: Any, view: View, sides: tuple[Axis, Axis], cells: Cells, limits: Any, panels: int
 ) -> Any:
     """Colours, hatches, contours or numbers of one diagram; the image, None where no cell has a value."""
     x, y = (cell_edges(side) for side in sides)
-    good = np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))
-    axes.set_xlim(x[0], x[-1])
-    axes.set_ylim(y[0], y[-1])
+    values = np.ma.masked_invalid(drawn_values(cells))
+    axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     classes = view.answers.categories
     image = None
-    if good.any():
-        scale = sheet.page.parts.ListedColormap(GROUPS) if classes else SCALE
+    if values.count():
+        scale = sheet.page.parts.colors.ListedColormap(GROUPS) if classes else SCALE
         low, high = (-0.5, MOST_CLASSES - 0.5) if classes else limits
-        many = good.size > 400
-        image = axes.pcolormesh(x, y, np.ma.masked_array(cells.value, ~good), cmap=scale, vmin=low, vmax=high,
-                                rasterized=many)  # fmt: skip
+        image = axes.pcolormesh(x, y, values, cmap=scale, vmin=low, vmax=high, rasterized=values.size > 400)
     _hatch(sheet, axes, x, y, cells)
     if classes:
         return image
     if _written(sheet, sides, panels):
         _write_values(sheet, axes, sides, cells, limits)
-    elif _contoured(sides) and good.any():
-        _contour(sheet, axes, sides, np.ma.masked_array(cells.value, ~good), panels)
+    elif values.count() and all(not side.categorical and len(side.levels) >= LEAST_CONTOURED for side in sides):
+        _contour(sheet, axes, sides, values, panels)
     return image
 
 
-def _written(sheet: Sheet, sides: tuple[Axis, Axis], panels: int) -> bool:
+def _written(sheet: Diagrams, sides: tuple[Axis, Axis], panels: int) -> bool:
     """Whether the cells are so large that their values can be written in them."""
     width, height = (side * 72 / DOTS_PER_INCH for side in sheet.page.options.size)
-    across = panel_places(panels, sheet)
+    across = sheet.places(panels)
     smallest = [np.diff(_even(axis)).min() / np.ptp(_even(axis)) for axis in sides]
     wide = 0.8 * width / across[1] * smallest[0] >= 4.0 * sheet.small
     return bool(wide and 0.85 * height * (sheet.top - sheet.bottom) / across[0] * smallest[1] >= 1.5 * sheet.small)
@@ -135,11 +111,7 @@ def _even(axis: Axis) -> FloatArray:
     return np.log(cell_edges(axis)) if axis.log else cell_edges(axis)
 
 
-def _contoured(sides: tuple[Axis, Axis]) -> bool:
-    return all(not side.categorical and len(side.levels) >= LEAST_CONTOURED for side in sides)
-
-
-def _contour(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], values: Any, panels: int) -> None:
+def _contour(sheet: Diagrams, axes: Any, sides: tuple[Axis, Axis], values: Any, panels: int) -> None:
     """Lines of equal value between the middles of cells that have one; none beside a cell without."""
     if np.ptp(values.compressed()) <= 0:
         return
@@ -149,7 +121,7 @@ def _contour(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], values: Any, pan
         text.set_bbox({"facecolor": "#222222", "edgecolor": "none", "pad": 1.0, "alpha": 0.6})
 
 
-def _write_values(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], cells: Cells, limits: Any) -> None:
+def _write_values(sheet: Diagrams, axes: Any, sides: tuple[Axis, Axis], cells: Cells, limits: Any) -> None:
     for row, column in zip(*np.nonzero(np.isfinite(cells.value) & (cells.answer != Answer.UNVERIFIED)), strict=True):
         value = cells.value[row, column]
         share = (value - limits[0]) / (limits[1] - limits[0]) if limits[1] > limits[0] else 0.0
@@ -157,7 +129,7 @@ def _write_values(sheet: Sheet, axes: Any, sides: tuple[Axis, Axis], cells: Cell
                   fontsize=sheet.small, color=INK if share > 0.55 else "white")  # fmt: skip
 
 
-def _hatch(sheet: Sheet, axes: Any, x: FloatArray, y: FloatArray, cells: Cells) -> None:
+def _hatch(sheet: Diagrams, axes: Any, x: FloatArray, y: FloatArray, cells: Cells) -> None:
     """Cells without a value, each kind with its own hatch; of several runs along a row one rectangle."""
     kinds = [(NO_POINT, NO_POINT_COLOUR, "", "")]
     kinds += [
@@ -173,33 +145,33 @@ def _hatch(sheet: Sheet, axes: Any, x: FloatArray, y: FloatArray, cells: Cells) 
                 corners.append([(left, low), (right, low), (right, high), (left, high)])
         if corners:
             axes.add_collection(
-                sheet.page.parts.PolyCollection(
+                sheet.page.parts.collections.PolyCollection(
                     corners, facecolor=face, edgecolor=edge or face, hatch=hatch or None, linewidth=0.0, zorder=2
                 )
             )
 
 
-def hatch_handles(page: Any, answers: IntArray) -> list[Any]:
-    """Handles of a legend for the answers among these that are no values, as cells have them."""
+def hatch_handles(page: Page, answers: IntArray) -> list[Any]:
+    """Entries of a legend for the answers among these that are no values, as cells have them."""
     handles = [
-        page.parts.Patch(facecolor="white", edgecolor=mark.colour, hatch=2 * mark.hatch, label=mark.words)
+        page.box(mark.words, facecolor="white", edgecolor=mark.colour, hatch=2 * mark.hatch)
         for answer, mark in MARKS.items()
         if (answers == answer).any()
     ]
     if (answers == NO_POINT).any():
-        handles.append(page.parts.Patch(facecolor=NO_POINT_COLOUR, edgecolor=INK, label=NO_POINT_WORDS, linewidth=0.5))
+        handles.append(page.box(NO_POINT_WORDS, facecolor=NO_POINT_COLOUR, edgecolor=INK, linewidth=0.5))
     return handles
 
 
-def _class_handles(page: Any, view: View, cells: Cells) -> list[Any]:
+def _class_handles(page: Page, view: View, cells: Cells) -> list[Any]:
     shown = cells.value[cells.answer == Answer.VALUE]
     return [
-        page.parts.Patch(facecolor=GROUPS[i], edgecolor=INK, linewidth=0.5, label=name)
+        page.box(name, facecolor=GROUPS[i], edgecolor=INK, linewidth=0.5)
         for i, name in enumerate(view.answers.categories)
         if (shown == i).any()
     ]
 
 
 def _limits(cells: Cells) -> tuple[float, float] | None:
-    values = cells.value[np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY))]
-    return (float(values.min()), float(values.max())) if len(values) else None
+    values = np.ma.masked_invalid(drawn_values(cells))
+    return (float(values.min()), float(values.max())) if values.count() else None

@@ -4,42 +4,38 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import file_errors, writing_whole
-from mbla.results.pictures.options import LEAST_DPI, MOST_DPI, PictureOptions, format_of, parse_size
+from mbla.results.disk import file_errors
+from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
+from mbla.results.pictures.page import Picture, write_pictures
 from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
 from mbla.sweeps.tables.read_table import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A kind of picture.
+class Kind(Protocol):
+    """A kind of picture, a module each."""
 
-    refusal : why a table does not fit it, in words; empty where it does
-    usual   : whether it is drawn of a table without being asked for
-    draw    : writes it; raises as ``mbla.results.pictures.page.open_page`` does
-    """
+    def refusal(self, view: View) -> str:
+        """Why a table does not fit it, in words; empty where it does."""
 
-    refusal: Callable[[View], str]
-    usual: Callable[[View], bool]
-    draw: Callable[[Path, View, PictureOptions], None]
+    def usual(self, view: View) -> bool:
+        """Whether it is drawn of a table without being asked for."""
+
+    def draw(self, path: Path, view: View, options: PictureOptions) -> None:
+        """Write it; raises as ``open_diagrams`` does."""
 
 
-KINDS = {
-    "curve": Kind(curve.refusal, curve.usual, curve.draw),
-    "map": Kind(map.refusal, map.usual, map.draw),
-    "polar": Kind(polar.refusal, polar.usual, polar.draw),
-    "scatter": Kind(scatter.refusal, scatter.usual, scatter.draw),
-    "distribution": Kind(distribution.refusal, distribution.usual, distribution.draw),
-    "tornado": Kind(tornado.refusal, tornado.usual, tornado.draw),
-}
+KINDS: dict[str, Kind] = {
+    "curve": curve, "map": map, "polar": polar, "scatter": scatter, "distribution": distribution, "tornado": tornado,
+}  # fmt: skip
 """by name, in the order in which they are made"""
 
 
@@ -84,19 +80,6 @@ class SweepPictures:
     page: PictureOptions = field(default_factory=PictureOptions)
 
 
-@dataclass(frozen=True)
-class Chosen:
-    """A picture to make."""
-
-    kind: str
-    view: View
-
-    @property
-    def name(self) -> str:
-        """``curve_load_factor``: what is no letter, number, full stop or hyphen becomes a low line."""
-        return f"{self.kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', self.view.answers.column.name)}"
-
-
 def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
     """Pictures of a sweep from its folder, sweep.csv or sweep.json, as the command line asks for them.
 
@@ -110,11 +93,9 @@ def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
 
 def sweep_picture_options(arguments: Any) -> SweepPictures:
     """Choices from the texts of the command line; UsageError for what is none."""
-    if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
-        raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
-    kinds, every = _parse_kinds(arguments.kind) if arguments.kind is not None else ((), False)
-    page = PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
-    return SweepPictures(kinds, every, arguments.result, arguments.by or "", page=page)
+    kinds = () if arguments.kind is None else parse_kinds(arguments.kind, tuple(KINDS))
+    every = arguments.kind is not None and arguments.kind.strip() == "all"
+    return SweepPictures(kinds, every, arguments.result, arguments.by or "", page=page_options(arguments))
 
 
 def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = None) -> list[Path]:
@@ -135,25 +116,13 @@ def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = N
     """
     chosen = chosen or SweepPictures()
     pictures = pictures_of(table, chosen)
-    if target.suffix and not target.is_dir():
+    if is_single(target):
         format_of(target)
         pictures = pictures if chosen.kinds else pictures[:1]
-        if len(pictures) > 1:
-            names = ", ".join(picture.name for picture in pictures)
-            raise UsageError(
-                "several-pictures-one-file",
-                f"{target}: one file for {len(pictures)} pictures ({names}); choose one, or name a folder",
-            )
-        paths = [target]
-    else:
-        paths = [target / f"sweep_{picture.name}.{chosen.page.format}" for picture in pictures]
-    for picture, path in zip(pictures, paths, strict=True):
-        with writing_whole(path) as temporary:
-            KINDS[picture.kind].draw(temporary, picture.view, chosen.page)
-    return paths
+    return write_pictures(pictures, target, "sweep_", chosen.page.format, "--kind and --result")
 
 
-def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
+def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Picture]:
     """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
     if not len(table):
         raise UsageError("nothing-to-draw", "the sweep has no points to draw")
@@ -162,21 +131,28 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
         for result in chosen_results(table, chosen.result)
     ]
     if chosen.kinds:
-        pictures = [Chosen(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
+        found = [(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
     else:
-        pictures = [Chosen(kind, view) for view in views for kind in KINDS if KINDS[kind].usual(view)]
+        found = [(kind, view) for view in views for kind in KINDS if KINDS[kind].usual(view)]
         if chosen.result is None:
-            pictures += _class_maps(table, chosen)
-    if not pictures:
+            found += _class_maps(table, chosen)
+    if not found:
         raise UsageError("nothing-to-draw", _nothing(views))
-    return pictures
+    return [
+        Picture(_name(kind, view), partial(KINDS[kind].draw, view=view, options=chosen.page)) for kind, view in found
+    ]
 
 
-def _class_maps(table: SweepTable, chosen: SweepPictures) -> list[Chosen]:
+def _name(kind: str, view: View) -> str:
+    """``curve_load_factor``: what is no letter, number, full stop or hyphen becomes a low line."""
+    return f"{kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', view.answers.column.name)}"
+
+
+def _class_maps(table: SweepTable, chosen: SweepPictures) -> list[tuple[str, View]]:
     """Maps of mechanism classes where any is known."""
     columns = [column for column in table.of_role("result") if column.path == CLASS]
     views = [view_of(table, column, chosen.by) for column in columns]
-    return [Chosen("map", view) for view in views if view.answers.good.any() and KINDS["map"].usual(view)]
+    return [("map", view) for view in views if view.answers.good.any() and KINDS["map"].usual(view)]
 
 
 def _fits(kind: str, view: View, every: bool) -> bool:
@@ -189,15 +165,3 @@ def _fits(kind: str, view: View, every: bool) -> bool:
 def _nothing(views: Sequence[View]) -> str:
     reasons = [f"{kind}: {KINDS[kind].refusal(views[0]) or 'only where --kind asks for it'}" for kind in KINDS]
     return f"no kind of picture suits {views[0].answers.column.name} ({'; '.join(reasons)})"
-
-
-def _parse_kinds(text: str) -> tuple[tuple[str, ...], bool]:
-    """Kinds in their own order, and whether all were asked for; UsageError for others."""
-    asked = [part.strip() for part in text.split(",") if part.strip()]
-    if asked == ["all"]:
-        return tuple(KINDS), True
-    if not asked or set(asked) - set(KINDS):
-        raise UsageError(
-            "picture-option", f"--kind {text}: there are {', '.join(KINDS)}, or all; several with commas between them"
-        )
-    return tuple(kind for kind in KINDS if kind in asked), False

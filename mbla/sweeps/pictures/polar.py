@@ -12,25 +12,17 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.results.pictures.diagrams import SCALE, Diagrams, dress, hollow
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import INK
 from mbla.sweeps.answers import Answer, numbers_of
-from mbla.sweeps.pictures.curve import MOST_NAMED, add_scale, line_style
 from mbla.sweeps.pictures.map import hatch_handles
-from mbla.sweeps.pictures.sheet import (
-    MARKS,
-    MOST_PANELS,
-    SCALE,
-    Sheet,
-    dress,
-    mark_handles,
-    open_sheet,
-    panel_places,
-    panel_title,
-)
-from mbla.sweeps.pictures.view import Axis, Cells, View, axis_of, is_sampled, over_sphere, pooled
+from mbla.sweeps.pictures.sheet import MARKS, add_scale, drawn_values, line_handles, line_style, open_sheet
+from mbla.sweeps.pictures.view import Axis, Cells, View, axis_of, gridded, is_sampled, over_sphere
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
+MOST_MARKED = 48
+"""points of a curve with markers of their own"""
 WIDEST_STEP = 1.5
 """gap over the full circle, in usual steps of the azimuth, across which a curve is still closed"""
 LEAST_ROOM = 1e-9
@@ -56,48 +48,29 @@ def usual(view: View) -> bool:
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
-    if sphere_directions(view) is not None:
+    column = _azimuth(view)
+    if column is None:
         _draw_sphere(path, view, options)
         return
-    column = _azimuth(view)
-    assert column is not None
-    turn = axis_of(view.table, column)
     rest = [axis for axis in view.axes if axis.column.dimension != column.dimension]
-    lines = rest[0] if rest else None
-    panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None
-    chosen = [axis for axis in (panels, lines, turn) if axis is not None]
-    cells = pooled(view.answers, chosen)
-    shape = (len(panels.levels) if panels else 1, len(lines.levels) if lines else 1, len(turn.levels))
-    cells = cells.shaped(shape)
-    notes = [f"line: median of up to {cells.count.max()} points of the other parameters"] * cells.several
-
-    def handles(page: Any) -> list[Any]:
-        sheet = Sheet(page, 0, 1)
-        named = lines.names if lines is not None and len(lines.levels) <= MOST_NAMED else []
-        of_lines = [
-            page.parts.Line2D([], [], label=f"{lines.column.name} {name}", **line_style(sheet, i, shape[1]))
-            for i, name in enumerate(named)
-            if lines is not None
-        ]
-        return of_lines + mark_handles(page, cells.answer)
-
-    what = f"{view.answers.label} over {turn.label}" + (f", a curve for each {lines.label}" if lines else "")
-    with open_sheet(path, view, what, options, handles, notes) as sheet:
-        rows, columns = panel_places(shape[0], sheet)
-        frames = sheet.panels(rows, columns, "compressed", subplot_kw={"projection": "polar"})
-        for number, axes in enumerate(frames.flat):
-            if number >= shape[0]:
-                axes.set_axis_off()
-                continue
-            _dress(sheet, axes, panel_title(panels, number), _radii(cells))
-            for line in range(shape[1]):
-                _draw_curve(sheet, axes, turn, cells.part(number, line), line_style(sheet, line, shape[1]))
-        if lines is not None and not len(lines.levels) <= MOST_NAMED:
-            add_scale(sheet, frames, lines)
+    grid = gridded(view.answers, axis_of(view.table, column), *rest)
+    what = f"{view.answers.label} over {grid.x.label}"
+    what += f", a curve for each {grid.lines.label}" if grid.lines else ""
+    notes = grid.median_words("line")
+    with open_sheet(path, view, what, options, lambda page: line_handles(page, grid), notes) as sheet:
+        panels, lines, _ = grid.cells.shape
+        frames = sheet.frames(panels, layout="compressed", subplot_kw={"projection": "polar"})
+        for panel, axes in enumerate(frames.flat[:panels]):
+            _dress(sheet, axes, grid.title(panel), _radii(grid.cells))
+            for line in range(lines):
+                _draw_curve(sheet, axes, grid.x, grid.cells[panel, line], line_style(sheet.page, line, lines))
+        add_scale(sheet, frames, grid.lines)
 
 
 def _azimuth(view: View) -> SweepColumn | None:
-    """Directions around the horizon of a grid, that of ``by`` first."""
+    """Directions around the horizon of a grid, that of ``by`` first; None where there are some over a sphere."""
+    if sphere_directions(view) is not None:
+        return None
     found = [
         column
         for column in view.table.of_role("azimuth")
@@ -116,28 +89,25 @@ def _radii(cells: Cells) -> tuple[float, float]:
     return least * 1.05, most * 1.08
 
 
-def _dress(sheet: Sheet, axes: Any, title: str, radii: tuple[float, float]) -> None:
+def _dress(sheet: Diagrams, axes: Any, title: str, radii: tuple[float, float]) -> None:
+    dress(sheet.page, axes)
     axes.set_rlim(*radii)
-    axes.tick_params(labelsize=sheet.small, colors=INK)
-    rings = sheet.page.parts.MaxNLocator(5).tick_values(*radii)
+    rings = sheet.page.parts.ticker.MaxNLocator(5).tick_values(*radii)
     axes.set_rgrids([ring for ring in rings if radii[0] < ring < radii[1]])
     axes.set_rlabel_position(22.5)
-    axes.grid(visible=True, color="#CCCCCC", linewidth=0.6)
     axes.set_thetagrids(range(0, 360, 45), ["0° (+x)", "45°", "90° (+y)", "135°", "180°", "225°", "270°", "315°"])
     axes.set_title(title, fontsize=sheet.small, color=INK, parse_math=False, pad=1.2 * sheet.small)
     if radii[0] < 0:  # zero is a circle then, not the middle
         axes.plot(np.linspace(0, 2 * np.pi, 181), np.zeros(181), color=INK, linewidth=sheet.page.scale, zorder=2)
 
 
-def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[str, Any]) -> None:
+def _draw_curve(sheet: Diagrams, axes: Any, turn: Axis, cells: Cells, style: dict[str, Any]) -> None:
     """A curve, closed where the directions go around; broken where there is no value; markers of other answers."""
-    angle = np.radians(turn.coordinates)
-    value = np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
+    angle, value = np.radians(turn.coordinates), drawn_values(cells)
+    shown = angle, value
     if closes(turn.coordinates):
         shown = np.append(angle, angle[0] + 2 * np.pi), np.append(value, value[0])
-    else:
-        shown = angle, value
-    if len(angle) > 48:
+    if len(angle) > MOST_MARKED:
         style = style | {"marker": "."}
     axes.plot(*shown, zorder=3, **style)
     least, most = axes.get_ylim()
@@ -145,10 +115,9 @@ def _draw_curve(sheet: Sheet, axes: Any, turn: Axis, cells: Cells, style: dict[s
         own = cells.answer == kind
         radius = {Answer.UNVERIFIED: cells.value[own], Answer.PARTLY: cells.value[own], Answer.NO_EQUILIBRIUM: 0.0}
         if own.any():
-            axes.plot(angle[own], np.broadcast_to(radius.get(kind, most), own.sum()), linestyle="none",
-                      marker=mark.marker, markerfacecolor="none", markeredgecolor=mark.colour,
-                      markeredgewidth=1.5 * sheet.page.scale, markersize=8 * sheet.page.scale, clip_on=False,
-                      zorder=4)  # fmt: skip
+            look = hollow(sheet.page, mark.marker, mark.colour)
+            radii = np.broadcast_to(radius.get(kind, most), own.sum())
+            axes.plot(angle[own], radii, clip_on=False, zorder=4, **look)
     axes.set_rlim(least, most)
 
 
@@ -200,23 +169,18 @@ def _draw_sphere(path: Path, view: View, options: PictureOptions) -> None:
     azimuth, elevation = np.mod(found[0], 360.0), found[1]
     what = f"{view.answers.label} over load directions; each place has the value of the nearest direction"
 
-    def handles(page: Any) -> list[Any]:
-        return hatch_handles(page, view.answers.answer)
-
-    with open_sheet(path, view, what, options, handles) as sheet:
-        axes = sheet.panels(1, 1)[0, 0]
-        dress(sheet, axes, "azimuth [degree], from +x towards +y", "elevation [degree]")
+    with open_sheet(path, view, what, options, lambda page: hatch_handles(page, view.answers.answer)) as sheet:
+        axes = sheet.frames(1)[0, 0]
+        dress(sheet.page, axes, "azimuth [degree], from +x towards +y", "elevation [degree]")
         _draw_image(sheet, axes, view, azimuth, elevation)
-        axes.set_xticks(range(0, 361, 45))
-        axes.set_yticks(range(-90, 91, 30))
-        axes.set_xlim(0, 360)
+        axes.set(xticks=range(0, 361, 45), yticks=range(-90, 91, 30), xlim=(0, 360))
         axes.grid(visible=False)
         if len(azimuth) <= MOST_DOTS:
             axes.plot(azimuth, elevation, linestyle="none", marker=".", color="black", alpha=0.5,
                       markersize=3 * sheet.page.scale, zorder=4)  # fmt: skip
 
 
-def _draw_image(sheet: Sheet, axes: Any, view: View, azimuth: FloatArray, elevation: FloatArray) -> None:
+def _draw_image(sheet: Diagrams, axes: Any, view: View, azimuth: FloatArray, elevation: FloatArray) -> None:
     rims = np.arange(0, 360 + STEP, STEP), _rims(elevation)
     middles = [(rim[1:] + rim[:-1]) / 2 for rim in rims]
     nearest = nearest_direction(azimuth, elevation, middles[0], middles[1])
@@ -227,9 +191,7 @@ def _draw_image(sheet: Sheet, axes: Any, view: View, azimuth: FloatArray, elevat
         own = view.answers.values[view.answers.good]
         image = axes.pcolormesh(*rims, np.ma.masked_array(values, ~good), cmap=SCALE, vmin=own.min(), vmax=own.max(),
                                 rasterized=True)  # fmt: skip
-        bar = sheet.figure.colorbar(image, ax=axes, fraction=0.04, pad=0.01, aspect=40)
-        bar.ax.tick_params(labelsize=sheet.small)
-        bar.set_label(view.answers.label, fontsize=sheet.small, parse_math=False)
+        sheet.add_bar(image, axes, view.answers.label)
     for kind, mark in MARKS.items():
         if (answer == kind).any():
             area = axes.contourf(*middles, (answer == kind).astype(float), levels=[0.5, 1.5], colors="none",

@@ -8,22 +8,13 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.results.pictures.diagrams import Diagrams, dress
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import BLUE, CASES
+from mbla.results.pictures.page import BLUE, CASES, Page
 from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
-from mbla.sweeps.pictures.sheet import (
-    MANY,
-    MOST_PANELS,
-    Sheet,
-    dress,
-    mark_handles,
-    open_sheet,
-    panel_places,
-    place_marks,
-    scale_axis,
-)
+from mbla.sweeps.pictures.sheet import MANY, mark_handles, open_sheet, place_marks, scale_axis
 from mbla.sweeps.pictures.tornado import LEAST_POINTS, correlation
-from mbla.sweeps.pictures.view import Axis, View, axis_of, design_columns, label_of
+from mbla.sweeps.pictures.view import MOST_PANELS, View, axis_of, design_columns, label_of
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
 CLASS = "mechanism.class"
@@ -62,34 +53,29 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     columns = scattered(view)
     classes = _classes(view)
 
-    def handles(page: Any) -> list[Any]:
-        named = [] if classes is None else list(enumerate(classes.categories))
+    def handles(page: Page) -> list[Any]:
         style = {"linestyle": "none", "markersize": 7 * page.scale}
         of_classes = [
-            page.parts.Line2D([], [], marker=CLASS_MARKERS[i], color=CASES[i], label=name, **style)
-            for i, name in named
+            page.line(name, marker=CLASS_MARKERS[i], color=CASES[i], **style)
+            for i, name in enumerate(classes.categories if classes is not None else ())
             if classes is not None and (classes.values[view.answers.good] == i).any()
         ]
         return of_classes + mark_handles(page, view.answers.answer)
 
-    notes = ["above each diagram: Spearman rank correlation over the points with a verified value"]
-    if not any(_title(view, column) for column in columns):
-        notes = []
+    titles = [_title(view, column) for column in columns]
+    notes = ["above each diagram: Spearman rank correlation over the points with a verified value"] * any(titles)
     with open_sheet(path, view, f"{view.answers.label} against each parameter", options, handles, notes) as sheet:
-        rows, across = panel_places(len(columns), sheet)
-        frames = sheet.panels(rows, across, sharey=True)
-        for number, axes in enumerate(frames.flat):
-            if number >= len(columns):
-                axes.set_axis_off()
-                continue
-            dress(sheet, axes, label_of(columns[number]), view.answers.label, _title(view, columns[number]))
+        frames = sheet.frames(len(columns), sharey=True)
+        across = frames.shape[1]
+        for number, axes in enumerate(frames.flat[: len(columns)]):
+            dress(sheet.page, axes, label_of(columns[number]), view.answers.label, titles[number])
             _draw_points(sheet, axes, view, columns[number], classes, across)
             if number % across:
                 axes.set_ylabel("")
 
 
 def _draw_points(
-    sheet: Sheet, axes: Any, view: View, column: SweepColumn, classes: Answers | None, across: int
+    sheet: Diagrams, axes: Any, view: View, column: SweepColumn, classes: Answers | None, across: int
 ) -> None:
     answers = view.answers
     x = _abscissa(view, column)
@@ -129,8 +115,7 @@ def _is_wide(x: FloatArray) -> bool:
 def _abscissa(view: View, column: SweepColumn) -> FloatArray:
     if column.kind not in ("text", "bool"):
         return numbers_of(column, view.table[column.name])
-    axis: Axis = axis_of(view.table, column)
-    return axis.place + _within(len(view.table))
+    return axis_of(view.table, column).place + _within(len(view.table))
 
 
 def _within(count: int) -> FloatArray:
@@ -139,10 +124,8 @@ def _within(count: int) -> FloatArray:
 
 
 def _name_classes(axes: Any, answers: Answers) -> None:
-    axes.set_yticks(range(len(answers.categories)), answers.categories)
+    axes.set_yticks(range(len(answers.categories)), answers.categories, parse_math=False)
     axes.set_ylim(-0.6, len(answers.categories) - 0.4)
-    for text in axes.get_yticklabels():
-        text.set_parse_math(False)
 
 
 def _classes(view: View) -> Answers | None:

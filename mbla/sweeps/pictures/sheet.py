@@ -1,23 +1,21 @@
-"""The page of a picture of a sweep: title and counts above, legend below, diagrams between that find their own room."""
+"""What all pictures of a sweep have: words with counts above, marks of points without a value, ticks at values."""
 
 from __future__ import annotations
 
-import math
-import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mbla.arrays import IntArray
-from mbla.errors import UsageError
+from mbla.arrays import FloatArray, IntArray
+from mbla.results.pictures.diagrams import Diagrams, hollow, open_diagrams, tint
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
-from mbla.results.pictures.page import GHOST, INK, LETTER, PURPLE, WARNING, Page, add_legend, add_words, open_page
+from mbla.results.pictures.page import GHOST, INK, PURPLE, WARNING, Page
 from mbla.sweeps.answers import Answer, Answers
-from mbla.sweeps.pictures.view import Axis, View
+from mbla.sweeps.pictures.view import Axis, Cells, Grid, View
 from mbla.sweeps.results import STATUS
 
 
@@ -41,6 +39,15 @@ MARKS = {
     Answer.MIXED: Mark("different from point to point", "d", GHOST, "++"),
     Answer.PARTLY: Mark("some points without a verified value", "o", WARNING, "//"),
 }
+CROWD = 60
+"""markers from which on they are smaller"""
+MANY = 2000
+"""markers from which on they are one image in SVG and PDF"""
+MOST_NAMED = 10
+"""lines that a legend names; more have a scale of colours beside them"""
+MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
+QUARTER = 90.0
+"""degrees"""
 
 
 def count_words(answers: Answers) -> str:
@@ -52,132 +59,40 @@ def count_words(answers: Answers) -> str:
     return f"{total} point{'s' * (total != 1)}: {', '.join(parts)}"
 
 
-MOST_PANELS = 16
-"""diagrams on a page in which anything can be read"""
-
-
-def panel_places(count: int, sheet: Any) -> tuple[int, int]:
-    """Rows and columns of diagrams that are about half as wide again as high, no row empty."""
-    width, height = sheet.page.options.size
-    columns = min(count, max(1, round(math.sqrt(count * width / (1.5 * height * max(sheet.top - sheet.bottom, 0.2))))))
-    rows = -(-count // columns)
-    return rows, -(-count // rows)
-
-
-def panel_title(axis: Axis | None, number: int) -> str:
-    """``thickness 0.3 m``."""
-    if axis is None:
-        return ""
-    unit = f" {axis.column.unit}" if axis.column.unit else ""
-    return f"{axis.column.name} {axis.names[number]}{unit}"
-
-
-LEAST_LETTER = 8.0
-"""points of the smallest letters"""
-LEAST_ROOM = 0.2
-"""share of the height that words and legend must leave"""
-SMALL = 0.8
-"""letters at axes against those of the words"""
-SCALE = "viridis"
-"""colours of values: the colour-blind tell them apart, and they darken evenly in grey"""
-DARK_END, LIGHT_END = 0.0, 0.88
-"""part of the scale that lines use: its last colours are too light on white"""
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """An open page with room between ``bottom`` and ``top``, shares of its height."""
-
-    page: Page
-    bottom: float
-    top: float
-
-    @property
-    def small(self) -> float:
-        """Points of letters at axes."""
-        return max(LEAST_LETTER, SMALL * self.page.letter)
-
-    @property
-    def figure(self) -> Any:
-        """The figure of matplotlib."""
-        return self.page.figure
-
-    def panels(self, rows: int, columns: int, layout: str = "constrained", **options: Any) -> Any:
-        """Axes in rows and columns, (rows, columns), that leave each other the room that their labels need."""
-        rect = (0.01, self.bottom, 0.98, self.top - self.bottom)
-        self.figure.set_layout_engine(layout, rect=rect, w_pad=0.06, h_pad=0.06)
-        return self.figure.subplots(rows, columns, squeeze=False, **options)
-
-    def colour(self, share: float) -> Any:
-        """Colour of a line by its place among the others, 0 to 1."""
-        return self.page.parts.colormaps[SCALE](DARK_END + (LIGHT_END - DARK_END) * share)
-
-
 @contextmanager
 def open_sheet(
-    path: Path, view: View, what: str, options: PictureOptions, handles: Any = None, notes: Sequence[str] = ()
-) -> Iterator[Sheet]:
-    """A page with the title of the sweep, what is drawn, how many points, and notes.
-
-    handles : function of the page that gives handles of a legend
-
-    Raises as ``open_page`` does; UsageError where the page is too small.
-    """
-    try:
-        with warnings.catch_warnings():
-            warnings.filterwarnings("error", message=NO_ROOM)
-            yield from _sheet(path, view, what, options, handles, notes)
-    except UserWarning as error:
-        width, height = options.size
-        raise UsageError(
-            "picture-option", f"--size {width}x{height}: words and legend leave no room; choose a larger one"
-        ) from error
+    path: Path,
+    view: View,
+    what: str,
+    options: PictureOptions,
+    handles: Callable[[Page], Sequence[Any]] | None = None,
+    notes: Sequence[str] = (),
+) -> Iterator[Diagrams]:
+    """A page with the title of the sweep, what is drawn, how many points, and notes; raises as ``open_diagrams``."""
+    words = [view.table.title or "sweep", what, count_words(view.answers), *notes]
+    with open_diagrams(path, options, words, handles=handles) as sheet:
+        yield sheet
 
 
-NO_ROOM = "constrained_layout not applied"
-"""how matplotlib begins to say that names and figures leave a diagram nothing"""
+def drawn_values(cells: Cells) -> FloatArray:
+    """Values of cells as lines show them, nan where there is no verified one; of the shape of the cells."""
+    return np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
 
 
-def _sheet(
-    path: Path, view: View, what: str, options: PictureOptions, handles: Any, notes: Sequence[str]
-) -> Iterator[Sheet]:
-    with open_page(path, options) as page:
-        page = replace(page, scale=max(page.scale, LEAST_LETTER / LETTER))
-        words = [view.table.title or "sweep", what, f"{count_words(view.answers)}", *notes]
-        above = add_words(page, words)
-        below = add_legend(page, handles(page) if handles else ())
-        if 1 - above - below < LEAST_ROOM:
-            raise UserWarning(NO_ROOM)
-        yield Sheet(page, below + 0.01, 1 - above)
-
-
-def dress(sheet: Sheet, axes: Any, x: str = "", y: str = "", title: str = "") -> None:
-    """Letters, grid and names of a diagram."""
-    axes.tick_params(labelsize=sheet.small, colors=INK)
-    axes.grid(visible=True, color="#DDDDDD", linewidth=0.6, zorder=0)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
-    for text in (
-        axes.set_xlabel(x, fontsize=sheet.small, color=INK),
-        axes.set_ylabel(y, fontsize=sheet.small, color=INK),
-        axes.set_title(title, fontsize=sheet.small, color=INK),
-    ):
-        text.set_parse_math(False)
-
-
-def scale_axis(sheet: Sheet, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
+def scale_axis(sheet: Diagrams, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
     """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where their names have room.
 
     share : of the side of the page that the diagram has: fewer names have room then
     """
+    along = axes.xaxis if which == "x" else axes.yaxis
     if axis.log:
-        getattr(axes, f"set_{which}scale")("log")
+        axes.set(**{f"{which}scale": "log"})
     width, height = sheet.page.options.size
     side = (width if which == "x" else height * (sheet.top - sheet.bottom)) / DOTS_PER_INCH * 72.0 * share
     if axis.column.role == "azimuth" and np.ptp(axis.coordinates) > QUARTER * 2:
         limits = getattr(axes, f"get_{which}lim")()
-        getattr(axes, f"set_{which}ticks")(np.arange(-360, 361, QUARTER / 2))
-        getattr(axes, f"set_{which}lim")(limits)  # which the ticks widen
+        along.set_ticks(np.arange(-360, 361, QUARTER / 2))
+        axes.set(**{f"{which}lim": limits})  # which the ticks widen
         return
     longest = max(len(name) for name in axis.names)
     across = sheet.small * (1.5 if which == "y" else 0.7 * longest + 1.0)
@@ -188,11 +103,8 @@ def scale_axis(sheet: Sheet, axes: Any, axis: Axis, which: str = "x", share: flo
     if turn:
         most = max(2, int(0.85 * side / (1.4 * sheet.small)))
     step = -(-len(axis.levels) // most)
-    set_ticks = getattr(axes, f"set_{which}ticks")
-    set_ticks([], minor=True)
-    set_ticks(axis.coordinates[::step], axis.names[::step], **({"rotation": 90} if turn else {}))
-    for text in getattr(axes, f"get_{which}ticklabels")():
-        text.set_parse_math(False)
+    along.set_ticks([], minor=True)
+    along.set_ticks(axis.coordinates[::step], axis.names[::step], parse_math=False, rotation=90 if turn else 0)
 
 
 def _crowded(axis: Axis, most: int) -> bool:
@@ -202,32 +114,27 @@ def _crowded(axis: Axis, most: int) -> bool:
 
 
 def mark_handles(page: Page, answers: IntArray) -> list[Any]:
-    """Handles of a legend for the answers among these that are no values."""
+    """Entries of a legend for the answers among these that are no values."""
     return [
-        page.parts.Line2D(
-            [], [], linestyle="none", marker=mark.marker, markerfacecolor="none", markeredgecolor=mark.colour,
-            markeredgewidth=1.5 * page.scale, markersize=8 * page.scale, label=mark.words,
-        )
+        page.line(mark.words, **hollow(page, mark.marker, mark.colour))
         for answer, mark in MARKS.items()
         if (answers == answer).any()
-    ]  # fmt: skip
+    ]
 
 
-def place_marks(sheet: Sheet, axes: Any, x: Any, answer: IntArray, values: Any, answers: Answers) -> None:
+def place_marks(sheet: Diagrams, axes: Any, x: Any, answer: IntArray, values: Any, answers: Answers) -> None:
     """Markers of points that have no verified value, at ``x``.
 
     Of a load factor what does not stand lies at zero, of other results at the lower edge; what nothing brings down at
     the upper edge; what failed or has no such value at the lower edge; a value that is not verified at its place.
     """
-    scale = sheet.page.scale
     for kind, mark in MARKS.items():
         own = answer == kind
         if not own.any():
             continue
-        style = {"marker": mark.marker, "linestyle": "none", "markerfacecolor": "none", "markeredgecolor": mark.colour,
-                 "markeredgewidth": (1.5 if own.sum() < CROWD else 0.8) * scale, "zorder": 4, "clip_on": False,
-                 "markersize": (8 if own.sum() < CROWD else 5) * scale,
-                 "rasterized": own.sum() > MANY}  # fmt: skip
+        size = (8.0, 1.5) if own.sum() < CROWD else (5.0, 0.8)
+        style = hollow(sheet.page, mark.marker, mark.colour, *size)
+        style |= {"zorder": 4, "clip_on": False, "rasterized": own.sum() > MANY}
         if kind in (Answer.UNVERIFIED, Answer.PARTLY):
             axes.plot(x[own], values[own], **style)
         elif kind == Answer.NO_EQUILIBRIUM and answers.is_factor:
@@ -237,9 +144,33 @@ def place_marks(sheet: Sheet, axes: Any, x: Any, answer: IntArray, values: Any, 
             axes.plot(x[own], np.full(own.sum(), height), transform=axes.get_xaxis_transform(), **style)
 
 
-CROWD = 60
-"""markers from which on they are smaller"""
-QUARTER = 90.0
-"""degrees"""
-MANY = 2000
-"""markers from which on they are one image in SVG and PDF"""
+# --- Lines, one for each value of a parameter -----------------------------------------------------------------------
+
+
+def line_style(page: Page, number: int, count: int) -> dict[str, Any]:
+    """Colour and marker of a line among ``count``."""
+    marker = MARKERS[number] if count <= MOST_NAMED else "."
+    look = {"linewidth": 1.6 * page.scale, "markersize": 5.5 * page.scale}
+    return look | {"color": tint(page, number, count), "marker": marker}
+
+
+def line_handles(page: Page, grid: Grid) -> list[Any]:
+    """Entries of a legend for the lines of each diagram where they can be named, and for answers that are no values."""
+    lines, count = grid.lines, grid.cells.shape[1]
+    names = [f"{lines.column.name} {name}" for name in lines.names] if lines is not None and count <= MOST_NAMED else []
+    named = [page.line(name, **line_style(page, i, count)) for i, name in enumerate(names)]
+    return named + mark_handles(page, grid.cells.answer)
+
+
+def add_scale(sheet: Diagrams, frames: Any, lines: Axis | None) -> None:
+    """A bar of the colours of lines, a step for each, beside the diagrams, where a legend cannot name them."""
+    count = 0 if lines is None else len(lines.levels)
+    if lines is None or count <= MOST_NAMED:
+        return
+    parts = sheet.page.parts
+    colours = parts.colors.ListedColormap([tint(sheet.page, i, count) for i in range(count)])
+    bar = sheet.add_bar(
+        parts.cm.ScalarMappable(parts.colors.Normalize(-0.5, count - 0.5), colours), frames, lines.label
+    )
+    step = -(-count // 16)
+    bar.set_ticks(np.arange(0, count, step), labels=lines.names[::step], fontsize=sheet.small, parse_math=False)

@@ -17,10 +17,11 @@ import numpy as np
 from scipy.stats import rankdata
 
 from mbla.arrays import FloatArray
+from mbla.results.pictures.diagrams import dress
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION
+from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION, Page
 from mbla.sweeps.answers import numbers_of, told_apart
-from mbla.sweeps.pictures.sheet import Sheet, dress, open_sheet
+from mbla.sweeps.pictures.sheet import open_sheet
 from mbla.sweeps.pictures.view import Axis, View, axis_of, design_columns, over_sphere
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
@@ -130,10 +131,37 @@ def usual(view: View) -> bool:
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
-    if view.sampled:
-        _draw_correlations(path, view, options)
-    else:
-        _draw_swings(path, view, options)
+    bars, along, notes = _correlation_bars(view) if view.sampled else _swing_bars(view)
+    with open_sheet(path, view, f"{view.answers.label}: sensitivity to parameters", options, None, notes) as sheet:
+        page, axes = sheet.page, sheet.frames(1)[0, 0]
+        dress(page, axes, f"{along} {view.answers.label}")
+        thick = min(0.6, 0.1 + 0.12 * len(bars))  # a few need not fill the page
+        for row, bar in enumerate(bars):
+            if np.isfinite(bar.outline):
+                outline = {"facecolor": "none", "edgecolor": GHOST, "linewidth": 1.2 * page.scale}
+                axes.barh(row, bar.outline, height=thick, zorder=2, **outline)
+            value, inner = np.nan_to_num(bar.value), thick if np.isnan(bar.outline) else 0.75 * thick
+            axes.barh(row, value, color=VERMILION if value < 0 else BLUE, height=inner, zorder=2)
+            if np.isfinite(bar.low) and np.isfinite(bar.high):
+                style = {"color": INK, "marker": "|", "markersize": 9 * page.scale, "linewidth": 1.4 * page.scale}
+                axes.plot([bar.low, bar.high], [row, row], zorder=3, **style)
+        if view.sampled:
+            axes.set_xlim(-1.05, 1.05)
+        else:
+            axes.margins(x=0.12)
+        _name_rows(page, axes, bars)
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A row: its name at the left, figures at the right, a bar with whiskers, and an outline about it, nan for none."""
+
+    name: str
+    words: str
+    value: float
+    low: float
+    high: float
+    outline: float = np.nan
 
 
 def _ordered(view: View) -> list[SweepColumn]:
@@ -146,7 +174,8 @@ def _swings(view: View) -> list[Swing]:
     return [swing(view, axis) for axis in view.axes]
 
 
-def _draw_correlations(path: Path, view: View, options: PictureOptions) -> None:
+def _correlation_bars(view: View) -> tuple[list[Bar], str, list[str]]:
+    """Rows of a sample, what they show of the result, and notes."""
     found = [correlation(view, column) for column in _ordered(view)]
     found.sort(key=lambda each: np.nan_to_num(-abs(each.value), nan=1.0))
     mixed = len(view.table.dimensions) > 1
@@ -157,19 +186,13 @@ def _draw_correlations(path: Path, view: View, options: PictureOptions) -> None:
         notes[0] += f"; whiskers: {INTERVAL} (Bonett and Wright), which takes the points as independent"
     notes += _tangled(view)
     left = [column.name for column in design_columns(view.table) if column not in _ordered(view)]
-    if left:
-        notes.append(f"no order, so not here: {', '.join(left)}")
-    with open_sheet(path, view, f"{view.answers.label}: sensitivity to parameters", options, None, notes) as sheet:
-        axes = sheet.panels(1, 1)[0, 0]
-        dress(sheet, axes, f"rank correlation with {view.answers.label}")
-        rows = np.arange(len(found))
-        values = np.nan_to_num(np.array([each.value for each in found]))
-        colours = [VERMILION if value < 0 else BLUE for value in values]
-        axes.barh(rows, values, color=colours, height=_thickness(len(found)), zorder=2)
-        if not mixed:
-            _whiskers(sheet, axes, rows, [each.low for each in found], [each.high for each in found])
-        axes.set_xlim(-1.05, 1.05)
-        _name_rows(sheet, axes, [each.name for each in found], [_words(each) for each in found])
+    notes += [f"no order, so not here: {', '.join(left)}"] * bool(left)
+    bars = []
+    for each in found:
+        words = "does not vary" if np.isnan(each.value) else f"{each.value:+.2f}"
+        low, high = (np.nan, np.nan) if mixed else (each.low, each.high)
+        bars.append(Bar(each.name, words, each.value, low, high))
+    return bars, "rank correlation with", notes
 
 
 LEAST_TANGLED = 0.3
@@ -191,7 +214,8 @@ def _tangled(view: View) -> list[str]:
     )
 
 
-def _draw_swings(path: Path, view: View, options: PictureOptions) -> None:
+def _swing_bars(view: View) -> tuple[list[Bar], str, list[str]]:
+    """The same of a grid."""
     found = sorted(_swings(view), key=lambda each: np.nan_to_num(-each.span, nan=1.0))
     notes = [
         "bars: mean change from the least to the greatest value of the parameter at each combination of the others; "
@@ -203,51 +227,24 @@ def _draw_swings(path: Path, view: View, options: PictureOptions) -> None:
     spheres = [column.name for column in view.table.of_role("azimuth") if over_sphere(view.table, column.dimension)]
     if spheres:
         notes.append(f"directions over a sphere have no least and greatest, so not here: {', '.join(spheres)}")
-    what = f"{view.answers.label}: sensitivity to parameters"
-    with open_sheet(path, view, what, options, None, notes) as sheet:
-        axes = sheet.panels(1, 1)[0, 0]
-        dress(sheet, axes, f"change of {view.answers.label}")
-        rows, thick = np.arange(len(found)), _thickness(len(found))
-        change = np.nan_to_num(np.array([each.change for each in found]))
-        span = np.nan_to_num(np.array([each.span for each in found])) * np.where(change < 0, -1.0, 1.0)
-        axes.barh(rows, span, facecolor="none", edgecolor=GHOST, linewidth=1.2 * sheet.page.scale,
-                  height=thick, zorder=2)  # fmt: skip
-        colours = [VERMILION if each < 0 else BLUE for each in change]
-        axes.barh(rows, change, color=colours, height=0.75 * thick, zorder=2)
-        _whiskers(sheet, axes, rows, [each.least for each in found], [each.most for each in found])
-        axes.margins(x=0.12)
-        _name_rows(sheet, axes, [_ends(view, each) for each in found], [_swing_words(each) for each in found])
+    bars = []
+    for each in found:
+        outline = np.nan_to_num(each.span) * (-1.0 if each.change < 0 else 1.0)
+        bars.append(Bar(_ends(view, each), _swing_words(each), each.change, each.least, each.most, float(outline)))
+    return bars, "change of", notes
 
 
-def _thickness(count: int) -> float:
-    """Of bars, share of the distance between them: a few need not fill the page."""
-    return min(0.6, 0.1 + 0.12 * count)
-
-
-def _whiskers(sheet: Sheet, axes: Any, rows: Any, low: Sequence[float], high: Sequence[float]) -> None:
-    for row, first, last in zip(rows, low, high, strict=True):
-        if np.isfinite(first) and np.isfinite(last):
-            axes.plot([first, last], [row, row], color=INK, marker="|", markersize=9 * sheet.page.scale,
-                      linewidth=1.4 * sheet.page.scale, zorder=3)  # fmt: skip
-
-
-def _name_rows(sheet: Sheet, axes: Any, names: Sequence[str], words: Sequence[str]) -> None:
+def _name_rows(page: Page, axes: Any, bars: Sequence[Bar]) -> None:
     """Names at the left, figures at the right, the first row at the top."""
-    axes.axvline(0.0, color=INK, linewidth=sheet.page.scale, zorder=4)
-    axes.set_ylim(len(names) - 0.4, -0.6)
-    axes.set_yticks(range(len(names)), names)
+    axes.axvline(0.0, color=INK, linewidth=page.scale, zorder=4)
+    axes.set_ylim(len(bars) - 0.4, -0.6)
+    axes.set_yticks(range(len(bars)), [bar.name for bar in bars], parse_math=False)
     axes.grid(visible=False, axis="y")
     other = axes.twinx()
     other.set_ylim(axes.get_ylim())
-    other.set_yticks(range(len(names)), words)
-    other.tick_params(labelsize=sheet.small, colors=INK, length=0)
+    other.set_yticks(range(len(bars)), [bar.words for bar in bars], parse_math=False)
+    other.tick_params(labelsize=page.small, colors=INK, length=0)
     other.spines[["top", "right", "bottom", "left"]].set_visible(False)
-    for text in (*axes.get_yticklabels(), *other.get_yticklabels()):
-        text.set_parse_math(False)
-
-
-def _words(found: Correlation) -> str:
-    return "does not vary" if np.isnan(found.value) else f"{found.value:+.2f}"
 
 
 def _swing_words(found: Swing) -> str:

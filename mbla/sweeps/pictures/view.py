@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -214,38 +214,15 @@ def chosen_results(table: SweepTable, name: str | None) -> tuple[SweepColumn, ..
     raise UsageError("nothing-to-draw", "the sweep has no result columns to draw")
 
 
-@dataclass(frozen=True)
-class Cells:
-    """Arrays with an axis for each axis asked for, in that order.
+Cells: TypeAlias = "np.recarray[Any, np.dtype[Any]]"
+"""points by their values of some parameters, with an axis for each of these
 
-    value : the point's, or the median of several; nan where there is none
-    low, high : least and greatest value of several points; nan where there is none
-    answer : of ``Answer``; NO_POINT where there is none
-    count : points
-    """
-
-    value: FloatArray
-    low: FloatArray
-    high: FloatArray
-    answer: IntArray
-    count: IntArray
-
-    def shaped(self, shape: tuple[int, ...]) -> Cells:
-        """The same cells in arrays of another shape."""
-        value, low, high = (array.reshape(shape) for array in (self.value, self.low, self.high))
-        return Cells(value, low, high, self.answer.reshape(shape), self.count.reshape(shape))
-
-    def part(self, *place: int) -> Cells:
-        """The cells at a place of the first axes."""
-        value, low, high = (array[place] for array in (self.value, self.low, self.high))
-        return Cells(value, low, high, self.answer[place], self.count[place])
-
-    @property
-    def several(self) -> bool:
-        """Whether any cell has more than one point."""
-        return bool(self.count.max(initial=0) > 1)
-
-
+value : the point's, or the median of several; nan where there is none
+low, high : least and greatest value of several points; nan where there is none
+answer : of ``Answer``; NO_POINT where there is none
+count : points
+"""
+CELL = np.dtype([("answer", np.int64), ("value", float), ("low", float), ("high", float), ("count", np.int64)])
 NO_POINT = -1
 
 
@@ -256,23 +233,74 @@ def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
     """
     shape = tuple(len(axis.levels) for axis in axes)
     place = np.ravel_multi_index(tuple(axis.place for axis in axes), shape)
-    count = np.bincount(place, minlength=int(np.prod(shape)))
-    value, low, high = (np.full(len(count), np.nan) for _ in range(3))
-    answer = np.full(len(count), NO_POINT, dtype=np.int64)
-    single = count[place] == 1
-    answer[place[single]] = answers.answer[single]
-    for array in (value, low, high):
-        array[place[single]] = answers.values[single]
+    cells = np.recarray(int(np.prod(shape)), CELL)
+    for name in ("value", "low", "high"):
+        cells[name] = np.nan
+    cells["answer"], cells["count"] = NO_POINT, np.bincount(place, minlength=len(cells))
     order = np.argsort(place, kind="stable")
-    for first, cell in zip(np.cumsum(count)[count > 1] - count[count > 1], np.flatnonzero(count > 1), strict=True):
-        own = order[first : first + count[cell]]
-        answer[cell], value[cell], low[cell], high[cell] = _together(answers, own)
-    return Cells(value, low, high, answer, count).shaped(shape)
+    for cell, own in zip(np.unique(place), np.split(order, np.cumsum(cells.count[cells.count > 0])), strict=False):
+        cells[cell] = (*_together(answers, own), len(own))
+    return cells.reshape(shape)
+
+
+def several(cells: Cells) -> bool:
+    """Whether any cell has more than one point."""
+    return bool(cells.count.max(initial=0) > 1)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The points of a view by up to three parameters.
+
+    x, lines, panels : along the diagram, across its lines or cells, and from one diagram to the next
+    cells : (n_panels, n_lines, n_x), 1 for parameters that are None
+    """
+
+    x: Axis
+    lines: Axis | None
+    panels: Axis | None
+    cells: Cells
+
+    @property
+    def axes(self) -> list[Axis]:
+        """Those that there are, from diagrams to places along them."""
+        return [axis for axis in (self.panels, self.lines, self.x) if axis is not None]
+
+    def shaped(self, cells: Cells) -> Cells:
+        """Cells over ``axes`` with all three axes."""
+        sizes = [1 if axis is None else len(axis.levels) for axis in (self.panels, self.lines, self.x)]
+        return cells.reshape(sizes)
+
+    def title(self, number: int) -> str:
+        """Of a diagram: ``thickness 0.3 m``."""
+        if self.panels is None:
+            return ""
+        unit = f" {self.panels.column.unit}" if self.panels.column.unit else ""
+        return f"{self.panels.column.name} {self.panels.names[number]}{unit}"
+
+    def median_words(self, what: str) -> list[str]:
+        """A note on cells of several points; none without."""
+        count = self.cells.count.max()
+        return [f"{what}: median of up to {count} points of the other parameters"] * several(self.cells)
+
+
+MOST_PANELS = 16
+"""diagrams on a page in which anything can be read"""
+
+
+def gridded(answers: Answers, x: Axis, *rest: Axis) -> Grid:
+    """The points by one parameter and those after it; further parameters are taken together."""
+    lines = rest[0] if rest else None
+    panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None
+    grid = Grid(x, lines, panels, np.recarray(0, CELL))
+    return replace(grid, cells=grid.shaped(pooled(answers, grid.axes)))
 
 
 def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:
     """Answer, median, least and greatest of some points."""
     kinds, values = answers.answer[own], answers.values[own]
+    if len(own) == 1:
+        return int(kinds[0]), values[0], values[0], values[0]
     good = values[kinds == Answer.VALUE]
     if answers.categories:
         if len(good) == len(own) and np.ptp(good) == 0:

@@ -39,7 +39,7 @@ def write_page(path: Path, image: UInt8Array, words: list[str], legend: list[lis
         axes.imshow(image, aspect="auto", interpolation="none")
         axes.set_axis_off()
         add_words(page, words)
-        add_legend(page, [page.parts.Patch(color=colour, label=name) for name, colour in legend])
+        add_legend(page, [page.box(name, color=colour) for name, colour in legend])
 
 
 def test_png_has_the_pixels_of_the_image(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mbla.sweeps.answers import Answer
-from mbla.sweeps.pictures.view import NO_POINT, Cells, chosen_results, pooled, view_of
+from mbla.sweeps.pictures.view import NO_POINT, Cells, chosen_results, pooled, several, view_of
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, table_of
 
 
@@ -10,7 +10,7 @@ def cell_of(*rows: Row | float) -> Cells:
     """Several points of one value of ``mu``."""
     table = grid({"mu": [0.5, 0.6], "case": [float(i) for i in range(len(rows))]}, lambda mu, case: rows[int(case)])
     view = view_of(table, chosen_results(table, None)[0])
-    return pooled(view.answers, [axis for axis in view.axes if axis.column.name == "mu"]).part(0)
+    return pooled(view.answers, [axis for axis in view.axes if axis.column.name == "mu"])[0]
 
 
 def test_one_point_of_each_cell_is_itself() -> None:
@@ -18,7 +18,7 @@ def test_one_point_of_each_cell_is_itself() -> None:
     view = view_of(table, chosen_results(table, None)[0], by="mu")
     cells = pooled(view.answers, view.axes)
     assert np.allclose(cells.value, np.outer([0.2, 0.4], [1.0, 2.0, 3.0]), rtol=1e-15)
-    assert not cells.several
+    assert not several(cells)
 
 
 def test_a_point_left_out_is_no_point() -> None:
@@ -68,6 +68,6 @@ def test_texts_of_several_points_are_a_text_where_all_have_it(
     """Beside them are points that hinge, which comes before sliding in the alphabet."""
     table = grid({"mu": [0.5, 0.6], "case": [0.0, 1.0]}, lambda mu, case: rows[int(case)] if mu == 0.5 else HINGES)
     view = view_of(table, chosen_results(table, "mechanism.class")[0], by="mu")
-    cell = pooled(view.answers, view.axes[:1]).part(0)
+    cell = pooled(view.answers, view.axes[:1])[0]
     assert cell.answer == answer
     assert [cell.value, cell.low, cell.high] == pytest.approx([place] * 3, nan_ok=True)

@@ -46,7 +46,7 @@ class Sheet:
     def areas(self, polygons: Sequence[FloatArray], **style: Any) -> None:
         """Filled polygons, (n, 2) each."""
         if len(polygons):
-            self.axes.add_collection(self.page.parts.PolyCollection(polygons, **style))
+            self.axes.add_collection(self.page.parts.collections.PolyCollection(polygons, **style))
             self.drawn.append(np.vstack(polygons))
 
     def lines(
@@ -55,7 +55,7 @@ class Sheet:
         """Polylines, (n, 2) each; ``width`` in points, one or one for each line."""
         if len(paths):
             widths = np.asarray(width) * self.page.scale
-            collection = self.page.parts.LineCollection(
+            collection = self.page.parts.collections.LineCollection(
                 paths, linewidths=widths, colors=colour, capstyle=style.pop("capstyle", "round"), **style
             )
             self.axes.add_collection(collection)
@@ -96,11 +96,11 @@ class Sheet:
             style["markersize"] = self.width(style["markersize"])
         if "linewidth" in style:
             style["linewidth"] = self.width(style["linewidth"])
-        self.handles.setdefault(label, self.page.parts.Line2D([], [], label=label, **style))
+        self.handles.setdefault(label, self.page.line(label, **style))
 
     def name_area(self, label: str, **style: Any) -> None:
         """An entry of the legend: a filled box."""
-        self.handles.setdefault(label, self.page.parts.Patch(label=label, **style))
+        self.handles.setdefault(label, self.page.box(label, **style))
 
 
 def new_sheet(page: Page, size: float) -> Sheet:
@@ -135,7 +135,7 @@ def add_scale_bar(sheet: Sheet, metres_per_inch: float, below: float, unit: str,
     length = round_length(0.14 * wide * metres_per_inch)
     share = length / metres_per_inch / wide
     left, level = 0.03, below + 0.42 * STRIP
-    line, style = page.parts.Line2D, {"color": INK, "linewidth": sheet.width(2.0)}
+    line, style = page.parts.lines.Line2D, {"color": INK, "linewidth": sheet.width(2.0)}
     page.figure.add_artist(line([left, left + share], [level, level], **style))
     for x in (left, left + share):
         page.figure.add_artist(line([x, x], [level - 0.008, level + 0.008], **style))

@@ -61,7 +61,7 @@ def _frame(page: Page, axes: Any, box: tuple[float, float, float, float]) -> Any
     """Around what is enlarged, left, bottom, width and height."""
     left, bottom, width, height = box
     style = {"fill": False, "edgecolor": GHOST, "linewidth": 0.12 * page.letter}
-    return axes.add_patch(page.parts.Rectangle((left, bottom), width, height, **style))
+    return axes.add_patch(page.parts.patches.Rectangle((left, bottom), width, height, **style))
 
 
 def _add_triad(axes: Any, camera: Camera, size: float) -> None:
@@ -103,7 +103,7 @@ def _ground(page: Page, axes: Any, artists: Sequence[Any]) -> None:
     """White behind what is written over a picture."""
     box = type(page.extent_of(artists[0])).union([page.extent_of(each) for each in artists]).padded(0.3 * page.letter)
     place = box.transformed(axes.transData.inverted())
-    white = page.parts.Rectangle((place.x0, place.y0), place.width, place.height, facecolor="white", zorder=1.5)
+    white = page.parts.patches.Rectangle((place.x0, place.y0), place.width, place.height, facecolor="white", zorder=1.5)
     axes.add_patch(white)
 
 
@@ -115,10 +115,7 @@ def _add_legend(page: Page, drawing: Drawing) -> float:
         bottom += 1.1 * page.height_of(figure.text(0.985, bottom, note, **style))
     if not drawing.legend:
         return bottom
-    handles = [
-        page.parts.Patch(facecolor=colour, edgecolor=GHOST, linewidth=0.5, label=name)
-        for name, colour in drawing.legend
-    ]
+    handles = [page.box(name, facecolor=colour, edgecolor=GHOST, linewidth=0.5) for name, colour in drawing.legend]
     style = {"loc": "lower right", "bbox_to_anchor": (0.995, bottom - 0.008), "frameon": False, "borderaxespad": 0.2}
     style |= {"fontsize": 0.95 * size, "handlelength": 1, "handletextpad": 0.4, "columnspacing": 1.2, "labelcolor": INK}
     for columns in range(len(handles), 0, -1):
