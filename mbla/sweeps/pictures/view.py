@@ -240,7 +240,7 @@ def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
     order = np.argsort(place, kind="stable")
     for cell, own in zip(np.unique(place), np.split(order, np.cumsum(cells.count[cells.count > 0])), strict=False):
         cells[cell] = (*_together(answers, own), len(own))
-    return cells.reshape(shape)
+    return cells.reshape(shape).view(np.recarray)
 
 
 def several(cells: Cells) -> bool:
@@ -269,7 +269,7 @@ class Grid:
     def shaped(self, cells: Cells) -> Cells:
         """Cells over ``axes`` with all three axes."""
         sizes = [1 if axis is None else len(axis.levels) for axis in (self.panels, self.lines, self.x)]
-        return cells.reshape(sizes)
+        return cells.reshape(sizes).view(np.recarray)
 
     def title(self, number: int) -> str:
         """Of a diagram: ``thickness 0.3 m``."""
