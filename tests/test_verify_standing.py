@@ -15,8 +15,8 @@ from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.listing import verification_lines
 from mbla.results.outcome import unproved_words
+from mbla.results.record.json_record import verification_json
 from mbla.results.record.quantity import STANDING
-from mbla.results.records.json_record import verification_json
 from mbla.results.results import Results
 from mbla.results.verify.verify_file import verify_file
 from mbla.run import run

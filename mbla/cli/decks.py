@@ -79,7 +79,8 @@ def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: di
     with loading():
         from mbla.results.listing.listing import listing
         from mbla.results.listing.summary import summary_lines
-        from mbla.results.records.json_record import json_line, results_json
+        from mbla.results.record.json_record import results_json
+        from mbla.results.record.json_values import json_line
 
     record = json_line(results_json(results) | failure) if options.json else ""
     words = ""
@@ -114,7 +115,8 @@ def check(options: argparse.Namespace) -> int:
 
         results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
         if options.json:
-            from mbla.results.records.json_record import check_json, json_line
+            from mbla.results.record.json_record import check_json
+            from mbla.results.record.json_values import json_line
 
             print(json_line(check_json(results, needs)), flush=True)
         else:

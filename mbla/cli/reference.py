@@ -33,7 +33,7 @@ def explain(options: argparse.Namespace) -> int:
             explanations,
             find_explanations,
         )
-        from mbla.results.records.json_record import json_line
+        from mbla.results.record.json_values import json_line
 
     asked = " ".join(options.identifier)
     found = find_explanations(asked) if asked.strip() else tuple(explanations().values())

@@ -36,7 +36,8 @@ def show(options: argparse.Namespace) -> int:
     with loading():
         from mbla.results.hdf5.result_file import read_results_hdf5
         from mbla.results.listing.listing import listing
-        from mbla.results.records.json_record import json_line, results_json
+        from mbla.results.record.json_record import results_json
+        from mbla.results.record.json_values import json_line
 
     results = read_results_hdf5(options.result)
     print(json_line(results_json(results)) + "\n" if options.json else listing(results), end="")
@@ -47,7 +48,8 @@ def verify(options: argparse.Namespace) -> int:
     """Recompute what the file claims; the exit status tells what it is worth by that."""
     with loading():
         from mbla.results.listing.listing import verification_lines
-        from mbla.results.records.json_record import json_line, verification_json
+        from mbla.results.record.json_record import verification_json
+        from mbla.results.record.json_values import json_line
         from mbla.results.verify.verify_file import verify_file
 
     results, agreed = verify_file(options.result)
@@ -89,7 +91,7 @@ def diff(options: argparse.Namespace) -> int:
         from mbla.results.diff.records import comparison_json
         from mbla.results.diff.words import comparison_text
         from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.records.json_record import json_line
+        from mbla.results.record.json_values import json_line
 
     names = str(options.first), str(options.second)
     results = read_results_hdf5(options.first), read_results_hdf5(options.second)

@@ -162,7 +162,7 @@ def _tell(
     """Remarks, the JSON object where it is asked for, what the study found in words, and its files."""
     with loading():
         from mbla.results.listing.text import sentence
-        from mbla.results.records.json_record import json_line
+        from mbla.results.record.json_values import json_line
 
     for remark in remarks:
         say(f"mbla: {remark}", 0)

@@ -87,7 +87,7 @@ def sweep(options: argparse.Namespace) -> int:
     refuse_unfit_name(options.sweep, "sweep file")
     content = read_sweep(options.sweep, tuple(options.set))
     with loading():
-        from mbla.results.records.json_record import json_line
+        from mbla.results.record.json_values import json_line
         from mbla.sweeps.command import dry_run_json, prepare, run_sweep
         from mbla.sweeps.design.words import design_lines
         from mbla.sweeps.fragility import fragility_lines

@@ -12,7 +12,8 @@ from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.listing.case_words import find_failure
 from mbla.results.listing.listing import listing
-from mbla.results.records.json_record import json_line, results_json
+from mbla.results.record.json_record import results_json
+from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.tables.formats import table_csv

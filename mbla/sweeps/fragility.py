@@ -28,8 +28,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import listed
 from mbla.errors import UsageError
 from mbla.results.listing.text import sentence, table
-from mbla.results.records.description import Key
-from mbla.results.records.numbers import number, numbers
+from mbla.results.record.json_values import number, numbers
+from mbla.results.record.keys import Key
 from mbla.results.tables.formats import csv_text
 from mbla.sweeps.answers import Answers, answers_of
 from mbla.sweeps.plan import Plain

@@ -36,7 +36,8 @@ from mbla.results.findings import rounding_of
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import notices_of, result_of
-from mbla.results.records.json_record import json_line, results_json
+from mbla.results.record.json_record import results_json
+from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck

@@ -21,8 +21,9 @@ from mbla.deck.sections.output import OutputSection
 from mbla.model.model import LoadCase
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.listing import listing
+from mbla.results.record.json_record import results_json
+from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Scene, scene_of
-from mbla.results.records.json_record import results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import Formats, export_results
 from mbla.results.vtu.cells import block_cells
@@ -84,7 +85,7 @@ def steps(results: Results, folder: Path) -> dict[str, Callable[[], object]]:
         "hdf5 write": write_image,
         "hdf5 read": lambda: read_results_hdf5(image),
         "listing": lambda: listing(results),
-        "json": lambda: results_json(results),
+        "json": lambda: json_line(results_json(results)),
         "cells": lambda: block_cells(model.blocks),
         "blocks.vtu, polyhedra": lambda: write_blocks_vtu(folder / "polyhedra.vtu", scene_of(polyhedra, case)),
         **{f"{file.kind}.vtu": partial(write_one, file) for file in MESH_FILES},

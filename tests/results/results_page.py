@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 from mbla.results.hdf5.layout import layout_table
-from mbla.results.records.description import record_page
+from mbla.results.record.keys import record_page
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
 from mbla.sweeps.interaction.study import INTERACT_RECORD

@@ -11,7 +11,7 @@ from mbla.results.findings import found_notices
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import notices_of
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, standing_at, tower_results

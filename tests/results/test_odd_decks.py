@@ -21,7 +21,8 @@ from mbla.results.outcome import result_of
 from mbla.results.pictures.options import KINDS, PictureOptions
 from mbla.results.pictures.plot import plot_results
 from mbla.results.pictures.scene import scene_of
-from mbla.results.records.json_record import json_line, results_json
+from mbla.results.record.json_record import results_json
+from mbla.results.record.json_values import json_line
 from mbla.results.report.report import report_html
 from mbla.results.series import told_cases
 from mbla.results.tables.formats import table_csv

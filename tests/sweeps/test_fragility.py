@@ -12,7 +12,7 @@ from scipy.stats import binomtest, lognorm, norm
 from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.results.records.json_record import json_line
+from mbla.results.record.json_values import json_line
 from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
 from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of, interval
 from mbla.sweeps.plan import DONE, FAILED, Outcome

@@ -9,7 +9,7 @@ import pytest
 
 import mbla
 from mbla.deck.units import Units
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.sweeps.results import reason_of, result_columns, result_faults, result_places, values_of
 from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_results

@@ -119,7 +119,7 @@ class MechanismClass(StrEnum):
 def mechanism_class(joints: MovingJoints) -> MechanismClass:
     """The class of a mechanism."""
     lines = [line for line in joints.hinge_lines if line.share >= NOTABLE]
-    planes = [plane for plane in joints.sliding_planes if plane.speed >= NOTABLE]
+    planes = [plane for plane in joints.sliding_planes if plane.share >= NOTABLE]
     slides = bool(planes) or any(_slides(line) for line in lines)
     if lines and slides:
         return MechanismClass.SLIDING_AND_HINGING
@@ -133,4 +133,4 @@ def mechanism_class(joints: MovingJoints) -> MechanismClass:
 
 def _slides(line: HingeLine) -> bool:
     """Whether a hinge slides notably too: its shear forces take some of the power."""
-    return line.slides and bool(np.nan_to_num(line.shear) >= NOTABLE)
+    return line.slides and bool(np.nan_to_num(line.shear_power_share) >= NOTABLE)

@@ -67,37 +67,26 @@ class ForceFreedom:
 
 
 @kept
-def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> ForceFreedom | None:
-    """None where it was not determined: guided blocks, symmetry, very large models, or no clear rank.
+def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> ForceFreedom | str:
+    """How far the forces may vary; where that is not determined, why, in words that follow ``as``.
 
     dimension : in which the case was solved, 2 or 3
     """
-    if _not_of_these(model) or not len(contacts):
-        return None
-    solids = solids_of(model, contacts)
-    model, contacts = solids.model, solids.contacts
-    rows = _plane_rows(contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
-    if rows is None or len(rows) * len(model.free) > MOST_EQUATIONS:
-        return None
-    bases, owner = _resultants(model, contacts, mechanics, rows)
-    matrix = _equilibrium(model, contacts, bases, owner, rows)
-    return _freedom(matrix, owner, len(contacts))
-
-
-def why_undetermined(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> str:
-    """Why ``force_freedom`` gives None, in words that follow ``as``."""
     if reason := _not_of_these(model):
         return reason
     if not len(contacts):
         return "there are no contacts"
     solids = solids_of(model, contacts)
-    rows = _plane_rows(solids.contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
+    model, contacts = solids.model, solids.contacts
+    rows = _plane_rows(contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
     if rows is None:
         return "the plane of the structure is not clear"
-    equations = len(rows) * len(solids.model.free)
+    equations = len(rows) * len(model.free)
     if equations > MOST_EQUATIONS:
         return f"it takes more than {MOST_EQUATIONS} equations of equilibrium, {equations}"
-    return "the rank of the equations of equilibrium is not clear"
+    bases, owner = _resultants(model, contacts, mechanics, rows)
+    matrix = _equilibrium(model, contacts, bases, owner, rows)
+    return _freedom(matrix, owner, len(contacts)) or "the rank of the equations of equilibrium is not clear"
 
 
 def _not_of_these(model: Model) -> str:

@@ -98,7 +98,7 @@ class HingeLine:
     share      : the largest contact speed of its interfaces over the largest of all
     slides     : closed points of it slide too
     crushes    : closed points of it crush too
-    shear      : share of the power put in that their shear forces take; nan where none is put in
+    shear_power_share : of the power put in, what their shear forces take; nan where none is put in
     """
 
     clusters: tuple[int, int]
@@ -110,7 +110,7 @@ class HingeLine:
     share: float
     slides: bool
     crushes: bool
-    shear: float
+    shear_power_share: float
 
     @property
     def length(self) -> float:
@@ -165,7 +165,7 @@ def _line(
         share=float(joints.shares[interfaces].max()),
         slides=bool(motion.slides[interfaces].any()),
         crushes=bool(motion.crushes[interfaces].any()),
-        shear=float((work.friction + work.cohesion)[interfaces].sum()) / (work.given or float("nan")),
+        shear_power_share=float((work.friction + work.cohesion)[interfaces].sum()) / (work.given or float("nan")),
     )
 
 
@@ -192,9 +192,9 @@ class SlidingPlane:
     normal     : (3,) unit, towards the cluster that slides
     direction  : (3,) unit, in which it slides over the other, in the plane
     twists     : it slides by turning about the normal; the direction is that of the mean and may mean little
-    share      : of the power put in that is dissipated there; nan where none is put in
-    shear      : the same of the shear forces alone: where joints dilate, normal forces give some or all of it back
-    speed      : the largest contact speed of its interfaces over the largest of all
+    power_share : of the power put in, what is dissipated there; nan where none is put in
+    shear_power_share : the same of the shear forces alone: where joints dilate, normal forces give some or all back
+    share      : the largest contact speed of its interfaces over the largest of all
     """
 
     clusters: tuple[int, int]
@@ -204,9 +204,9 @@ class SlidingPlane:
     normal: FloatArray
     direction: FloatArray
     twists: bool
+    power_share: float
+    shear_power_share: float
     share: float
-    shear: float
-    speed: float
 
 
 def sliding_planes(
@@ -233,7 +233,11 @@ def sliding_planes(
             same[0] = True  # one that does not travel has no way to compare
             planes.append(_plane(contacts, motion, joints, work, rest[same], normals, travel))
             rest = rest[~same]
-    return tuple(sorted(planes, key=lambda p: (-round(np.nan_to_num(p.shear), 6), -round(p.speed, 6), p.interfaces[0])))
+    return tuple(
+        sorted(
+            planes, key=lambda p: (-round(np.nan_to_num(p.shear_power_share), 6), -round(p.share, 6), p.interfaces[0])
+        )
+    )
 
 
 def _plane(
@@ -257,7 +261,7 @@ def _plane(
         normal=normals[interfaces[0]],
         direction=mean / (float(np.linalg.norm(mean)) or 1.0),
         twists=bool(motion.modes[interfaces[0]] == InterfaceMode.TWIST),
-        share=float(work.dissipated[interfaces].sum()) / given,
-        shear=shear / given,
-        speed=float(joints.shares[interfaces].max()),
+        power_share=float(work.dissipated[interfaces].sum()) / given,
+        shear_power_share=shear / given,
+        share=float(joints.shares[interfaces].max()),
     )

@@ -8,8 +8,8 @@ from typing import Any
 from mbla.results.diff.cases import CaseComparison, Figure
 from mbla.results.diff.comparison import Comparison
 from mbla.results.diff.motion import ModeComparison
-from mbla.results.records.json_record import notice_json
-from mbla.results.records.numbers import number, numbers
+from mbla.results.record.json_record import notice_json
+from mbla.results.record.json_values import number, numbers
 
 
 def comparison_json(comparison: Comparison, names: tuple[str, str]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
 from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
 from mbla.results.outcome import associative_of, extent_of, result_of
-from mbla.results.records.numbers import number as json_number
+from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
 from mbla.results.tilt_angle import angle_at, angle_bounds

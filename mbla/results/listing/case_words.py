@@ -9,7 +9,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.failure import failure_of
-from mbla.results.collapse.force_freedom import enough_of, force_freedom, why_undetermined
+from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.figure_words import figures
 from mbla.results.listing.forces import (
@@ -65,9 +65,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         work += work_lines(model, contacts, load_case, mechanics, collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
-        freedom = force_freedom(model, contacts, mechanics, dimension)
-        why = "" if freedom is not None else why_undetermined(model, contacts, mechanics, dimension)
-        reactions += freedom_lines(contacts, case, freedom, why)
+        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
         sections = [
             Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
             Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),

@@ -136,14 +136,14 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
     )
 
 
-def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | None, why: str) -> list[str]:
-    """Whether the forces are unique, or ``why`` that is not known; the option that gives their ranges if not taken."""
+def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | str) -> list[str]:
+    """Whether the forces are unique, or why that is not known; the option that gives their ranges if not taken."""
     if result_of(case) is None or not len(contacts):
         return []
     ranges = case.solution.force_ranges is None and case.solution.contact_model == "concave"
     ask = " For their ranges: analysis.force_ranges: true." if ranges else ""
-    if freedom is None:
-        return sentence(f"How far the contact forces are unique was not determined, as {why}.{ask}")
+    if isinstance(freedom, str):
+        return sentence(f"How far the contact forces are unique was not determined, as {freedom}.{ask}")
     whose = "" if case.solution.flow_rule == "associative" else " in this mechanism"
     if freedom.degree == 0:
         return sentence(f"The resultant of every interface is unique at this load factor{whose}.")

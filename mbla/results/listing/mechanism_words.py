@@ -145,7 +145,7 @@ def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPla
             point_words(model, plane.centroid),
             "twists" if plane.twists else direction_words(plane.direction, TABLE_DIGITS),
             number(float(f"{plane.area:.4g}")),
-            percent(plane.shear),
+            percent(plane.shear_power_share),
         ]
         for plane in _shown(planes)
     ]

@@ -66,11 +66,11 @@ def slide_sentences(model: Model, contacts: Contacts, failure: Failure, work: Wo
     sliding = [line for line in failure.hinge_lines if line.slides]
     texts = [_slide_sentence(model, contacts, failure, run) for run in working[:MOST_SLIDES]]
     if len(working) > MOST_SLIDES:
-        left = sum(plane.shear for run in working[MOST_SLIDES:] for plane in run)
+        left = sum(plane.shear_power_share for run in working[MOST_SLIDES:] for plane in run)
         more = counted(len(working) - MOST_SLIDES, "more movement")
         takes = "" if np.isnan(left) else f", {percent(left)} % of the work"
         texts.append(f"{more} of this kind in the table below{takes}.")
-    in_hinges = sum(line.shear for line in sliding)
+    in_hinges = sum(line.shear_power_share for line in sliding)
     if in_hinges >= UNDER_FORCE:
         slide = "slides" if len(sliding) == 1 else "slide"
         texts.append(f"{counted(len(sliding), 'hinge')} {slide} as well, {percent(in_hinges)} % of the work.")
@@ -99,7 +99,7 @@ def _runs(planes: Sequence[SlidingPlane]) -> list[list[SlidingPlane]]:
 
 def _takes_work(planes: Sequence[SlidingPlane]) -> bool:
     """Where no power is put in at all, or none is known, whatever slides is told."""
-    shear = sum(plane.shear for plane in planes)
+    shear = sum(plane.shear_power_share for plane in planes)
     return bool(np.isnan(shear) or shear >= UNDER_FORCE)
 
 
@@ -109,7 +109,7 @@ def _slide_sentence(model: Model, contacts: Contacts, failure: Failure, planes: 
     joints = sum(len(plane.interfaces) for plane in planes)
     area = sum(plane.area for plane in planes)
     where = counted(joints, "joint") + (f" in {len(planes)} planes" if len(planes) > 1 else "")
-    shear = sum(plane.shear for plane in planes)
+    shear = sum(plane.shear_power_share for plane in planes)
     share = "" if np.isnan(shear) else f", {percent(shear)} % of the work"
     does = "twists on" if first.twists else "slides over"
     way = "" if first.twists else f" along {direction_words(first.direction)}"
@@ -126,7 +126,9 @@ def _balance(failure: Failure, work: Work) -> list[str]:
     given = work.given
     if not given > 0:
         return []
-    told = sum(plane.shear for plane in failure.sliding_planes) + sum(line.shear for line in failure.hinge_lines)
+    told = sum(plane.shear_power_share for plane in failure.sliding_planes) + sum(
+        line.shear_power_share for line in failure.hinge_lines
+    )
     within = float(work.friction.sum() + work.cohesion.sum()) / given - told
     texts = [f"Sliding within the parts: {percent(within)} % of the work."] if within >= UNDER_FORCE else []
     back = -float(work.normal.sum()) / given

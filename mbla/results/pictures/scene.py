@@ -169,7 +169,8 @@ class Scene:
         if not self.is_result or solution.mechanics is None:
             return None
         dimension = 3 if solution.size is None else solution.size.dimension
-        return force_freedom(self.model, self.contacts, solution.mechanics, dimension)
+        found = force_freedom(self.model, self.contacts, solution.mechanics, dimension)
+        return None if isinstance(found, str) else found
 
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:

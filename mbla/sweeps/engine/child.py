@@ -31,7 +31,7 @@ from mbla.process.run_options import RunOptions
 from mbla.process.sharing import Memory, sharing
 from mbla.results.failures import words_of
 from mbla.results.files import OutputFolder
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run import solve_deck
@@ -185,7 +185,7 @@ class PointRunner:
             with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
                 out.write_text(f"{stem}.sta", status.getvalue())
                 write_results(results, out, deck.content.output)
-        record = results_json(results, on_demand=True)
+        record = results_json(results)
         return results.exit_code, reason_of(record), values_of(record, self._places)
 
 

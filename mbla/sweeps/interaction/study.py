@@ -18,8 +18,8 @@ from mbla.model import build_model
 from mbla.process.run_options import RunOptions
 from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
-from mbla.results.records.description import Key
-from mbla.results.records.numbers import number
+from mbla.results.record.json_values import number
+from mbla.results.record.keys import Key
 from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.engine.engine import Engine, EngineOptions, engine_for

@@ -12,9 +12,9 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
-from mbla.results.records.description import Key
-from mbla.results.records.json_record import notice_json
-from mbla.results.records.numbers import number
+from mbla.results.record.json_record import notice_json
+from mbla.results.record.json_values import number
+from mbla.results.record.keys import Key
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.fragility import fragility_keys
 from mbla.sweeps.plan import DONE, FAILED

@@ -20,8 +20,8 @@ from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
 from mbla.results.listing.answers import reaction_unit
+from mbla.results.record.json_values import number
 from mbla.results.record.scene import Values
-from mbla.results.records.numbers import number
 from mbla.solution.solution import Status
 from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.engine.engine import NOT_BEGUN, SerialEngine

@@ -15,7 +15,7 @@ from mbla.results.collapse.cracks import LEAST, touching_pairs, yield_lines
 from mbla.results.collapse.rigid_parts import part_motions
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.run import RunOptions, run
 from tests.results.collapse.solved_state import State, moved
 from tests.results.collapse.test_invariance import TURN

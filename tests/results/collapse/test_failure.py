@@ -18,7 +18,7 @@ from mbla.results.collapse.failure import NOTABLE, Failure, MovingJoints, failur
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.listing.failure_words import failure_sentences
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
 from tests.decks.folder import BENCHMARKS
@@ -131,7 +131,7 @@ def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
     assert plane.direction == pytest.approx([1, 0, 0], abs=1e-6)
     assert plane.normal == pytest.approx([0, 0, 1])
     assert plane.centroid == pytest.approx([1.5, 0.5, 1])
-    assert plane.share == pytest.approx(1.0, abs=1e-6) == plane.shear
+    assert plane.power_share == pytest.approx(1.0, abs=1e-6) == plane.shear_power_share
     assert not plane.twists
     assert failure.hinge_lines == () == failure.cracks
     text = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
@@ -302,7 +302,9 @@ def test_supports_that_give_way() -> None:
 
 def line(clusters: tuple[int, int] = (1, 0), **changes: Any) -> HingeLine:
     at, along = np.zeros(3), np.array([0.0, 1.0, 0.0])
-    one = HingeLine(clusters, np.array([0]), at, along, along, 1.0, 1.0, slides=False, crushes=False, shear=0.0)
+    one = HingeLine(
+        clusters, np.array([0]), at, along, along, 1.0, 1.0, slides=False, crushes=False, shear_power_share=0.0
+    )
     return replace(one, **changes)
 
 
@@ -325,13 +327,13 @@ def moving(*joints: HingeLine | SlidingPlane) -> MovingJoints:
         ((line((1, 0)), line((2, 1))), "hinging"),
         ((line((1, 0)), line((2, 1), share=NOTABLE / 2)), "overturning"),
         ((line(), plane()), "sliding and hinging"),
-        ((line(), plane(speed=NOTABLE / 2)), "overturning"),
+        ((line(), plane(share=NOTABLE / 2)), "overturning"),
         ((line(), plane(twists=True)), "sliding and hinging"),
         ((plane(), plane(twists=True)), "sliding"),
         ((plane(twists=True), plane(twists=True)), "twisting"),
-        ((line(slides=True, shear=2 * NOTABLE),), "sliding and hinging"),
-        ((line(slides=True, shear=NOTABLE / 2),), "overturning"),
-        ((line(slides=True, shear=float("nan")),), "overturning"),
+        ((line(slides=True, shear_power_share=2 * NOTABLE),), "sliding and hinging"),
+        ((line(slides=True, shear_power_share=NOTABLE / 2),), "overturning"),
+        ((line(slides=True, shear_power_share=float("nan")),), "overturning"),
         ((), "opening"),
     ],
 )

@@ -71,9 +71,9 @@ def numbers(state: State, old: IntArray) -> dict[str, Any]:
         "planes": [sorted(plane.interfaces.tolist()) for plane in failure.sliding_planes],
         "cracks": [sorted(crack.interfaces.tolist()) for crack in failure.cracks],
         "shares": np.array([line.share for line in failure.hinge_lines] + [crack.share for crack in failure.cracks]),
-        "work": np.array([plane.share for plane in failure.sliding_planes]),
-        "degree": None if freedom is None else freedom.degree,
-        "determined": None if freedom is None else freedom.determined.tolist(),
+        "work": np.array([plane.power_share for plane in failure.sliding_planes]),
+        "degree": None if isinstance(freedom, str) else freedom.degree,
+        "determined": None if isinstance(freedom, str) else freedom.determined.tolist(),
         "enough": [sorted(old[blocks].tolist()) for blocks in (enough.moving, enough.bearing, enough.left_out)],
         "reaction_groups": {reaction.support for reaction in reactions},
     }

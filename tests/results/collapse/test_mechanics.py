@@ -25,7 +25,7 @@ from mbla.results.collapse.mechanics import (
     work_of,
 )
 from mbla.results.listing.forces import work_lines
-from mbla.results.records.mechanism_json import mechanism_json
+from mbla.results.record.mechanism_json import mechanism_json
 from mbla.solution.solution import Mechanics
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 

@@ -18,8 +18,8 @@ from mbla.results.listing.listing import listing, verification_lines
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
 from mbla.results.listing.verdict_words import uniqueness_words
+from mbla.results.record.json_record import results_json
 from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
-from mbla.results.records.json_record import results_json
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, tower_results

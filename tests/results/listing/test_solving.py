@@ -27,7 +27,7 @@ from mbla.results.listing.solving import (
     solver_words,
 )
 from mbla.results.listing.text import MOST_ROWS, WIDTH
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.results.results import Results
 from mbla.solution.solution import PathPoint, ProgramRecord
 from tests.results.synthetic import STEP, tower_model, tower_results

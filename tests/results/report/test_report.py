@@ -15,7 +15,7 @@ from mbla.results.listing.contact_words import contact_lines
 from mbla.results.listing.model_words import model_lines, settings_lines
 from mbla.results.listing.text import Entry, Heading, Table, elements_of, number
 from mbla.results.outcome import notices_of
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.results.report import report
 from mbla.results.report.content import alarm_of
 from mbla.results.report.figures import Figure, Figures

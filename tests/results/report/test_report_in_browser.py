@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.text import number
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
 from mbla.results.report import report as report_module
 from mbla.results.report.figures import Figures
 from mbla.results.report.report import write_report

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import io
-import json
 from typing import Any
 
 import pytest
 
 from mbla.deck import read_deck
 from mbla.process.run_options import RunOptions
-from mbla.results.records.description import RUN_RECORD
-from mbla.results.records.json_record import results_json
+from mbla.results.record.json_record import results_json
+from mbla.results.record.json_values import json_line
+from mbla.results.record.keys import RUN_RECORD
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
 from mbla.sweeps.engine.child import ON_REQUEST, PointRunner, requested_only
@@ -36,7 +36,7 @@ def record_of(deck: str, settings: Settings, plan: Plan | None) -> dict[str, Any
 def shown(record: dict[str, Any]) -> list[str]:
     """Every value that does not ask for range and peak, number by number."""
     cases = [{key: value for key, value in case.items() if key not in ON_REQUEST} for case in record["cases"]]
-    return [json.dumps(part) for part in (record["model"], record["exit_code"], *cases)]
+    return [json_line({"part": part}) for part in (record["model"], record["exit_code"], *cases)]
 
 
 @pytest.mark.parametrize(("deck", "settings"), [(ARCH, SMALL_ARCH), (PLANK, {})])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from mbla.errors import Notice
-from mbla.results.records.json_record import json_line
+from mbla.results.record.json_values import json_line
 from mbla.sweeps.fragility import fragility_json, fragility_of
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, SweepRun, sweep_json
 from tests.sweeps.tables.synthetic import RUN, table

@@ -26,7 +26,7 @@ def _imported(drawing: bool) -> None:
     import mbla.results.exit_status
     import mbla.results.hdf5.result_file
     import mbla.results.listing.listing
-    import mbla.results.records.json_record
+    import mbla.results.record.json_record
     import mbla.results.tables.tables
     import mbla.results.verify.rebuilt
     import mbla.results.verify.verify_file

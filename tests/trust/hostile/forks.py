@@ -100,7 +100,7 @@ def import_everything() -> None:
     import mbla.deck
     import mbla.results.listing.listing
     import mbla.results.listing.summary
-    import mbla.results.records.json_record
+    import mbla.results.record.json_record
     import mbla.run
     import mbla.sweeps.command
     import mbla.sweeps.file.read

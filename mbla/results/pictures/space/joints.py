@@ -65,13 +65,13 @@ def told_joints(failure: Failure) -> Told:
     """The hinge lines and sliding planes that move most."""
     most = max((line.share for line in failure.hinge_lines), default=0.0) or 1.0
     lines = [line for line in failure.hinge_lines if line.share >= LEAST * most][:MOST_LINES]
-    fastest = max((plane.speed for plane in failure.sliding_planes), default=0.0) or 1.0
-    planes = [plane for plane in failure.sliding_planes if plane.speed >= LEAST * fastest][:MOST_PLANES]
+    fastest = max((plane.share for plane in failure.sliding_planes), default=0.0) or 1.0
+    planes = [plane for plane in failure.sliding_planes if plane.share >= LEAST * fastest][:MOST_PLANES]
     return Told(
         hinges=np.concatenate([np.zeros(0, dtype=np.int64), *(line.interfaces for line in lines)]),
         shares=np.repeat([line.share / most for line in lines], [len(line.interfaces) for line in lines]),
         planes=tuple(plane.interfaces for plane in planes),
-        speeds=np.array([plane.speed / fastest for plane in planes]),
+        speeds=np.array([plane.share / fastest for plane in planes]),
     )
 
 

@@ -8,16 +8,14 @@ named, at a place of the result file, or all of a load case. Rows of ``check`` a
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib.resources import files
 
 from mbla.deck.units import Units
 from mbla.results.record.cases import CASE_COLUMNS
 from mbla.results.record.quantity import Quantity, UnitKind, unit_text
-from mbla.results.record.stored import STORED_BY_PATH
+from mbla.results.record.stored import STORED_BY_PATH, rows_of
 
 KINDS = {"float": "number?", "int": "integer", "bool": "boolean", "text": "string?"}
 """types in JSON: numbers must be finite there, and texts not empty"""
@@ -47,8 +45,7 @@ class Key:
 
 def _keys() -> Iterator[tuple[str, Key]]:
     """Every key, and ``check`` where it is of a check alone."""
-    text = files("mbla.results.records").joinpath("keys.csv").read_text(encoding="utf-8")
-    for row in csv.DictReader(text.splitlines()):
+    for row in rows_of("keys.csv"):
         for path in _expanded(row["path"]):
             of = "check" if path.startswith(CHECK) else row["of"]
             if row["kind"] == "columns":

@@ -2,37 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from mbla.program.reductions.steps import ReductionStep
 from mbla.results.collapse.mechanics import guide_reactions, support_reactions
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.solving import solver_json
 from mbla.results.outcome import associative_of, best_iterate, result_of
 from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.json_values import as_json, number, numbers
+from mbla.results.record.mechanism_json import mechanism_json
 from mbla.results.record.scene import Column, Scene
-from mbla.results.records.mechanism_json import mechanism_json, mechanism_on_demand
-from mbla.results.records.numbers import number, numbers
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.verification.statics import power
 
 
-def case_json(scene: Scene, *, on_demand: bool = False) -> dict[str, Any]:
-    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results.
-
-    on_demand : values of the mechanism, which take longer than all others, are found when they are asked for
-    """
+def case_json(scene: Scene) -> dict[str, Any]:
+    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
     case = scene.case
     assert case is not None  # the record of a model alone has no cases
-    mechanism = mechanism_on_demand if on_demand else mechanism_json
     solution, mechanics, model = case.solution, result_of(case), scene.model
     dimension = 3 if solution.size is None else solution.size.dimension
     solver = float(sum(program.seconds for program in solution.programs))
@@ -47,12 +40,12 @@ def case_json(scene: Scene, *, on_demand: bool = False) -> dict[str, Any]:
         "standing": _standing(model, solution),
         "certificate": _certificate(solution),
         "solver": solver_json(solution),
-        "size": None if solution.size is None else asdict(solution.size),
-        "reductions": reductions_json(solution.reductions),
-        "path": [{name: finite(value) for name, value in asdict(point).items()} for point in solution.path],
+        "size": as_json(solution.size),
+        "reductions": as_json(solution.reductions),
+        "path": as_json(solution.path),
         "mechanism": None
         if mechanics is None
-        else mechanism(model, scene.contacts, case.load_case, mechanics, dimension),
+        else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension),
         "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
@@ -70,11 +63,6 @@ def _value(column: Column, scene: Scene) -> Any:
     if quantity.kind == "text":
         return str(values[0]) or None
     return number(values[0]) if quantity.kind == "float" else values[0].item()
-
-
-def finite(value: float | int) -> float | int | None:
-    """The same, whole numbers left whole."""
-    return value if isinstance(value, int) else number(value)
 
 
 def residuals_json(checks: Checks) -> dict[str, float | None]:
@@ -160,16 +148,6 @@ def _reactions(scene: Scene, case: CaseResult, mechanics: Mechanics) -> dict[str
 def _wrench_json(wrench: FloatArray) -> dict[str, Any]:
     wrench = wrench + 0.0  # no -0.0
     return {"force": numbers(wrench[:3]), "moment": numbers(wrench[3:])}
-
-
-def reductions_json(steps: Sequence[ReductionStep]) -> list[dict[str, Any]]:
-    """An object for each reduction, in the order in which they are applied."""
-    return [_step(step) for step in steps]
-
-
-def _step(step: ReductionStep) -> dict[str, Any]:
-    sizes = {"before": dict(vars(step.before)), "after": dict(vars(step.after))}
-    return {"name": step.name, "state": step.state.value, "found": step.found, **sizes}
 
 
 def series_json(model: Model, series: Series) -> dict[str, Any]:

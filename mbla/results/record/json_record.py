@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -13,18 +12,15 @@ from mbla.model.model import Model
 from mbla.results.hdf5.content import as_told
 from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
 from mbla.results.provenance import CaseNeeds
+from mbla.results.record.case_json import case_json, series_json
+from mbla.results.record.json_values import as_json, number, numbers
 from mbla.results.record.scene import scene_of
-from mbla.results.records.case_json import case_json, reductions_json, series_json
-from mbla.results.records.numbers import number, numbers
 from mbla.results.results import Results
 from mbla.results.series import series_of
 
 
-def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]:
-    """The record of a run; values that do not exist are None.
-
-    on_demand : for who reads some values only: those of mechanisms are found when they are asked for
-    """
+def results_json(results: Results) -> dict[str, Any]:
+    """The record of a run; values that do not exist are None, those of mechanisms are found when they are asked for."""
     return {
         "mbla": results.provenance.get("mbla", __version__),
         "deck": results.deck.name,
@@ -34,7 +30,7 @@ def results_json(results: Results, *, on_demand: bool = False) -> dict[str, Any]
         "model": {"standing": standing_of(results.cases), "dimension": dimension_of(results.cases)}
         | model_json(results.model)
         | contacts_json(results),
-        "cases": [case_json(scene_of(results, case), on_demand=on_demand) for case in results.cases],
+        "cases": [case_json(scene_of(results, case)) for case in results.cases],
         "series": [series_json(results.model, series) for series in series_of(results.cases)],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in notices_of(results)],
@@ -67,7 +63,7 @@ def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, An
 
 
 def _needs(needs: CaseNeeds) -> dict[str, Any]:
-    return dict(needs.counts) | {"reductions": reductions_json(needs.reductions)}
+    return dict(needs.counts) | {"reductions": as_json(needs.reductions)}
 
 
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:
@@ -77,11 +73,6 @@ def verification_json(results: Results, disagreements: Sequence[str]) -> dict[st
         "disagreements": list(disagreements),
         "not_verified": [*as_told(results), *unproved_words(results.cases)],
     }
-
-
-def json_line(record: dict[str, Any]) -> str:
-    """One line of JSON, without newline; ValueError if a number in it is not finite."""
-    return json.dumps(record, ensure_ascii=False, allow_nan=False, separators=(", ", ": "))
 
 
 def notice_json(notice: Notice) -> dict[str, str]:

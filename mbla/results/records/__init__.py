@@ -1,1 +1,0 @@
-"""Results as JSON: the object that ``--json`` prints and ``STEM.json`` holds."""
