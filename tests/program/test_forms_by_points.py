@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.fixed_mechanism import PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import friction_polygon, kinematic_form
 from mbla.program.program import Program
 from mbla.program.resultants.assemble import assemble_convex, convex_form
 from mbla.program.resultants.static import convex_proximal_form
-from mbla.program.static import LEAST_LIMIT, gravity_form, proximal_data, proximal_form
+from mbla.program.static import PointMotion, fixed_mechanism_form, gravity_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from tests.line import BLOCK, WALL, line_of
 from tests.program.associative_static import associative_static_form
@@ -63,29 +62,6 @@ def test_gravity_form(components: int) -> None:
         assert form.cone_program.quadratic.tolist() == [1.0] * components
         seen.add(within(program, forces))
     assert seen == {False, True}
-
-
-@BOTH
-def test_proximal_form(components: int) -> None:
-    """Shear within given limits, normal forces within those of the law; the cost is least at the anchor."""
-    draw = np.random.default_rng(3)
-    for program, forces in each_point(components):
-        anchor, limit = random_forces(program, draw), draw.uniform(-0.25, 1.0, 1)
-        form = proximal_form(program, 2.0)
-        cost, rhs = proximal_data(form, 2.0, anchor, limit)
-        step = replace(form.cone_program, cost=cost, rhs=rhs)
-        x = np.append(forces.ravel(), 0.7)
-        law = program.limits
-        allowed = -law.tension[0] <= forces[0, 0] <= law.compression[0]
-        allowed &= bool(np.linalg.norm(forces[0, 1:]) <= max(limit[0], LEAST_LIMIT))
-        assert (least_room(step, x) >= 0) == allowed
-        np.testing.assert_allclose(slack(step, x)[:12], balance(program, forces, 0.7))
-        assert form.load_factor(x) == 0.7
-        assert np.array_equal(form.forces(x), forces)
-        assert step.quadratic is not None
-        value = cost @ x + 0.5 * step.quadratic @ x**2
-        apart = ((forces - anchor) ** 2).sum() - (anchor**2).sum()
-        assert value == pytest.approx(apart - 0.7)
 
 
 @BOTH
@@ -234,7 +210,6 @@ def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> N
             kinematic_form(program, program.limits).cone_program,
             associative_static_form(program).cone_program,
             gravity_form(program).cone_program,
-            proximal_form(program, 1.0).cone_program,
             fixed_mechanism_form(program, still).cone_program,
             convex_form(convex).cone_program,
             convex_proximal_form(convex, 1.0).cone_program,

@@ -20,7 +20,9 @@ from mbla.program.kinematic import ConeProgram
 from mbla.program.resultants.assemble import ConvexProgram
 from mbla.program.resultants.conditions import MN, T1, T2, ConeRows
 from mbla.program.resultants.crushing import crushing_cones
-from mbla.program.static import LEAST_LIMIT
+
+LEAST_LIMIT = 1e-12
+"""Least radius of a cone of given size, in mean block loads: a cone that is a point has no inside to walk in."""
 
 
 @dataclass(frozen=True)

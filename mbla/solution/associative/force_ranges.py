@@ -1,7 +1,7 @@
 """How far the total normal force of each interface can range at the load factor of associative flow.
 
 The forces that carry the load factor are those that fit the mechanism, whichever of its mechanisms was found
-(complementary slackness; :mod:`mbla.program.fixed_mechanism`). Over them the sum of the normal forces of an interface
+(complementary slackness; :mod:`mbla.program.static`). Over them the sum of the normal forces of an interface
 has a least and a greatest value: two programs for each interface, linear ones in a plane, that differ in their cost
 alone. A range without an end means that the interface can be pressed as hard as one likes: what it carries is not
 decided by the loads.
@@ -21,9 +21,9 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
-from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.program.static import PointMotion, StaticForm, fixed_mechanism_form
 from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, is_linear
 from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
@@ -136,7 +136,7 @@ def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> Co
     return interior_point_solver(cone_program, settings, log, has_inside=False)
 
 
-def _with_factor(form: FixedMechanismForm, state: LawState) -> ConeProgram:
+def _with_factor(form: StaticForm, state: LawState) -> ConeProgram:
     """The load factor bounded from below where a mechanism bounds it from above, given where nothing moves."""
     data, program = form.cone_program, form.program
     row = sp.csr_array(([1.0], ([0], [data.matrix.shape[1] - 1])), shape=(1, data.matrix.shape[1]))

@@ -1,7 +1,7 @@
 """How far the load factor can range for one mechanism of a flow rule without normality.
 
 Without normality the static theorem does not hold: the same mechanism belongs to many systems of forces, and they to
-different load factors. For a given mechanism those forces form a convex set (:mod:`mbla.program.fixed_mechanism`), so
+different load factors. For a given mechanism those forces form a convex set (:mod:`mbla.program.static`), so
 that the least and the greatest load factor are two cone programs. Each end is a state of the exact law of its own: its
 forces with the velocities of the mechanism. On the walls of Ferris and Tin-Loi the range did not depend on how the
 mechanism was found, nor on the number of contact points in a joint, while the load factor itself did. Elsewhere another
@@ -17,8 +17,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Message
-from mbla.program.fixed_mechanism import FixedMechanismForm, fixed_mechanism_form
 from mbla.program.program import Program
+from mbla.program.static import StaticForm, fixed_mechanism_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
@@ -113,7 +113,7 @@ class _Search:
     pending: list[str] = field(default_factory=lambda: list(SIGNS))
     records: list[ProgramRecord] = field(default_factory=list)
 
-    def add(self, kind: str, form: FixedMechanismForm, solution: ConeSolution) -> None:
+    def add(self, kind: str, form: StaticForm, solution: ConeSolution) -> None:
         """Take what a program says of one end; it stays pending where its forces miss the law."""
         found = solution.status in (Status.SOLVED, Status.APPROXIMATE)
         status = STATIC_STATUS.get(solution.status, solution.status)
@@ -143,7 +143,7 @@ class _Search:
         else:
             self.ends[kind] = end if short <= 0.0 else found
 
-    def _record(self, kind: str, status: Status, form: FixedMechanismForm, solution: ConeSolution, found: bool) -> None:
+    def _record(self, kind: str, status: Status, form: StaticForm, solution: ConeSolution, found: bool) -> None:
         value = self.program.scaling.load_factor(form.load_factor(solution.x)) if found else np.nan
         number = self.first_program + len(self.records)
         self.records.append(replace(solution.record(number, f"range, {kind}", value), status=status))

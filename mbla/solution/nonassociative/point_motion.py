@@ -30,9 +30,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.program.fixed_mechanism import PointMotion
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.program.static import PointMotion
 from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings

@@ -28,9 +28,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import LowestScheme
 from mbla.errors import Message
-from mbla.program.fixed_mechanism import FixedMechanismForm, PointMotion, fixed_mechanism_form
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
+from mbla.program.static import PointMotion, StaticForm, fixed_mechanism_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.factor_range import (
@@ -189,9 +189,7 @@ class _Search:
         solution = self._solve(form, extreme, settings)
         return self.here.forces if solution is None else form.forces(np.append(solution.x, factor))
 
-    def _solve(
-        self, form: FixedMechanismForm, cone_program: ConeProgram, settings: SolverSettings
-    ) -> ConeSolution | None:
+    def _solve(self, form: StaticForm, cone_program: ConeProgram, settings: SolverSettings) -> ConeSolution | None:
         number = len(self.records) + 1
         solution = interior_point_solver(cone_program, settings, self.unlogged.append, has_inside=False).solve(
             number, form.program.scaling.live

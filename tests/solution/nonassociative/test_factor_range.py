@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from mbla.program.fixed_mechanism import fixed_mechanism_form
 from mbla.program.program import Program
+from mbla.program.static import fixed_mechanism_form
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.factor_range import FactorRange, factor_range, unbalanced
 from mbla.solution.nonassociative.law_state import LawState

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.program.static import gravity_form, proximal_data, proximal_form
+from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative.interior_joints import Iterate, Joints, StepProblem, exact_law, lagged_law
@@ -17,6 +17,7 @@ from mbla.solution.nonassociative.joint_law import exact_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
 from tests.line import BLOCK, WALL, line_of
+from tests.program.associative_static import associative_static_form
 from tests.solution.nonassociative.test_dilatancy import wall_3
 
 SETTINGS = SolverSettings(1e-10)
@@ -44,12 +45,13 @@ def test_the_convex_step_is_that_of_the_cone_program(program: Program) -> None:
     law = lagged_law(program, np.zeros(program.n_points), anchor)
     ours = interior_step(stiffness_of(program), law, anchor, rho, 0.0, silent, 1)
     assert ours.converged
-    form = proximal_form(program, rho)
-    cost, rhs = proximal_data(form, rho, anchor, law.offset)
-    solver = ClarabelProgram(replace(form.cone_program, cost=cost, rhs=rhs), SETTINGS, silent)
+    lagged = replace(program.limits, friction=np.zeros(program.n_points), cohesion=np.maximum(law.offset, 1e-12))
+    form = associative_static_form(replace(program, limits=lagged))
+    cost, quadratic = np.append(-rho * anchor.ravel(), -1.0), np.append(np.full(anchor.size, rho), 0.0)
+    solver = ClarabelProgram(replace(form.cone_program, cost=cost, quadratic=quadratic), SETTINGS, silent)
     theirs = solver.solve(1, 1.0)
-    assert ours.load_factor == pytest.approx(form.load_factor(theirs.x), rel=1e-6)
-    assert ours.forces == pytest.approx(form.forces(theirs.x), abs=1e-3 * np.abs(anchor).max())
+    assert ours.load_factor == pytest.approx(theirs.x[-1], rel=1e-6)
+    assert ours.forces == pytest.approx(form.contact_forces(theirs.x), abs=1e-3 * np.abs(anchor).max())
 
 
 @pytest.mark.parametrize("program", [wall(), wall(*MORTAR), wall_3()], ids=["dry", "mortar", "planar"])
