@@ -87,8 +87,7 @@ def add_diff(commands: Any) -> None:
 def diff(options: argparse.Namespace) -> int:
     """Print what differs; status 4 only where it is asked for."""
     with loading():
-        from mbla.results.diff.comparison import compare_results
-        from mbla.results.diff.records import comparison_json
+        from mbla.results.diff.comparison import compare_results, comparison_json
         from mbla.results.diff.words import comparison_text
         from mbla.results.hdf5.result_file import read_results_hdf5
         from mbla.results.record.json_values import json_line

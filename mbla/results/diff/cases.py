@@ -1,4 +1,4 @@
-"""One load case in two results: status, figures, mechanism, modes, reactions, time."""
+"""One load case in two results: what the record says of it, figure by figure, and mechanism, modes, reactions, time."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
 from mbla.results.diff.matching import Factors, Matching
 from mbla.results.diff.motion import ModeComparison, angle_between, compare_modes
-from mbla.results.listing.answers import reaction_of, reaction_unit
-from mbla.results.outcome import associative_of, extent_of, law_residual, least_and_greatest, range_of, result_of
+from mbla.results.outcome import law_residual, result_of
+from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.quantity import unit_text
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.tilt_angle import angle_of
 from mbla.solution.solution import Mechanics, Status
 
 LEAST_TOLERANCE = 1e-6
@@ -27,6 +28,55 @@ ZERO = 1e-3
 NOISE = 1e-9
 """Share of the loads below which a difference of reactions is rounding."""
 
+COMPARED = (
+    "load_factor",
+    "angle",
+    "reaction_force",
+    "reaction_moment",
+    "associative_load_factor",
+    "static_bound",
+    "kinematic_bound",
+    "least_load_factor",
+    "greatest_load_factor",
+    "range_lower",
+    "range_upper",
+    "peak_load_factor",
+)
+"""figures of the record that are compared; of the first four the one that is asked for"""
+COLUMNS = {
+    name: (column, place)
+    for column in CASE_COLUMNS
+    for place, name, _ in column.quantity.components()
+    if name in COMPARED
+}
+"""column of each, and its place in it"""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A quantity of the record in A and in B, both in the unit of A; nan where there is none.
+
+    difference : (B - A) over A, at least over ``least``, over B where A is zero; nan where one of them is missing
+    same       : within the tolerance, or missing in both
+    """
+
+    name: str
+    unit: str | None
+    values: tuple[float, float]
+    difference: float
+    tolerance: float
+    same: bool
+
+
+def figure(name: str, unit: str | None, values: tuple[float, float], tolerance: float, least: float = 0.0) -> Figure:
+    """The difference of two values against a relative tolerance; ``least`` is the size below which they count as it."""
+    first, second = values
+    if math.isnan(first) or math.isnan(second):
+        return Figure(name, unit, values, math.nan, tolerance, math.isnan(first) and math.isnan(second))
+    size = max(abs(first), least) or abs(second)
+    difference = (second - first) / size if size > 0.0 else 0.0
+    return Figure(name, unit, values, difference, tolerance, abs(difference) <= tolerance)
+
 
 @dataclass(frozen=True)
 class ReactionChange:
@@ -37,36 +87,46 @@ class ReactionChange:
 
 
 @dataclass(frozen=True)
-class CaseComparison:
-    """What differs in a load case.
+class MotionComparison:
+    """Mechanisms.
 
-    settings  : flow rule and scheme in A and in B
-    answers   : load factor, angle and reaction, those that the case has
-    figures   : least and greatest found, associative factor, bounds, range and peak
-    angle     : degrees between the mechanisms; None where they cannot be compared
-    angle_of  : what is compared: ``mechanism``, or ``motion without equilibrium``; why not where it is not
+    angle    : degrees between them, with its cosine; None where they cannot be compared
+    compared : what is: ``mechanism``, or ``motion without equilibrium``; why not where it is not
+    """
+
+    angle: float | None
+    cosine: float | None
+    compared: str
+
+
+@dataclass(frozen=True)
+class CaseComparison:
+    """What differs in a load case; pairs are of A and of B.
+
+    flow_rule : with scheme and contact model
+    answers   : load factor, angle or reaction
+    figures   : what else is known of the load factor
     modes     : None where one of the two has no mechanism that is a result
     reactions : supports whose force differs, the largest change first
     load      : size of the loads on free blocks in A, to which changes of reactions are relative
-    seconds   : in A and in B
+    time      : seconds that it took to solve
     """
 
     name: str
-    statuses: tuple[Status, Status]
-    rules: tuple[str, str]
+    status: tuple[Status, Status]
+    flow_rule: tuple[str, str]
     answers: tuple[Figure, ...]
     figures: tuple[Figure, ...]
-    angle: float | None
-    angle_of: str
+    mechanism: MotionComparison
     modes: ModeComparison | None
     reactions: tuple[ReactionChange, ...]
     load: float
-    seconds: tuple[float, float]
+    time: tuple[float, float]
 
     @property
     def differs(self) -> bool:
         """Whether status or answer do; forces, modes and bounds may differ where these do not."""
-        return self.statuses[0] is not self.statuses[1] or not all(answer.same for answer in self.answers)
+        return self.status[0] is not self.status[1] or not all(answer.same for answer in self.answers)
 
 
 def accuracy_of(case: CaseResult) -> float:
@@ -76,10 +136,8 @@ def accuracy_of(case: CaseResult) -> float:
 
 
 def compare_cases(
-    first: Results,
-    case: CaseResult,
-    second: Results,
-    other: CaseResult,
+    results: tuple[Results, Results],
+    cases: tuple[CaseResult, CaseResult],
     matching: Matching,
     factors: Factors,
     tolerance: float | None = None,
@@ -89,25 +147,21 @@ def compare_cases(
     tolerance : relative, of answers; None for the sum of what the two are good to, at least 1e-6
     """
     if tolerance is None:
-        tolerance = max(accuracy_of(case) + accuracy_of(other), LEAST_TOLERANCE)
-    own, its = result_of(case), result_of(other)
-    angle, what = _angle(first, case, second, other, matching, factors.length)
-    modes = None
-    if own is not None and its is not None:
-        modes = compare_modes(first, (case, other), second, (own, its), matching, factors.length)
-    changes, load = _reactions(first, case, second, other, matching, factors)
+        tolerance = max(sum(map(accuracy_of, cases)), LEAST_TOLERANCE)
+    own, its = (result_of(case) for case in cases)
+    answer, figures = _figures(results, cases, factors, tolerance)
+    changes, load = _reactions(results, cases, matching, factors)
     return CaseComparison(
-        name=case.load_case.name,
-        statuses=(case.status, other.status),
-        rules=(_rule(case), _rule(other)),
-        answers=_answers(first.model, case, other, factors, tolerance),
-        figures=_figures(first.model, case, other, tolerance),
-        angle=angle,
-        angle_of=what,
-        modes=modes,
+        name=cases[0].load_case.name,
+        status=(cases[0].status, cases[1].status),
+        flow_rule=(_rule(cases[0]), _rule(cases[1])),
+        answers=(answer,),
+        figures=figures,
+        mechanism=_motions(results[0].model, cases, matching, factors.length),
+        modes=None if own is None or its is None else compare_modes(results, cases, matching, factors.length),
         reactions=changes,
         load=load,
-        seconds=(case.solution.seconds, other.solution.seconds),
+        time=(cases[0].solution.seconds, cases[1].solution.seconds),
     )
 
 
@@ -117,24 +171,40 @@ def _rule(case: CaseResult) -> str:
     return ", ".join(word for word in words if word)
 
 
-def _factor(mechanics: Mechanics | None) -> float:
-    return math.nan if mechanics is None else mechanics.load_factor
+def _figures(
+    results: tuple[Results, Results], cases: tuple[CaseResult, CaseResult], factors: Factors, tolerance: float
+) -> tuple[Figure, tuple[Figure, ...]]:
+    """What a user asks of the case, and the figures beside it that one of the two has."""
+    scenes = [scene_of(*each) for each in zip(results, cases, strict=True)]
+    model, load_case = results[0].model, cases[0].load_case
+
+    def compared(name: str) -> Figure:
+        unit = COLUMNS[name][0].quantity.unit
+        values = _value(scenes[0], name), _value(scenes[1], name) * factors.of(unit)
+        least = 0.0 if unit == "degree" else least_factor(model, load_case)
+        if load_case.settlement is not None and unit in ("force", "moment"):
+            least = ZERO * load_case.settlement.unit
+        return figure(name, None if unit == "1" else unit_text(unit, model.units), values, tolerance, least)
+
+    asked = {_asked(case.load_case) for case in cases}
+    answer = compared(asked.pop() if len(asked) == 1 else "load_factor")
+    several = any(_value(each, "least_load_factor") < _value(each, "greatest_load_factor") for each in scenes)
+    further = [name for name in COMPARED[4:] if several or name not in ("least_load_factor", "greatest_load_factor")]
+    return answer, tuple(found for found in map(compared, further) if not np.isnan(found.values).all())
 
 
-def _answers(
-    model: Model, case: CaseResult, other: CaseResult, factors: Factors, tolerance: float
-) -> tuple[Figure, ...]:
-    """What a user asks of the case; a reaction is converted, load factors and angles are pure numbers."""
-    own, its = case.load_case, other.load_case
-    if own.settlement is not None and its.settlement is not None and own.settlement.turns == its.settlement.turns:
-        scale = factors.force * (factors.length if own.settlement.turns else 1.0)
-        values = [math.nan if value is None else value for value in (reaction_of(case), reaction_of(other))]
-        least, unit = ZERO * own.settlement.unit, reaction_unit(model, own.settlement)
-        return (figure("reaction", unit, values[0], values[1] * scale, tolerance, least),)
-    if own.tilt is not None and its.tilt is not None:
-        return (figure("angle", "degree", angle_of(case), angle_of(other), tolerance),)
-    least = least_factor(model, own)
-    return (figure("load factor", "", _factor(result_of(case)), _factor(result_of(other)), tolerance, least),)
+def _asked(load_case: LoadCase) -> str:
+    """The quantity that answers a load case."""
+    if load_case.settlement is not None:
+        return "reaction_moment" if load_case.settlement.turns else "reaction_force"
+    return "load_factor" if load_case.tilt is None else "angle"
+
+
+def _value(scene: Scene, name: str) -> float:
+    """A figure of a load case; nan where there is none."""
+    column, place = COLUMNS[name]
+    values = column.of(scene)
+    return math.nan if values is None else float(values[0][place])
 
 
 def least_factor(model: Model, load_case: LoadCase) -> float:
@@ -143,61 +213,42 @@ def least_factor(model: Model, load_case: LoadCase) -> float:
     return ZERO * dead / live if live > 0.0 else 0.0
 
 
-def _figures(model: Model, case: CaseResult, other: CaseResult, tolerance: float) -> tuple[Figure, ...]:
-    """Figures beside the answer that one of the two has."""
-    least = least_factor(model, case.load_case)
-    none = (math.nan, math.nan)
-    ranges = [range_of(each) or none for each in (case, other)]
-    several = extent_of(model, case) is not None or extent_of(model, other) is not None
-    extents = [least_and_greatest(model, each) if several else none for each in (case, other)]
-    values = {
-        "associative load factor": [_factor(associative_of(each)) for each in (case, other)],
-        "static bound": [each.checks.static_bound for each in (case, other)],
-        "kinematic bound": [each.checks.kinematic_bound for each in (case, other)],
-        "least load factor found": [ends[0] for ends in extents],
-        "greatest load factor found": [ends[1] for ends in extents],
-        "range, lower end": [ends[0] for ends in ranges],
-        "range, upper end": [ends[1] for ends in ranges],
-        "peak": [each.checks.peak_load_factor for each in (case, other)],
-    }
-    return tuple(
-        figure(name, "", pair[0], pair[1], tolerance, least)
-        for name, pair in values.items()
-        if not (math.isnan(pair[0]) and math.isnan(pair[1]))
-    )
-
-
-def _angle(
-    first: Results, case: CaseResult, second: Results, other: CaseResult, matching: Matching, length: float
-) -> tuple[float | None, str]:
+def _motions(model: Model, cases: tuple[CaseResult, CaseResult], matching: Matching, length: float) -> MotionComparison:
     """Angle between mechanisms that are results, or between motions that prove the lack of equilibrium."""
     if not matching.comparable:
-        return None, f"only {min(matching.shares):.0%} of the volume has a match in the other"
-    own, its = result_of(case), result_of(other)
-    if own is not None and its is not None:
-        motions, what = (own.mechanism, its.mechanism), "mechanism"
-    elif case.status is other.status is Status.NO_EQUILIBRIUM:
-        if case.solution.certificate is None or other.solution.certificate is None:
-            return None, "no motion is given"
-        motions, what = (case.solution.certificate, other.solution.certificate), "motion without equilibrium"
-    else:
-        without = [name for name, found in (("A", own), ("B", its)) if found is None]
-        return None, f"{' and '.join(without)} {'has' if len(without) == 1 else 'have'} no mechanism that is a result"
-    angle = angle_between(first.model.blocks, motions[0], motions[1], matching, length)
-    return angle, what if angle is not None else "a motion is zero"
+        words = f"only {min(matching.shares):.0%} of the volume has a match in the other"
+        return MotionComparison(None, None, words)
+    found = [result_of(case) for case in cases]
+    motions = [None if mechanics is None else mechanics.mechanism for mechanics in found]
+    what = "mechanism"
+    if all(case.status is Status.NO_EQUILIBRIUM for case in cases):
+        motions, what = [case.solution.certificate for case in cases], "motion without equilibrium"
+        if any(motion is None for motion in motions):
+            return MotionComparison(None, None, "no motion is given")
+    if motions[0] is None or motions[1] is None:
+        without = [letter for letter, motion in zip("AB", motions, strict=True) if motion is None]
+        words = f"{' and '.join(without)} {'has' if len(without) == 1 else 'have'} no mechanism that is a result"
+        return MotionComparison(None, None, words)
+    angle = angle_between(model.blocks, motions[0], motions[1], matching, length)
+    if angle is None:
+        return MotionComparison(None, None, "a motion is zero")
+    return MotionComparison(angle, math.cos(math.radians(angle)), what)
 
 
 def _reactions(
-    first: Results, case: CaseResult, second: Results, other: CaseResult, matching: Matching, factors: Factors
+    results: tuple[Results, Results], cases: tuple[CaseResult, CaseResult], matching: Matching, factors: Factors
 ) -> tuple[tuple[ReactionChange, ...], float]:
     """Supports whose force changes by more than rounding, the largest change first, and the size of the loads."""
-    own, its = result_of(case), result_of(other)
+    own, its = (result_of(case) for case in cases)
     if own is None or its is None:
         return (), 0.0
-    names = _names_in(first.model, second.model, matching)
-    a = _forces(first, case, own, {})
-    b = {name: factors.force * force for name, force in _forces(second, other, its, names).items()}
-    load = float(np.linalg.norm(load_on_structure(first.model, case.load_case, own.load_factor)[:3]))
+    first, second = results[0].model, results[1].model
+    a = _forces(results[0], cases[0], own)
+    names = {  # grounds are named by coordinates, blocks may have changed their order
+        second.body_name(int(other)): first.body_name(body) for body, other in enumerate(matching.bodies) if other >= 0
+    }
+    b = {names.get(name, name): factors.force * force for name, force in _forces(results[1], cases[1], its).items()}
+    load = float(np.linalg.norm(load_on_structure(first, cases[0].load_case, own.load_factor)[:3]))
     none = np.zeros(3)
     changes = [ReactionChange(name, b.get(name, none) - a.get(name, none)) for name in dict.fromkeys([*a, *b])]
     sizes = [float(np.linalg.norm(change.change)) for change in changes]
@@ -205,43 +256,10 @@ def _reactions(
     return tuple(changes[row] for row in order), load
 
 
-def _forces(results: Results, case: CaseResult, mechanics: Mechanics, names: dict[str, str]) -> dict[str, FloatArray]:
-    """Force of each support on the structure, under the name that A has for it."""
+def _forces(results: Results, case: CaseResult, mechanics: Mechanics) -> dict[str, FloatArray]:
+    """Force of each support on the structure, (3,), by its name."""
     reactions = (
         *support_reactions(results.model, results.contacts, mechanics.contact_forces),
         *guide_reactions(results.model, results.contacts, case.load_case, mechanics),
     )
-    return {names.get(reaction.support, reaction.support): reaction.wrench[:3] for reaction in reactions}
-
-
-def _names_in(first: Model, second: Model, matching: Matching) -> dict[str, str]:
-    """Name in A of bodies of B: grounds are named by coordinates, blocks may have changed their order."""
-    return {
-        second.body_name(int(other)): first.body_name(body) for body, other in enumerate(matching.bodies) if other >= 0
-    }
-
-
-@dataclass(frozen=True)
-class Figure:
-    """Values in A and in B, both in the unit of A; nan where there is none.
-
-    difference : (B - A) over A, at least over ``least``, over B where A is zero; nan where one of them is missing
-    same       : within the tolerance, or missing in both
-    """
-
-    name: str
-    unit: str
-    first: float
-    second: float
-    difference: float
-    tolerance: float
-    same: bool
-
-
-def figure(name: str, unit: str, first: float, second: float, tolerance: float, least: float = 0.0) -> Figure:
-    """The difference of two values against a relative tolerance; ``least`` is the size below which they count as it."""
-    if math.isnan(first) or math.isnan(second):
-        return Figure(name, unit, first, second, math.nan, tolerance, math.isnan(first) and math.isnan(second))
-    size = max(abs(first), least) or abs(second)
-    difference = (second - first) / size if size > 0.0 else 0.0
-    return Figure(name, unit, first, second, difference, tolerance, abs(difference) <= tolerance)
+    return {reaction.support: reaction.wrench[:3] for reaction in reactions}

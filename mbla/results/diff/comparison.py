@@ -1,78 +1,96 @@
-"""Two results side by side: decks, settings, models and load cases."""
+"""Two results side by side: decks, settings, models and load cases; ``mbla diff --json`` prints its fields."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import unified_diff
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 
+from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.results.diff.cases import CaseComparison, Figure, compare_cases, figure
 from mbla.results.diff.matching import SAME_PLACE, Factors, Matching, factors_between, match_models
 from mbla.results.outcome import notices_of
+from mbla.results.record.json_record import contacts_json, model_json, notice_json
+from mbla.results.record.json_values import as_json
+from mbla.results.record.keys import RECORD
+from mbla.results.record.quantity import UnitKind, unit_text
+from mbla.results.record.stored import STORED_BY_PATH
 from mbla.results.results import Results
-
-T = TypeVar("T")
 
 SAME_TOTAL = 1e-9
 """Relative difference of weights, volumes and strengths that is rounding of units."""
+TOTALS = ("blocks", "free_blocks", "total_volume", "total_weight", "interfaces", "contact_points", "contact_area")
+"""counts and totals of the record that are compared"""
+LAW = ("friction", "cohesion", "tensile_strength", "compressive_strength", "dilatancy")
 
 
 @dataclass(frozen=True)
 class ModelComparison:
     """Totals in the units of A, and the blocks that are not the same in both.
 
-    by      : how blocks were matched: ``name`` or ``place``
-    shares  : of the volume of A and of B that is matched
-    moved   : names in A of blocks whose centroid lies elsewhere in B by more than 1e-3 of their size
-    changed : names in A of blocks with another volume or mass
-    only    : names of blocks without match in A and in B
-    joints  : joint laws that differ, in words
+    matched_by     : how blocks were matched: ``name`` or ``place``
+    matched_shares : of the volume of A and of B that is matched
+    moved          : names in A of blocks whose centroid lies elsewhere in B by more than 1e-3 of their size
+    changed        : names in A of blocks with another volume or mass
+    only           : names of blocks without match in A and in B
+    fixed_in_one   : names in A of blocks that one of the two fixes
+    joints         : joint laws that differ, in words
     """
 
     totals: tuple[Figure, ...]
     units: tuple[str, str]
-    by: str
-    shares: tuple[float, float]
+    matched_by: str
+    matched_shares: tuple[float, float]
     comparable: bool
     moved: tuple[str, ...]
     changed: tuple[str, ...]
     only: tuple[tuple[str, ...], tuple[str, ...]]
-    supports: tuple[str, ...]
+    fixed_in_one: tuple[str, ...]
     joints: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """What differs between results A and B.
+    """What differs between results A and B; pairs are of A and of B.
 
-    deck       : lines of a unified diff of the deck texts
-    overrides  : changes by the user, in A and in B
-    settings, provenance : name, value in A and in B where they differ; ``-`` where there is none
-    only       : names of load cases of A alone and of B alone
-    gone, new  : warnings of A alone and of B alone
+    decks         : names
+    deck_diff     : lines of a unified diff of the deck texts
+    overrides     : changes by the user
+    settings, provenance : values by name where they differ; ``-`` where there is none
+    only          : names of load cases of A alone and of B alone
+    warnings_gone, warnings_new : of A alone and of B alone
     """
 
-    names: tuple[str, str]
+    decks: tuple[str, str]
     created: tuple[str, str]
-    deck: tuple[str, ...]
+    deck_diff: tuple[str, ...]
     overrides: tuple[tuple[str, ...], tuple[str, ...]]
-    settings: tuple[tuple[str, str, str], ...]
-    provenance: tuple[tuple[str, str, str], ...]
+    settings: dict[str, tuple[str, str]]
+    provenance: dict[str, tuple[str, str]]
     model: ModelComparison
     cases: tuple[CaseComparison, ...]
     only: tuple[tuple[str, ...], tuple[str, ...]]
-    gone: tuple[Notice, ...]
-    new: tuple[Notice, ...]
+    warnings_gone: tuple[Notice, ...]
+    warnings_new: tuple[Notice, ...]
 
     @property
     def differing(self) -> int:
         """Load cases whose status or answer differs, or that are in one result only."""
         return sum(case.differs for case in self.cases) + len(self.only[0]) + len(self.only[1])
+
+
+def comparison_json(comparison: Comparison, files: tuple[str, str]) -> dict[str, Any]:
+    """Everything that was compared; ``files`` are the names of A and B."""
+    record: dict[str, Any] = {"files": list(files), "differing": comparison.differing} | as_json(comparison)
+    for case, compared in zip(record["cases"], comparison.cases, strict=True):
+        case["differs"] = compared.differs
+    for name in ("warnings_gone", "warnings_new"):
+        record[name] = [notice_json(notice) for notice in getattr(comparison, name)]
+    return record
 
 
 def compare_results(first: Results, second: Results, tolerance: float | None = None) -> Comparison:
@@ -82,61 +100,51 @@ def compare_results(first: Results, second: Results, tolerance: float | None = N
     """
     factors = factors_between(first.model.units, second.model.units)
     matching = match_models(first.model, second.model, factors)
-    others = {case.load_case.name: case for case in second.cases}
-    names = [case.load_case.name for case in first.cases]
-    gone, new = _warnings(first, second)
+    own, others = ({case.load_case.name: case for case in results.cases} for results in (first, second))
+    warnings = [[n for n in notices_of(results) if n.severity == "warning"] for results in (first, second)]
     return Comparison(
-        names=(first.deck.name, second.deck.name),
+        decks=(first.deck.name, second.deck.name),
         created=(first.created, second.created),
-        deck=tuple(_deck_lines(first, second)),
+        deck_diff=tuple(_deck_lines(first, second)),
         overrides=(first.deck.overrides, second.deck.overrides),
         settings=_differing(first.settings, second.settings),
         provenance=_differing(first.provenance, second.provenance),
         model=_models(first, second, factors, matching),
         cases=tuple(
-            compare_cases(first, case, second, others[case.load_case.name], matching, factors, tolerance)
-            for case in first.cases
-            if case.load_case.name in others
+            compare_cases((first, second), (own[name], others[name]), matching, factors, tolerance)
+            for name in own
+            if name in others
         ),
-        only=(
-            tuple(name for name in names if name not in others),
-            tuple(name for name in others if name not in names),
-        ),
-        gone=gone,
-        new=new,
+        only=(tuple(name for name in own if name not in others), tuple(name for name in others if name not in own)),
+        warnings_gone=_surplus(warnings[0], warnings[1]),
+        warnings_new=_surplus(warnings[1], warnings[0]),
     )
 
 
 def _deck_lines(first: Results, second: Results) -> list[str]:
     """Unified diff of the deck texts, the decks themselves first, then what they include by its name."""
-    a, b = dict(first.deck.sources[1:]), dict(second.deck.sources[1:])
-    pairs = [(first.deck.sources[:1], second.deck.sources[:1])]
+    (main, *own), (other, *its) = first.deck.sources, second.deck.sources
+    a, b = dict(own), dict(its)
+    pairs = [(main, other)]
     pairs += [
-        (((name, a[name]),) if name in a else (), ((name, b[name]),) if name in b else ())
-        for name in dict.fromkeys([*a, *b])
+        ((name, a[name]) if name in a else ("-", ""), (name, b[name]) if name in b else ("-", "")) for name in a | b
     ]
-    lines: list[str] = []
-    for old, new in pairs:
-        (old_name, old_text), (new_name, new_text) = old[0] if old else ("-", ""), new[0] if new else ("-", "")
-        lines += unified_diff(
-            old_text.splitlines(), new_text.splitlines(), f"A {old_name}", f"B {new_name}", n=1, lineterm=""
+    return [
+        line
+        for (name, text), (new_name, new_text) in pairs
+        for line in unified_diff(
+            text.splitlines(), new_text.splitlines(), f"A {name}", f"B {new_name}", n=1, lineterm=""
         )
-    return lines
+    ]
 
 
-def _differing(first: dict[str, str], second: dict[str, str]) -> tuple[tuple[str, str, str], ...]:
-    names = dict.fromkeys([*first, *second])
-    rows = ((name, first.get(name, "-"), second.get(name, "-")) for name in names)
-    return tuple(row for row in rows if row[1] != row[2])
-
-
-def _warnings(first: Results, second: Results) -> tuple[tuple[Notice, ...], tuple[Notice, ...]]:
-    """Warnings that the other result has not: by identifier and load case, since messages hold figures and paths."""
-    own, others = ([n for n in notices_of(results) if n.severity == "warning"] for results in (first, second))
-    return _surplus(own, others), _surplus(others, own)
+def _differing(first: dict[str, str], second: dict[str, str]) -> dict[str, tuple[str, str]]:
+    pairs = {name: (first.get(name, "-"), second.get(name, "-")) for name in first | second}
+    return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
 
 
 def _surplus(notices: list[Notice], others: list[Notice]) -> tuple[Notice, ...]:
+    """Warnings that the other has not: by identifier and load case, since messages hold figures and paths."""
     left = Counter((notice.identifier, notice.case) for notice in others)
     alike = {(notice.identifier, notice.case, notice.message) for notice in others}
     found = []
@@ -152,75 +160,54 @@ def _surplus(notices: list[Notice], others: list[Notice]) -> tuple[Notice, ...]:
 def _models(first: Results, second: Results, factors: Factors, matching: Matching) -> ModelComparison:
     a, b = first.model.blocks, second.model.blocks
     rows = matching.bodies[: len(a)]
-    there = rows >= 0
+    there = np.flatnonzero(rows >= 0)
     other = rows[there]
     volumes = np.abs(b.volumes[other] * factors.length**3 - a.volumes[there]) > SAME_PLACE * a.volumes[there]
     masses = np.abs(b.masses[other] * factors.mass - a.masses[there]) > SAME_PLACE * a.masses[there]
-    held = first.model.fixed[there] != second.model.fixed[other]
-    left = np.setdiff1d(np.arange(len(b)), other)
-    matched = np.flatnonzero(there)
+    units = first.model.units, second.model.units
+
+    def names(results: Results, blocks: Any) -> tuple[str, ...]:
+        return tuple(results.model.blocks.name(int(block)) for block in blocks)
+
     return ModelComparison(
         totals=_totals(first, second, factors),
-        units=(_units(first), _units(second)),
-        by=matching.by,
-        shares=matching.shares,
+        units=(_units(units[0]), _units(units[1])),
+        matched_by=matching.by,
+        matched_shares=matching.shares,
         comparable=matching.comparable,
-        moved=tuple(a.name(int(block)) for block in np.flatnonzero(matching.moved > SAME_PLACE)),
-        changed=tuple(a.name(int(block)) for block in matched[volumes | masses]),
-        only=(
-            tuple(a.name(int(block)) for block in np.flatnonzero(~there)),
-            tuple(b.name(int(block)) for block in left),
-        ),
-        supports=tuple(a.name(int(block)) for block in matched[held]),
+        moved=names(first, np.flatnonzero(matching.moved > SAME_PLACE)),
+        changed=names(first, there[volumes | masses]),
+        only=(names(first, np.flatnonzero(rows < 0)), names(second, np.setdiff1d(np.arange(len(b)), other))),
+        fixed_in_one=names(first, there[first.model.fixed[there] != second.model.fixed[other]]),
         joints=_joints(first, second, factors),
     )
 
 
-def _units(results: Results) -> str:
+def _units(units: Units) -> str:
     """``m, N, kg``."""
-    units = results.model.units
     return f"{units.length}, {units.force}, {units.mass}"
 
 
 def _totals(first: Results, second: Results, factors: Factors) -> tuple[Figure, ...]:
     """Counts and totals, in the units of A."""
-    length, force = first.model.units.length, first.model.units.force
-
-    def row(name: str, unit: str, values: tuple[float, float], factor: float = 1.0) -> Figure:
-        return figure(name, unit, values[0], values[1] * factor, SAME_TOTAL)
-
-    models, contacts = (first.model, second.model), (first.contacts, second.contacts)
-
-    def both(of: tuple[T, T], what: Callable[[T], float]) -> tuple[float, float]:
-        return float(what(of[0])), float(what(of[1]))
-
-    return (
-        row("blocks", "", both(models, lambda m: len(m.blocks))),
-        row("free blocks", "", both(models, lambda m: len(m.free))),
-        row("volume", f"{length}3", both(models, lambda m: m.blocks.volumes.sum()), factors.length**3),
-        row("weight", force, both(models, lambda m: m.total_weight), factors.force),
-        row("interfaces", "", both(contacts, len)),
-        row("contact points", "", both(contacts, lambda c: len(c.points))),
-        row("contact area", f"{length}2", both(contacts, lambda c: c.areas.sum()), factors.length**2),
-    )
+    values = [model_json(results.model) | contacts_json(results) for results in (first, second)]
+    kinds: dict[str, UnitKind] = {key.path: key.unit for key in RECORD}
+    found = []
+    for name in TOTALS:
+        kind = kinds[f"model.{name}"]
+        unit = None if kind == "1" else unit_text(kind, first.model.units)
+        found.append(figure(name, unit, (values[0][name], values[1][name] * factors.of(kind)), SAME_TOTAL))
+    return tuple(found)
 
 
 def _joints(first: Results, second: Results, factors: Factors) -> tuple[str, ...]:
     """Joint laws that one result has alone, or that differ."""
     a, b = first.model.joints, second.model.joints
-    words = [
-        f"{name}: in {'A' if name in a else 'B'} only" for name in dict.fromkeys([*a, *b]) if (name in a) != (name in b)
-    ]
-    scales = {
-        "friction": 1.0,
-        "cohesion": factors.stress,
-        "tensile_strength": factors.stress,
-        "compressive_strength": factors.stress,
-        "dilatancy": 1.0,
-    }
+    words = [f"{name}: in {'A' if name in a else 'B'} only" for name in a | b if (name in a) != (name in b)]
     for name in (name for name in a if name in b):
-        for key, scale in scales.items():
-            old, new = getattr(a[name], key), getattr(b[name], key) * scale
+        for key in LAW:
+            factor = factors.of(STORED_BY_PATH[f"model/{key}"].unit)
+            old, new = getattr(a[name], key), getattr(b[name], key) * factor
             if old != new and not abs(new - old) <= SAME_TOTAL * max(abs(old), abs(new)):
                 words.append(f"{name}: {key.replace('_', ' ')} {old:.6g} in A, {new:.6g} in B")
     return tuple(words)

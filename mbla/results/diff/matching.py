@@ -14,6 +14,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.model.model import Model
+from mbla.results.record.quantity import UnitKind
 
 SAME_PLACE = 1e-3
 """Distance of two points that are one, over the block size: the default tolerance of contacts."""
@@ -172,10 +173,12 @@ class Factors:
     force: float
     mass: float
 
-    @property
-    def stress(self) -> float:
-        """Force per area."""
-        return self.force / self.length**2
+    def of(self, unit: UnitKind) -> float:
+        """What a quantity in such a unit is multiplied with."""
+        length, force = self.length, self.force
+        factors: dict[UnitKind, float] = {"length": length, "area": length**2, "volume": length**3, "force": force}
+        factors |= {"moment": force * length, "stress": force / length**2}
+        return factors.get(unit, 1.0)
 
 
 def factors_between(first: Units, second: Units) -> Factors:

@@ -18,8 +18,17 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import InterfaceMode, interface_motion
 from mbla.results.diff.matching import Matching, match_interfaces, match_points
+from mbla.results.record.scene import scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.solution import ContactMode
+
+
+@dataclass(frozen=True)
+class PointChange:
+    """How many contact points have another mode: modes in A and in B."""
+
+    modes: tuple[str, str]
+    count: int
 
 
 @dataclass(frozen=True)
@@ -35,65 +44,53 @@ class InterfaceChange:
 class ModeComparison:
     """What joints do.
 
-    points     : contact points by (mode in A, mode in B) where these differ
-    compared   : contact points and interfaces that both have
-    only       : contact points of A alone and of B alone
-    interfaces : every interface with another mode
+    contact_points : those with another mode, by modes
+    compared       : contact points and interfaces that both have
+    only           : contact points of A alone and of B alone
+    interfaces     : every interface with another mode
     """
 
-    points: dict[tuple[str, str], int]
-    compared: tuple[int, int]
+    contact_points: tuple[PointChange, ...]
+    compared: dict[str, int]
     only: tuple[int, int]
     interfaces: tuple[InterfaceChange, ...]
 
 
 def compare_modes(
-    first: Results,
-    cases: tuple[CaseResult, CaseResult],
-    second: Results,
-    mechanics: tuple[Mechanics, Mechanics],
-    matching: Matching,
-    length: float,
+    results: tuple[Results, Results], cases: tuple[CaseResult, CaseResult], matching: Matching, length: float
 ) -> ModeComparison:
     """Modes of two mechanisms at the contacts that both have; ``length`` is B's unit in that of A."""
-    sizes = first.model.blocks.sizes
-    points = match_points(first.contacts, second.contacts, matching, sizes, length)
-    there = points >= 0
-    own, other = mechanics[0].modes[there], mechanics[1].modes[points[there]]
-    differ = own != other
-    counts = Counter(zip(own[differ].tolist(), other[differ].tolist(), strict=True))
-    faces = match_interfaces(first.contacts, second.contacts, matching, sizes, length)
+    first, second = (each.contacts for each in results)
+    sizes = results[0].model.blocks.sizes
+    points, faces = (match(first, second, matching, sizes, length) for match in (match_points, match_interfaces))
+    of_points, of_faces = zip(*(_modes(*each) for each in zip(results, cases, strict=True)), strict=True)
+    there, both = np.flatnonzero(points >= 0), np.flatnonzero(faces >= 0)
+    changed = there[of_points[0][there] != of_points[1][points[there]]]
+    counts = Counter(zip(of_points[0][changed].tolist(), of_points[1][points[changed]].tolist(), strict=True))
     return ModeComparison(
-        points={(_word(ContactMode, a), _word(ContactMode, b)): count for (a, b), count in sorted(counts.items())},
-        compared=(int(there.sum()), int((faces >= 0).sum())),
-        only=(int((~there).sum()), len(second.contacts.points) - len(np.unique(points[there]))),
-        interfaces=_interfaces(first, cases, second, mechanics, faces),
+        contact_points=tuple(PointChange(_words(ContactMode, pair), count) for pair, count in sorted(counts.items())),
+        compared={"contact_points": len(there), "interfaces": len(both)},
+        only=(len(points) - len(there), len(second.points) - len(np.unique(points[there]))),
+        interfaces=tuple(
+            InterfaceChange(
+                "/".join(results[0].model.body_name(int(body)) for body in first.bodies[row]),
+                first.centroids[row],
+                _words(InterfaceMode, (of_faces[0][row], of_faces[1][faces[row]])),
+            )
+            for row in both[of_faces[0][both] != of_faces[1][faces[both]]]
+        ),
     )
 
 
-def _interfaces(
-    first: Results,
-    cases: tuple[CaseResult, CaseResult],
-    second: Results,
-    mechanics: tuple[Mechanics, Mechanics],
-    faces: IntArray,
-) -> tuple[InterfaceChange, ...]:
-    models = [results.model.of_case(case.load_case) for results, case in zip((first, second), cases, strict=True)]
-    own = interface_motion(models[0], first.contacts, mechanics[0]).modes
-    other = interface_motion(models[1], second.contacts, mechanics[1]).modes
-    contacts, rows = first.contacts, np.flatnonzero(faces >= 0)
-    return tuple(
-        InterfaceChange(
-            "/".join(first.model.body_name(int(body)) for body in contacts.bodies[row]),
-            contacts.centroids[row],
-            (_word(InterfaceMode, own[row]), _word(InterfaceMode, other[faces[row]])),
-        )
-        for row in rows[own[rows] != other[faces[rows]]]
-    )
+def _modes(results: Results, case: CaseResult) -> tuple[IntArray, IntArray]:
+    """Of contact points, (n_points,), and interfaces, (n_interfaces,)."""
+    scene = scene_of(results, case)
+    assert scene.mechanics is not None  # asked for results only
+    return scene.mechanics.modes, interface_motion(scene.model, scene.contacts, scene.mechanics).modes
 
 
-def _word(kind: type[ContactMode] | type[InterfaceMode], mode: int) -> str:
-    return kind(int(mode)).name.lower()
+def _words(kind: type[ContactMode] | type[InterfaceMode], modes: tuple[int, int]) -> tuple[str, str]:
+    return kind(int(modes[0])).name.lower(), kind(int(modes[1])).name.lower()
 
 
 def inertia_tensors(blocks: Blocks) -> FloatArray:

@@ -22,7 +22,7 @@ def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
     """What differs, at most 100 columns wide; ``names`` are those of the files."""
     lines = [
         f"{letter}  {file}   {deck}, {created}"
-        for letter, file, deck, created in zip("AB", names, comparison.names, comparison.created, strict=True)
+        for letter, file, deck, created in zip("AB", names, comparison.decks, comparison.created, strict=True)
     ]
     lines += [*_deck(comparison), *_run(comparison), *_model(comparison.model)]
     for case in comparison.cases:
@@ -33,10 +33,10 @@ def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
 
 def _deck(comparison: Comparison) -> list[str]:
     lines = heading("Deck")
-    shown = comparison.deck[:MOST_LINES]
+    shown = comparison.deck_diff[:MOST_LINES]
     lines += [f"  {line}" for line in shown] if shown else sentence("The texts are the same.")
-    if len(comparison.deck) > len(shown):
-        lines += sentence(f"and {counted(len(comparison.deck) - len(shown), 'more line')}; --json has them all")
+    if len(comparison.deck_diff) > len(shown):
+        lines += sentence(f"and {counted(len(comparison.deck_diff) - len(shown), 'more line')}; --json has them all")
     for letter, overrides in zip("AB", comparison.overrides, strict=True):
         if comparison.overrides[0] != comparison.overrides[1]:
             lines += sentence(f"changed by the user in {letter}: {', '.join(overrides) or 'nothing'}")
@@ -44,8 +44,8 @@ def _deck(comparison: Comparison) -> list[str]:
 
 
 def _run(comparison: Comparison) -> list[str]:
-    rows = [*comparison.settings, *comparison.provenance]
-    return heading("Settings and program") + table(["", "A", "B"], [list(row) for row in rows], left=3) if rows else []
+    rows = [[name, *pair] for each in (comparison.settings, comparison.provenance) for name, pair in each.items()]
+    return heading("Settings and program") + table(["", "A", "B"], rows, left=3) if rows else []
 
 
 def _model(model: ModelComparison) -> list[str]:
@@ -54,14 +54,14 @@ def _model(model: ModelComparison) -> list[str]:
     lines += _figures(model.totals if differ else ()) or sentence("Counts and totals are the same.")
     if model.units[0] != model.units[1]:
         lines += sentence(f"Units: {model.units[0]} in A, {model.units[1]} in B; everything here is in those of A.")
-    if model.by == "place":
+    if model.matched_by == "place":
         lines += sentence("Blocks were matched by their place: their names are others, or in another order.")
     lists = (
         ("elsewhere in B", model.moved),
         ("of another volume or mass in B", model.changed),
         ("without match in B", model.only[0]),
         ("of B without match in A", model.only[1]),
-        ("fixed in one of the two only", model.supports),
+        ("fixed in one of the two only", model.fixed_in_one),
     )
     for what, names in lists:
         if names:
@@ -75,15 +75,18 @@ def _figures(figures: tuple[Figure, ...]) -> list[str]:
         return []
     rows = [
         [
-            f"{figure.name}{f' [{figure.unit}]' if figure.unit else ''}",
-            number(figure.first),
-            number(figure.second),
+            _name(figure) + (f" [{figure.unit}]" if figure.unit else ""),
+            *map(number, figure.values),
             _percent(figure),
             _verdict(figure),
         ]
         for figure in figures
     ]
     return table(["", "A", "B", "difference", ""], rows)
+
+
+def _name(figure: Figure) -> str:
+    return figure.name.replace("_", " ")
 
 
 def _percent(figure: Figure) -> str:
@@ -96,19 +99,19 @@ def _verdict(figure: Figure) -> str:
     if figure.same:
         return ""
     if math.isnan(figure.difference):
-        return "in A only" if math.isnan(figure.second) else "in B only"
+        return "in A only" if math.isnan(figure.values[1]) else "in B only"
     return "differs"
 
 
 def _case(case: CaseComparison) -> list[str]:
     lines = heading(f"Load case {case.name}")
-    statuses = [status_words(status) for status in case.statuses]
+    statuses = [status_words(status) for status in case.status]
     if statuses[0] == statuses[1]:
         lines += sentence(f"status {statuses[0]} in both")
     else:
         lines += sentence(f"STATUS DIFFERS: {statuses[0]} in A, {statuses[1]} in B")
-    if case.rules[0] != case.rules[1]:
-        lines += sentence(f"flow rule {case.rules[0]} in A, {case.rules[1]} in B")
+    if case.flow_rule[0] != case.flow_rule[1]:
+        lines += sentence(f"flow rule {case.flow_rule[0]} in A, {case.flow_rule[1]} in B")
     lines += _figures((*case.answers, *case.figures))
     lines += sentence(f"answers count as the same within {small(case.answers[0].tolerance)}")
     lines += _motion(case)
@@ -121,14 +124,14 @@ def _case(case: CaseComparison) -> list[str]:
         )
     if len(case.reactions) > MOST_NAMED:
         lines += sentence(f"and {counted(len(case.reactions) - MOST_NAMED, 'more reaction')}")
-    return lines + sentence(f"solved in {case.seconds[0]:.3g} s in A, {case.seconds[1]:.3g} s in B")
+    return lines + sentence(f"solved in {case.time[0]:.3g} s in A, {case.time[1]:.3g} s in B")
 
 
 def _motion(case: CaseComparison) -> list[str]:
-    if case.angle is None:
-        return sentence(f"mechanisms not compared: {case.angle_of}")
-    cosine = math.cos(math.radians(case.angle))
-    return sentence(f"angle between the two {case.angle_of}s: {case.angle:.3g} degrees (cosine {cosine:.6f})")
+    found = case.mechanism
+    if found.angle is None:
+        return sentence(f"mechanisms not compared: {found.compared}")
+    return sentence(f"angle between the two {found.compared}s: {found.angle:.3g} degrees (cosine {found.cosine:.6f})")
 
 
 def _modes(case: CaseComparison) -> list[str]:
@@ -136,14 +139,14 @@ def _modes(case: CaseComparison) -> list[str]:
     if modes is None:
         return []
     lines = []
-    count = sum(modes.points.values())
+    compared, count = modes.compared["contact_points"], sum(change.count for change in modes.contact_points)
     if count:
-        kinds = ", ".join(f"{n} {a} in A and {b} in B" for (a, b), n in modes.points.items())
-        lines += sentence(f"{count} of {counted(modes.compared[0], 'contact point')} in another mode: {kinds}")
-    elif not modes.compared[0]:
+        kinds = ", ".join("{} {} in A and {} in B".format(each.count, *each.modes) for each in modes.contact_points)
+        lines += sentence(f"{count} of {counted(compared, 'contact point')} in another mode: {kinds}")
+    elif not compared:
         lines += sentence("modes of contact points not compared: none lie at the same place in both")
     else:
-        lines += sentence(f"modes of {counted(modes.compared[0], 'contact point')} compared: the same")
+        lines += sentence(f"modes of {counted(compared, 'contact point')} compared: the same")
     for letter, number_only in zip("AB", modes.only, strict=True):
         if number_only:
             lines += sentence(f"{counted(number_only, 'contact point')} of {letter} without match")
@@ -159,11 +162,11 @@ def _modes(case: CaseComparison) -> list[str]:
 
 
 def _warnings(comparison: Comparison) -> list[str]:
-    if not comparison.gone and not comparison.new:
+    if not comparison.warnings_gone and not comparison.warnings_new:
         return []
     lines = heading("Warnings")
-    lines += [line for notice in comparison.gone for line in sentence(f"in A only: {notice}")]
-    return lines + [line for notice in comparison.new for line in sentence(f"in B only: {notice}")]
+    lines += [line for notice in comparison.warnings_gone for line in sentence(f"in A only: {notice}")]
+    return lines + [line for notice in comparison.warnings_new for line in sentence(f"in B only: {notice}")]
 
 
 def _summary(comparison: Comparison) -> list[str]:
@@ -172,8 +175,8 @@ def _summary(comparison: Comparison) -> list[str]:
         lines += [line for name in names for line in sentence(f"{name}: in {letter} only")]
     for case in comparison.cases:
         answer = case.answers[0]
-        values = f"{answer.name} {number(answer.first)} in A, {number(answer.second)} in B"
-        a, b = (status_name(status) for status in case.statuses)
+        values = "{} {} in A, {} in B".format(_name(answer), *map(number, answer.values))
+        a, b = (status_name(status) for status in case.status)
         differs = "DIFFERS" if a == b else f"DIFFERS, {a} in A, {b} in B"
         lines += sentence(f"{case.name}: {differs if case.differs else f'the same, {a}'}; {values}")
     total = len(comparison.cases) + len(comparison.only[0]) + len(comparison.only[1])

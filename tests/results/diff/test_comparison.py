@@ -69,15 +69,15 @@ def test_a_result_is_the_same_as_itself(two: Results) -> None:
     results = two
     found = compare_results(results, results)
     assert found.differing == 0
-    assert not any((found.deck, found.settings, found.provenance, found.gone, found.new))
-    assert found.model.by == "name"
-    assert found.model.shares == (1.0, 1.0)
+    assert not any((found.deck_diff, found.settings, found.provenance, found.warnings_gone, found.warnings_new))
+    assert found.model.matched_by == "name"
+    assert found.model.matched_shares == (1.0, 1.0)
     assert not any((found.model.moved, found.model.changed, found.model.joints, *found.model.only))
     for case in found.cases:
-        assert case.angle == pytest.approx(0.0, abs=1e-9)
+        assert case.mechanism.angle == pytest.approx(0.0, abs=1e-9)
         assert case.modes is not None
-        assert case.modes.points == {}
-        assert case.modes.compared == (12, 3)
+        assert case.modes.contact_points == ()
+        assert case.modes.compared == {"contact_points": 12, "interfaces": 3}
         assert case.modes.only == (0, 0)
         assert not case.modes.interfaces
         assert not case.reactions
@@ -97,12 +97,15 @@ def test_friction_changed(tmp_path: Path) -> None:
     assert case.differs
     assert found.differing == 1
     (answer,) = case.answers
-    assert (answer.first, answer.second) == pytest.approx((0.4, 0.5), abs=1e-6)
+    assert answer.values == pytest.approx((0.4, 0.5), abs=1e-6)
     assert answer.difference == pytest.approx(0.25, abs=1e-5)
     cosine = (1.0 + 0.4 * 0.5) / math.sqrt(5 / 3 * 1.16)
-    assert case.angle == pytest.approx(math.degrees(math.acos(cosine)), abs=1e-3)
+    assert case.mechanism.angle == pytest.approx(math.degrees(math.acos(cosine)), abs=1e-3)
     assert case.modes is not None
-    assert case.modes.points == {("slide", "stick"): 2, ("slide", "open"): 2}
+    assert [(each.modes, each.count) for each in case.modes.contact_points] == [
+        (("slide", "stick"), 2),
+        (("slide", "open"), 2),
+    ]
     assert [change.modes for change in case.modes.interfaces] == [("slide", "hinge")]
     weight = 2 * 2000 * 9.81
     (reaction,) = case.reactions
@@ -114,14 +117,14 @@ def test_friction_changed(tmp_path: Path) -> None:
 def test_metres_and_millimetres_are_the_same(tmp_path: Path, two: Results) -> None:
     found = compare_results(two, results_of(tmp_path, MILLIMETRES, name="b"))
     assert found.differing == 0
-    assert found.deck  # the texts are not the same
+    assert found.deck_diff  # the texts are not the same
     assert found.model.units == ("m, N, kg", "mm, kN, t")
     assert all(total.same for total in found.model.totals)
     assert not any((found.model.moved, found.model.changed, found.model.joints, *found.model.only))
     for case in found.cases:
-        assert case.angle == pytest.approx(0.0, abs=1e-3)
+        assert case.mechanism.angle == pytest.approx(0.0, abs=1e-3)
         assert case.modes is not None
-        assert case.modes.points == {}
+        assert case.modes.contact_points == ()
         assert case.modes.only == (0, 0)
         assert all(np.abs(change.change).max() <= 1e-5 * case.load for change in case.reactions)
 
@@ -136,23 +139,23 @@ def test_blocks_in_another_order_are_matched_by_place(tmp_path: Path, two: Resul
     lines = TWO.splitlines(keepends=True)
     lines[5], lines[6] = lines[6], lines[5]
     found = compare_results(two, results_of(tmp_path, "".join(lines), name="b"))
-    assert found.model.by == "place"
+    assert found.model.matched_by == "place"
     assert found.differing == 0
     for case in found.cases:
-        assert case.angle == pytest.approx(0.0, abs=1e-3)
+        assert case.mechanism.angle == pytest.approx(0.0, abs=1e-3)
         assert case.modes is not None
-        assert case.modes.points == {}
-        assert case.modes.compared == (12, 3)
+        assert case.modes.contact_points == ()
+        assert case.modes.compared == {"contact_points": 12, "interfaces": 3}
         assert all(np.abs(change.change).max() <= 1e-5 * case.load for change in case.reactions)
 
 
 def test_a_block_that_was_moved_is_matched_by_its_name(tmp_path: Path, two: Results) -> None:
     second = TWO.replace("min: [3, 0, 0], max: [4, 1, 1]", "min: [3, 0, 0], max: [4, 1, 1.2]")
     found = compare_results(two, results_of(tmp_path, second, name="b"))
-    assert found.model.by == "name"
+    assert found.model.matched_by == "name"
     assert found.model.moved == found.model.changed == ("other[0]",)
-    assert any(line.startswith("+") and "max: [4, 1, 1.2]" in line for line in found.deck)
-    weight = next(total for total in found.model.totals if total.name == "weight")
+    assert any(line.startswith("+") and "max: [4, 1, 1.2]" in line for line in found.deck_diff)
+    weight = next(total for total in found.model.totals if total.name == "total_weight")
     assert weight.difference == pytest.approx(0.2 / 3.2)
 
 
@@ -166,8 +169,8 @@ def test_another_structure_is_not_comparable(tmp_path: Path, two: Results) -> No
     assert not found.model.comparable
     assert found.model.only[0] == ("pile[0]", "pile[1]")
     case = found.cases[0]
-    assert case.angle is None
-    assert "of the volume has a match" in case.angle_of
+    assert case.mechanism.angle is None
+    assert "of the volume has a match" in case.mechanism.compared
 
 
 def test_another_flow_rule(tmp_path: Path) -> None:
@@ -175,10 +178,10 @@ def test_another_flow_rule(tmp_path: Path) -> None:
     case = only_case(
         results_of(tmp_path, text), results_of(tmp_path, text, "analysis.flow_rule=non_associative", name="b")
     )
-    assert case.rules == ("associative", "non_associative, auto")
+    assert case.flow_rule == ("associative", "non_associative, auto")
     assert not case.differs  # one block on a level ground slides at the friction, with dilatancy or without
     # with it the motion rises by μ: tan φ = 0.3
-    assert case.angle == pytest.approx(math.degrees(math.atan(0.3)), abs=1e-2)
+    assert case.mechanism.angle == pytest.approx(math.degrees(math.atan(0.3)), abs=1e-2)
 
 
 def test_a_case_of_one_file_only(tmp_path: Path, two: Results) -> None:
@@ -197,12 +200,12 @@ def test_a_case_that_is_not_verified(tmp_path: Path) -> None:
     found = compare_results(first, second)
     compared = found.cases[0]
     assert compared.differs
-    assert math.isnan(compared.answers[0].second)  # the best iterate is no load factor
-    assert compared.angle is None
-    assert compared.angle_of == "B has no mechanism that is a result"
+    assert math.isnan(compared.answers[0].values[1])  # the best iterate is no load factor
+    assert compared.mechanism.angle is None
+    assert compared.mechanism.compared == "B has no mechanism that is a result"
     assert compared.modes is None
-    assert [notice.identifier for notice in found.new] == ["not-verified"]
-    assert found.gone == ()
+    assert [notice.identifier for notice in found.warnings_new] == ["not-verified"]
+    assert found.warnings_gone == ()
     assert "STATUS DIFFERS: solved in A, NOT VERIFIED in B" in comparison_text(found, ("a", "b"))
 
 
@@ -210,13 +213,13 @@ def test_motions_without_equilibrium_are_compared() -> None:
     results = tower_results()
     found = compare_results(results, results)
     falls = found.cases[1]
-    assert falls.angle_of == "motion without equilibrium"
-    assert falls.angle == pytest.approx(0.0, abs=1e-9)
+    assert falls.mechanism.compared == "motion without equilibrium"
+    assert falls.mechanism.angle == pytest.approx(0.0, abs=1e-9)
     certificate = results.cases[1].solution.certificate
     assert certificate is not None
     solution = replace(results.cases[1].solution, certificate=-certificate)
     other = replace(results, cases=(results.cases[0], replace(results.cases[1], solution=solution)))
-    assert compare_results(results, other).cases[1].angle == pytest.approx(180.0)
+    assert compare_results(results, other).cases[1].mechanism.angle == pytest.approx(180.0)
 
 
 def test_tolerance(tmp_path: Path) -> None:
@@ -286,9 +289,9 @@ def test_a_structure_that_was_moved_as_a_whole(tmp_path: Path, two: Results) -> 
     moved = moved.replace('"3.5 m"', '"12.5 m"')
     found = compare_results(two, results_of(tmp_path, moved, name="b"))
     assert found.differing == 0
-    assert found.model.by == "name"
+    assert found.model.matched_by == "name"
     assert found.model.moved == ("pile[0]", "pile[1]", "other[0]")
-    assert all(case.angle == pytest.approx(0.0, abs=1e-3) for case in found.cases)
+    assert all(case.mechanism.angle == pytest.approx(0.0, abs=1e-3) for case in found.cases)
     assert "none lie at the same place in both" in comparison_text(found, ("a.h5", "b.h5")).replace("\n   ", "")
 
 

@@ -35,14 +35,14 @@ def with_case(same: Comparison, **changes: object) -> Comparison:
 @pytest.mark.parametrize("more", [0, 5])
 def test_of_a_long_diff_the_rest_is_counted(same: Comparison, more: int) -> None:
     lines = tuple(f"+line {i + 1} of the deck" for i in range(MOST_LINES + more))
-    text = text_of(replace(same, deck=lines))
+    text = text_of(replace(same, deck_diff=lines))
     assert f"+line {MOST_LINES} of the deck" in text
     assert (f"+line {MOST_LINES + 1} of the deck" in text) is False
     assert ("and 5 more lines; --json has them all" in text) is (more > 0)
 
 
 def test_other_units_and_other_names_are_told(same: Comparison) -> None:
-    text = text_of(replace(same, model=replace(same.model, units=("m, N, kg", "mm, kN, t"), by="place")))
+    text = text_of(replace(same, model=replace(same.model, units=("m, N, kg", "mm, kN, t"), matched_by="place")))
     assert "Units: m, N, kg in A, mm, kN, t in B; everything here is in those of A." in text
     assert "Blocks were matched by their place: their names are others, or in another order." in text
     assert "Units" not in text_of(same)
@@ -50,7 +50,7 @@ def test_other_units_and_other_names_are_told(same: Comparison) -> None:
 
 
 def test_another_flow_rule_is_told(same: Comparison) -> None:
-    text = text_of(with_case(same, rules=("associative", "non_associative, path")))
+    text = text_of(with_case(same, flow_rule=("associative", "non_associative, path")))
     assert "flow rule associative in A, non_associative, path in B" in text
     assert "flow rule" not in text_of(same)
 
@@ -88,7 +88,7 @@ def test_without_a_motion_there_is_no_angle() -> None:
     still = replace(mechanics, mechanism=np.zeros((3, 6)))
     case = replace(results.cases[0], solution=replace(results.cases[0].solution, mechanics=still))
     found = compare_results(results, replace(results, cases=(case, results.cases[1])))
-    assert found.cases[0].angle is None
+    assert found.cases[0].mechanism.angle is None
     assert "mechanisms not compared: a motion is zero" in text_of(found)
 
 

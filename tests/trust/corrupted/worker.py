@@ -21,7 +21,6 @@ MOST_BYTES = 4 << 30
 def _imported(drawing: bool) -> None:
     """What commands import late, once for all of them; of those that draw only where they are asked for."""
     import mbla.results.diff.comparison
-    import mbla.results.diff.records
     import mbla.results.diff.words
     import mbla.results.exit_status
     import mbla.results.hdf5.result_file
