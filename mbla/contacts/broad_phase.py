@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
 from mbla.contacts.polygons import CrowdedError, box_pairs
-from mbla.errors import Refusal
 from mbla.model.generators.amounts import most_pairs
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import chunks, rows_and_items
@@ -26,10 +26,6 @@ _COARSE_ANGLE = np.cos(np.radians(30))
 
 # Facet pairs looked at together: bounds memory to some 200 MB.
 _BATCH = 1_000_000
-
-
-class PairsRefused(Refusal):
-    """Too many blocks come near each other; the message says where."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +50,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
 
     Raises
     ------
-    PairsRefused
+    ContactsRefused
         for far more of them than blocks that lie beside each other have
     """
     lower, upper = block_boxes(blocks)
@@ -68,7 +64,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
             f"many blocks lie in one place, as {blocks.name(crowded.box)}: more than {most:,} pairs come near each "
             "other; no more can be handled"
         )
-        raise PairsRefused("too-many-units", words) from crowded
+        raise ContactsRefused("too-many-units", words, ("blocks",)) from crowded
     sizes = np.minimum(blocks.sizes[i], blocks.sizes[j])
     depths = (np.minimum(upper[i], upper[j]) - np.maximum(lower[i], lower[j])).min(axis=1, initial=np.inf)
     keep = depths >= -NEAR_MISS * tolerance * sizes

@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
-from mbla.errors import Notice
+from mbla.deck.tree import KeyPath
+from mbla.errors import Notice, Refusal
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,14 @@ class Contacts:
     def interface_of_point(self) -> IntArray:
         """(n_points,)."""
         return row_of_item(self.point_start)
+
+
+class ContactsRefused(Refusal):
+    """What no search for contacts can handle; ``path`` leads to the key of the deck that asks for it."""
+
+    def __init__(self, identifier: str, words: str, path: KeyPath) -> None:
+        super().__init__(identifier, words)
+        self.path = path
 
 
 @dataclass(frozen=True)

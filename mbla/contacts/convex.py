@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.model.solids.plane import cut
 from mbla.model.solids.ragged import next_item
 
 
@@ -105,7 +106,6 @@ def _clip_tables(subject: FloatArray, window: FloatArray) -> tuple[FloatArray, B
 
     Returns corners (n, c, 2), and which of them count: the rest repeat their predecessor or fill empty rows.
     """
-    left = np.ones(len(subject), dtype=bool)
     for edge in range(window.shape[1]):
         begin = window[:, edge]
         # The repeated corners of a padded row make edges of no length, which cut nothing off.
@@ -113,23 +113,5 @@ def _clip_tables(subject: FloatArray, window: FloatArray) -> tuple[FloatArray, B
         relative = subject - begin[:, None]
         side = direction[:, None, 0] * relative[..., 1] - direction[:, None, 1] * relative[..., 0]
         if (side < 0).any():
-            subject, left = _cut(subject, side, left)
-    distinct = (subject != np.roll(subject, 1, axis=1)).any(axis=2)
-    return subject, distinct & left[:, None]
-
-
-def _cut(subject: FloatArray, side: FloatArray, left: BoolArray) -> tuple[FloatArray, BoolArray]:
-    """Subjects without what lies on the negative side, and whether anything is left of each, (n,)."""
-    n, width, _ = subject.shape
-    after, side_after = np.roll(subject, -1, axis=1), np.roll(side, -1, axis=1)
-    inside = (side >= 0) & left[:, None]
-    crossing = ((side >= 0) != (side_after >= 0)) & left[:, None]
-    share = side / np.where(crossing, side - side_after, 1.0)
-    cuts = subject + share[..., None] * (after - subject)
-    points = np.stack([subject, cuts], axis=2).reshape(n, 2 * width, 2)
-    kept = np.stack([inside, crossing], axis=2).reshape(n, 2 * width)
-    counts = kept.sum(axis=1)
-    source = np.argsort(~kept, axis=1, kind="stable")[:, : max(int(counts.max(initial=1)), 1)]
-    column = np.minimum(np.arange(source.shape[1]), np.maximum(counts, 1)[:, None] - 1)
-    source = np.take_along_axis(source, column, axis=1)
-    return np.take_along_axis(points, source[..., None], axis=1), counts > 0
+            subject = cut(subject, side)
+    return subject, (subject != np.roll(subject, 1, axis=1)).any(axis=2)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.polygons import Polygons, polygons_from_rings, rings, valid, widths
+from mbla.contacts.polygons import Polygons, areas, centroids, polygons_from_rings, rings, valid, widths
 from mbla.model.solids.ragged import next_item
 
 # Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
@@ -76,19 +76,10 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
     return _from_least_corner(thinned)
 
 
-def areas_and_centroids(corners: Corners, n_polygons: int) -> tuple[FloatArray, FloatArray]:
-    """Area (n_polygons,) and centroid (n_polygons, 2) of each polygon, holes taken off."""
-    first = corners.ring_start[:-1][np.searchsorted(corners.polygon_of_ring, np.arange(n_polygons))]
-    anchor = corners.points[first]
-    polygon = corners.polygon_of_corner
-    p = corners.points - anchor[polygon]
-    q = p[next_item(corners.ring_start)]
-    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
-    area = np.bincount(polygon, weights=cross, minlength=n_polygons) / 2
-    moment = np.stack(
-        [np.bincount(polygon, weights=(p + q)[:, axis] * cross, minlength=n_polygons) / 6 for axis in (0, 1)], axis=1
-    )
-    return area, anchor + moment / area[:, None]
+def areas_and_centroids(corners: Corners) -> tuple[FloatArray, FloatArray]:
+    """Area (n_polygons,) and centroid (n_polygons, 2) of each polygon, holes taken off; every polygon has corners."""
+    polygons = polygons_from_rings(corners.points, corners.ring_start, corners.polygon_of_ring)
+    return areas(polygons), centroids(polygons)
 
 
 def parallelograms(corners: Corners, n: int) -> BoolArray:

@@ -11,12 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.broad_phase import PairsRefused
-from mbla.contacts.contacts import Contacts
+from mbla.contacts.contacts import Contacts, ContactsRefused
 from mbla.contacts.glue import Solids, guides_at_odds, held_model, solids_of
-from mbla.contacts.held_twice import SupportsAtOdds
 from mbla.contacts.notices import overlap_messages
-from mbla.contacts.points import PointsRefused
 from mbla.contacts.search import find_contacts
 from mbla.deck.deck import Deck
 from mbla.deck.tree import KeyPath
@@ -183,12 +180,8 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     """
     try:
         contacts = find_contacts(model, deck.contacts)
-    except PairsRefused as refused:
-        raise DeckError([deck.fault_at(("blocks",), refused.message)]) from refused
-    except SupportsAtOdds as refused:
-        raise DeckError([deck.fault_at(("supports",), refused.message)]) from refused
-    except PointsRefused as refused:
-        raise DeckError([deck.fault_at(("contacts", "points", "spacing"), refused.message)]) from refused
+    except ContactsRefused as refused:
+        raise DeckError([deck.fault_at(refused.path, refused.message)]) from refused
     faults = [
         deck.fault_at(("blocks",), Message("blocks-overlap", message))
         for message in overlap_messages(model, contacts.report)

@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
+from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.joints import Laws
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.overlay import local_maps
@@ -27,7 +28,7 @@ from mbla.contacts.polygons import (
     union_by_row,
     widths,
 )
-from mbla.errors import Notice, Refusal
+from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.ragged import rows_and_items
 
@@ -37,10 +38,6 @@ _APART = 2.0
 """Distance of the planes of two common surfaces of one face, in tolerances: each is within one of the face."""
 _WHOLE = 1e-9
 """Relative: a width that is the tolerance up to rounding is as wide."""
-
-
-class SupportsAtOdds(Refusal):
-    """A piece of a face is on two bodies and nothing says which of them holds it; the message has both."""
 
 
 def counted_once(
@@ -53,7 +50,7 @@ def counted_once(
 
     Raises
     ------
-    SupportsAtOdds
+    ContactsRefused
         for a piece between bodies of which one can move, or with two joint laws
     """
     every = np.arange(len(patches))
@@ -65,7 +62,8 @@ def counted_once(
     moving = ~np.append(still, np.ones(len(model.grounds), dtype=bool))[other]
     at_odds = np.flatnonzero(moving | (laws.rows[rows[later]] != laws.rows[rows[earlier]]))
     if len(at_odds):
-        raise SupportsAtOdds("supports-at-odds", _at_odds(model, patches, laws, rows, later[at_odds], earlier[at_odds]))
+        words = _at_odds(model, patches, laws, rows, later[at_odds], earlier[at_odds])
+        raise ContactsRefused("supports-at-odds", words, ("supports",))
     cut = patches.polygons.copy()
     chosen, row = np.unique(later, return_inverse=True)
     order = np.argsort(row, kind="stable")

@@ -20,10 +20,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
-from mbla.contacts.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.polygons import (
     Polygons,
     areas,
@@ -46,7 +46,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class Patches:
+class Patches(Rows):
     """Connected common surfaces.
 
     overlays : n records, one for each patch
@@ -67,18 +67,6 @@ class Patches:
 
     def __len__(self) -> int:
         return len(self.widths)
-
-    def take(self, rows: IntArray | BoolArray) -> Patches:
-        """The given rows, (n,)."""
-        index = np.arange(len(self))[rows]
-        return Patches(
-            self.overlays.take(index),
-            self.polygons[index],
-            self.widths[index],
-            self.gaps[index],
-            self.mid_gaps[index],
-            self.coverage[index],
-        )
 
 
 @dataclass(frozen=True)

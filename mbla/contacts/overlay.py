@@ -12,11 +12,13 @@ o is put on it, so that the mean plane is z = 0 and the gap is g = z_b − z_a =
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self, TypeVar
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 
 # A normal closer to the vertical than this (sine of the angle) counts as vertical: the margin keeps rounding from
 # turning the tangents of a bed joint.
@@ -45,7 +47,31 @@ def unit(vectors: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Overlays:
+class Rows:
+    """Arrays of as many rows each, or records of these."""
+
+    def take(self, rows: IntArray | BoolArray) -> Self:
+        """The given rows, (n,), repeated where named twice."""
+        fields = vars(self).items()
+        return replace(
+            self, **{name: each.take(rows) if isinstance(each, Rows) else each[rows] for name, each in fields}
+        )
+
+
+R = TypeVar("R", bound=Rows)
+
+
+def concatenate(parts: Sequence[R]) -> R:
+    """One record of several."""
+    found = {name: [getattr(part, name) for part in parts] for name in vars(parts[0])}
+    joined = {
+        name: concatenate(each) if isinstance(each[0], Rows) else np.concatenate(each) for name, each in found.items()
+    }
+    return replace(parts[0], **joined)
+
+
+@dataclass(frozen=True)
+class Overlays(Rows):
     """Mean planes of pairs of facets, or of ground and facet.
 
     bodies  : (n, 2)     a, b
@@ -65,17 +91,6 @@ class Overlays:
 
     def __len__(self) -> int:
         return len(self.sizes)
-
-    def take(self, rows: IntArray) -> Overlays:
-        """The given rows, (n,), repeated where named twice."""
-        return Overlays(
-            self.bodies[rows],
-            self.facets[rows],
-            self.origins[rows],
-            self.frames[rows],
-            self.sizes[rows],
-            self.gaps[rows],
-        )
 
 
 @dataclass(frozen=True)
@@ -105,18 +120,6 @@ def build_overlays(
         frames=frames,
         sizes=sizes,
         gaps=np.column_stack([height_b - height_a, slope_b - slope_a]),
-    )
-
-
-def concatenate(parts: list[Overlays]) -> Overlays:
-    """One record of several."""
-    return Overlays(
-        bodies=np.concatenate([p.bodies for p in parts]),
-        facets=np.concatenate([p.facets for p in parts]),
-        origins=np.concatenate([p.origins for p in parts]),
-        frames=np.concatenate([p.frames for p in parts]),
-        sizes=np.concatenate([p.sizes for p in parts]),
-        gaps=np.concatenate([p.gaps for p in parts]),
     )
 
 

@@ -23,12 +23,13 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.convex import convex_loops
 from mbla.contacts.corners import Corners, areas_and_centroids, parallelograms
 from mbla.contacts.polygons import polygons_from_rings, triangles
 from mbla.contacts.refine import InterfacePoints, divided
 from mbla.deck.sections.contacts import ContactPoints
-from mbla.errors import Notice, Refusal
+from mbla.errors import Notice
 from mbla.model.solids.ragged import next_item
 
 _SEEN = 1e-9
@@ -41,10 +42,6 @@ MOST_PARTS = 200
 """Of one edge: beyond, one rectangle would have 40,000 points."""
 
 
-class PointsRefused(Refusal):
-    """There are interfaces that would get too many points; the message says which spacing would do."""
-
-
 def interface_points(
     corners: Corners, centroids: FloatArray, sizes: FloatArray, asked: ContactPoints
 ) -> tuple[InterfacePoints, list[Notice]]:
@@ -55,15 +52,15 @@ def interface_points(
 
     Raises
     ------
-    PointsRefused
+    ContactsRefused
         where the spacing is too small
     """
     n = len(centroids)
     left_alone = 0
-    areas = areas_and_centroids(corners, n)[0]
+    areas = areas_and_centroids(corners)[0]
     if asked.rounding > 0:
         corners, left_alone = _rounded(corners, n, asked.rounding / sizes)
-        rounded_areas, centroids = areas_and_centroids(corners, n)
+        rounded_areas, centroids = areas_and_centroids(corners)
     star = _seen_from(corners, centroids)
     found = divided(corners, centroids, star, _parts(corners, sizes, asked))
     if asked.rounding > 0:
@@ -99,10 +96,11 @@ def _parts(corners: Corners, sizes: FloatArray, asked: ContactPoints) -> IntArra
     edges[flat] = lengths[flat[polygon]].reshape(-1, 4)[:, :2]
     if edges.max(initial=0.0) > MOST_PARTS * asked.spacing:
         least = edges.max() / MOST_PARTS
-        raise PointsRefused(
+        raise ContactsRefused(
             "too-many-points",
             f"divides the longest edge of an interface, {edges.max():.4g}, into more than {MOST_PARTS} parts: "
             f"must be >= {least:.4g}",
+            ("contacts", "points", "spacing"),
         )
     return np.asarray(np.maximum(np.ceil(edges / asked.spacing * (1 - _WHOLE)), 1), dtype=np.int64)
 

@@ -83,7 +83,14 @@ def divided(corners: Corners, centroids: FloatArray, star: BoolArray, parts: Int
     n = len(centroids)
     flat = parallelograms(corners, n)
     plain = (parts == 1).all(axis=1)
-    found = [_at_corners(corners.take(plain[corners.polygon_of_corner]), n)]
+    rings = np.bincount(corners.polygon_of_ring, minlength=n)
+    fan = np.zeros(n, dtype=bool)
+    fan[corners.polygon_of_ring] = convex_loops(corners.points, corners.ring_start)
+    fan &= plain & (rings == 1)
+    rest = corners.take((plain & ~fan)[corners.polygon_of_corner])
+    found = [_at_corners(corners.take(fan[corners.polygon_of_corner]), n)]
+    if len(rest.points):
+        found.append(_triangulated_points(rest, centroids, np.zeros(n, dtype=bool), 1, n))
     kinds = [(True, int(a), int(b)) for a, b in np.unique(parts[flat & ~plain], axis=0)]
     kinds += [(False, int(a), int(a)) for a in np.unique(parts[~flat & ~plain, 0])]
     for is_flat, a, b in kinds:
@@ -112,7 +119,12 @@ def _outline(corners: Corners, n: int) -> IntArray:
 
 
 def _at_corners(corners: Corners, n: int) -> InterfacePoints:
-    return InterfacePoints(corners.points, corners.polygon_of_corner, _outline(corners, n), point_areas(corners, n))
+    """Corners of convex polygons without holes, their shares averaged over the fans from every corner."""
+    shares, counts = np.zeros(len(corners.points)), np.diff(corners.ring_start)
+    for count in np.unique(counts):
+        rows = corners.ring_start[:-1][counts == count][:, None] + np.arange(count)
+        shares[rows] = _fan_shares(corners.points[rows])
+    return InterfacePoints(corners.points, corners.polygon_of_corner, _outline(corners, n), shares)
 
 
 def _grid(corners: Corners, m: int, n: int, n_polygons: int) -> InterfacePoints:
@@ -220,23 +232,6 @@ def point_starts(points: InterfacePoints) -> IntArray:
     return starts(np.bincount(points.polygon, minlength=len(points.outline)).astype(np.int64))
 
 
-def point_areas(corners: Corners, n_polygons: int) -> FloatArray:
-    """Area shares of the corners of polygons, (n_corners,), in the square of their unit."""
-    shares = np.zeros(len(corners.points))
-    n_rings = np.bincount(corners.polygon_of_ring, minlength=n_polygons)
-    convex_ring = convex_loops(corners.points, corners.ring_start)
-    fan = convex_ring & (n_rings[corners.polygon_of_ring] == 1)
-    counts = np.diff(corners.ring_start)
-    for count in np.unique(counts[fan]):
-        first = corners.ring_start[:-1][fan & (counts == count)]
-        rows = first[:, None] + np.arange(count)
-        shares[rows] = _fan_shares(corners.points[rows])
-    rest = ~fan[corners.ring_of_corner]
-    if rest.any():
-        shares[rest] = _triangle_shares(corners, rest)
-    return shares
-
-
 def _fan_shares(points: FloatArray) -> FloatArray:
     """Shares (k, m) of the corners of k convex polygons, averaged over the fans from every corner.
 
@@ -251,25 +246,6 @@ def _fan_shares(points: FloatArray) -> FloatArray:
         shares[:, apex] += third.sum(axis=1)
         shares += third + np.roll(third, 1, axis=1)
     shares /= m
-    return shares
-
-
-def _triangle_shares(corners: Corners, chosen: BoolArray) -> FloatArray:
-    """Shares of the corners chosen (whole polygons), in order, from constrained Delaunay triangles."""
-    part = corners.take(chosen)
-    _, dense = np.unique(part.polygon_of_ring, return_inverse=True)
-    polygon_of_ring = dense.astype(np.int64)
-    corner_polygon = polygon_of_ring[part.ring_of_corner]
-    spots, row = triangles(polygons_from_rings(part.points, part.ring_start, polygon_of_ring))
-    edge1, edge2 = spots[:, 1] - spots[:, 0], spots[:, 2] - spots[:, 0]
-    third = np.abs(edge1[:, 0] * edge2[:, 1] - edge1[:, 1] * edge2[:, 0]) / 6
-    key = places(
-        np.concatenate([corner_polygon, np.repeat(row, 3)]), np.concatenate([part.points, spots.reshape(-1, 2)])
-    )
-    own, used = key[: len(corner_polygon)], key[len(corner_polygon) :]
-    at_place = np.bincount(used, weights=np.repeat(third, 3), minlength=int(key.max()) + 1)
-    # Where a hole touches the outline two corners share one place, and its area.
-    shares: FloatArray = at_place[own] / np.bincount(own, minlength=len(at_place))[own]
     return shares
 
 

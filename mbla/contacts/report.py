@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, PairsRefused, find_block_pairs
-from mbla.contacts.contacts import ContactReport
+from mbla.contacts.broad_phase import NEAR_MISS, find_block_pairs
+from mbla.contacts.contacts import ContactReport, ContactsRefused
 from mbla.contacts.facets import Facets
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
@@ -159,7 +159,7 @@ def misses_within(model: Model, facets: Facets, tolerance: float) -> Patches | N
     coarse = WIDEST / NEAR_MISS
     try:
         pairs = find_block_pairs(model.blocks, coarse)
-    except PairsRefused:
+    except ContactsRefused:
         return None
     patches = find_patches(model.blocks, facets, pairs, model.grounds, coarse)
     found = judge(patches, tolerance, WIDEST).near_misses

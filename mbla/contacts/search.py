@@ -42,7 +42,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
 
     Raises
     ------
-    PairsRefused, PointsRefused, SupportsAtOdds
+    ContactsRefused
         for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
     laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}
@@ -74,12 +74,12 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     order = _order(kept, np.ones(len(kept), dtype=bool))
     kept, rows = kept.take(order), rows[source[order]]
     corners = needed_corners(kept.polygons, section.tolerance)
-    simpler = outline_notices(model, section, kept, corners, areas_and_centroids(corners, len(kept))[0])
+    simpler = outline_notices(model, section, kept, corners, areas_and_centroids(corners)[0])
     law_of, names = laws.in_use(rows)
     crushable = np.isfinite([model.joints[name].compressive_strength for name in names])
     corners, piece = in_pieces(corners, crushable[law_of])
     kept, law_of = kept.take(piece), law_of[piece]
-    _, centroid = areas = areas_and_centroids(corners, len(kept))
+    _, centroid = areas = areas_and_centroids(corners)
     found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     findings = Findings(
         contacts=verdicts.contacts,

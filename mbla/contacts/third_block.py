@@ -56,7 +56,7 @@ def drop_pairs_separated_by_third_block(
     """
     parts = (verdicts.contacts, verdicts.slivers, verdicts.near_misses)
     contacts, slivers, near_misses = (part.take(~_through(part, blocks)) for part in parts)
-    every = _joined(contacts, near_misses)
+    every = concatenate([contacts, near_misses])
     far, closer = _behind_one_facet(every)
     far, closer = far[far < len(contacts)], closer[far < len(contacts)]
     wide = _share_a_surface(every, far, closer, tolerance)
@@ -115,17 +115,6 @@ def _through(patches: Patches, blocks: Blocks) -> BoolArray:
         rows = np.flatnonzero((depth > _ROUNDING * overlays.sizes) & (body < len(blocks)))
         found[rows] |= depth[rows] > _DEPTH * _thickness(blocks, body[rows], overlays.frames[rows, 0])
     return found
-
-
-def _joined(first: Patches, second: Patches) -> Patches:
-    return Patches(
-        concatenate([first.overlays, second.overlays]),
-        np.concatenate([first.polygons, second.polygons]),
-        np.concatenate([first.widths, second.widths]),
-        np.concatenate([first.gaps, second.gaps]),
-        np.concatenate([first.mid_gaps, second.mid_gaps]),
-        np.concatenate([first.coverage, second.coverage]),
-    )
 
 
 def _behind_one_facet(patches: Patches) -> tuple[IntArray, IntArray]:

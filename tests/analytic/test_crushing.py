@@ -45,7 +45,7 @@ WEIGHT = 2000 * 9.81 / 1e6
 
 def points_of(asked: ContactPoints, polygon: shapely.Polygon) -> InterfacePoints:
     corners = needed_corners(np.array([polygon], dtype=object), 1e-6)
-    return interface_points(corners, areas_and_centroids(corners, 1)[1], np.ones(1), asked)[0]
+    return interface_points(corners, areas_and_centroids(corners)[1], np.ones(1), asked)[0]
 
 
 def by_points(n: int, e1: float, e2: float, weight: float = 0.0) -> float:

@@ -11,12 +11,12 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.contacts.broad_phase import (
     BlockPairs,
-    PairsRefused,
     block_boxes,
     find_block_pairs,
     find_facet_pairs,
     opposite,
 )
+from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import join_polyhedra, polyhedra_from_lists
@@ -86,7 +86,7 @@ def test_crowds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(import_module("mbla.contacts.broad_phase"), "most_pairs", most_pairs)
     near = [cube_at((0.1 * x, 0.0, 0.0)) for x in range(3)]
     assert len(pairs_of(*near[:2])) == 1
-    with pytest.raises(PairsRefused) as refused:
+    with pytest.raises(ContactsRefused) as refused:
         pairs_of(*near)
     assert refused.value.message.identifier == "too-many-units"
     assert str(refused.value) == (

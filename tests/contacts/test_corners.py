@@ -8,7 +8,6 @@ import shapely
 
 from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.polygons import Polygons
-from mbla.contacts.refine import point_areas
 
 Outline = Sequence[Sequence[float]]
 
@@ -94,7 +93,7 @@ def test_holes_follow_the_outline_and_run_the_other_way() -> None:
     hole: Outline = [[0.25, 0.25], [0.75, 0.25], [0.75, 0.75], [0.25, 0.75]]
     corners = needed_corners(polygons(SQUARE, holes=[hole]), 1e-3)
     assert np.diff(corners.ring_start).tolist() == [4, 4]
-    area, centroid = areas_and_centroids(corners, 1)
+    area, centroid = areas_and_centroids(corners)
     assert area == pytest.approx([0.75])
     assert centroid == pytest.approx(np.array([[0.5, 0.5]]))
 
@@ -113,7 +112,7 @@ def test_outline_that_would_cross_itself_keeps_its_corners(neck: float) -> None:
     outline: Outline = [[0, 0], [1, 0], [1, 1 - neck], [2, 1], [2, 2], [1, 2], [1 - neck, 1], [0, 1]]
     corners = needed_corners(polygons(outline), 1e-3)
     assert shapely.Polygon(corners.points).is_valid
-    assert areas_and_centroids(corners, 1)[0] == pytest.approx([2.0], abs=1e-3)
+    assert areas_and_centroids(corners)[0] == pytest.approx([2.0], abs=1e-3)
 
 
 def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_those() -> None:
@@ -137,12 +136,11 @@ def test_corners_on_both_sides_of_a_hairline_neck() -> None:
     ]
     corners = needed_corners(polygons(outline), 1e-3)
     assert shapely.Polygon(corners.points).is_valid
-    shares = point_areas(corners, 1)
-    assert shares.sum() == pytest.approx(shapely.Polygon(outline).area, rel=1e-9)
+    assert areas_and_centroids(corners)[0] == pytest.approx([shapely.Polygon(outline).area], rel=1e-9)
 
 
 def test_area_and_centroid_far_from_the_local_origin() -> None:
     far = (np.array(SQUARE) + 1e6).tolist()
-    area, centroid = areas_and_centroids(needed_corners(polygons(far), 1e-3), 1)
+    area, centroid = areas_and_centroids(needed_corners(polygons(far), 1e-3))
     assert area == pytest.approx([1.0], rel=1e-9)
     assert centroid == pytest.approx(np.array([[1e6 + 0.5, 1e6 + 0.5]]), rel=1e-12)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.held_twice import SupportsAtOdds
+from mbla.contacts.contacts import ContactsRefused
 from mbla.model.model import Ground, Model
 from mbla.model.solids.polyhedra import Polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of, section
@@ -89,13 +89,13 @@ def test_a_wall_and_a_floor_hold_different_faces() -> None:
 @pytest.mark.parametrize("shapes", [[BLOCK], [BLOCK, HALF]])
 def test_different_joints_are_refused(shapes: list[tuple[list[float], list[float]]]) -> None:
     grounds = (ground(), ground(joint="lead"))
-    with pytest.raises(SupportsAtOdds, match=r"by different joints, dry and lead: leave one of them out, or name"):
+    with pytest.raises(ContactsRefused, match=r"by different joints, dry and lead: leave one of them out, or name"):
         found(shapes, grounds)
 
 
 def test_an_open_joint_leaves_the_piece_to_the_other_support() -> None:
     model = _model(boxes(BLOCK, HALF), (ground(joint="lead"),))
-    with pytest.raises(SupportsAtOdds, match=r"footing\[0\] and ground hold .* or leave out one of the two interfaces"):
+    with pytest.raises(ContactsRefused, match=r"footing\[0\] and ground hold .* or leave out one of the two"):
         find_contacts(model, section())
     contacts = find_contacts(model, section(overrides=[("block", "footing", "open")]))
     assert on(contacts) == [(2, 0, 4.0)]
@@ -103,7 +103,7 @@ def test_an_open_joint_leaves_the_piece_to_the_other_support() -> None:
 
 def test_a_block_that_can_move_does_not_share_with_a_ground() -> None:
     blocks = blocks_of(boxes(BLOCK, HALF), ["block", "slab"])
-    with pytest.raises(SupportsAtOdds, match=r"slab\[0\] and ground hold .*, slab\[0\] can move: "):
+    with pytest.raises(ContactsRefused, match=r"slab\[0\] and ground hold .*, slab\[0\] can move: "):
         find_contacts(model_of(blocks, grounds=(ground(blocks=[0]),)), section())
 
 

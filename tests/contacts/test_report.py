@@ -15,13 +15,9 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-import shapely
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.corners import Corners
-from mbla.contacts.narrow_phase import Patches, _on_same_facet
-from mbla.contacts.notices import _by_tolerance, outline_notices, overlap_messages
-from mbla.contacts.overlay import Overlays
+from mbla.contacts.notices import overlap_messages
 from mbla.contacts.report import isolated_blocks, joining_gap, nearest_words, unsupported_parts
 from mbla.model.model import Ground
 from mbla.model.solids.polyhedra import join_polyhedra
@@ -215,23 +211,6 @@ def test_a_block_twice_in_one_place_lies_inside_the_other() -> None:
     )
 
 
-def test_near_misses_behind_contacts_of_the_same_facet() -> None:
-    """Rows that share a facet, beside all pairs looked at one by one; the ground is none."""
-    facets = np.array([3, -1, 0, 5, 3])
-    contacts = np.array([[-1, 3], [3, 0], [4, 2], [0, 7]])
-    miss, contact = _on_same_facet(facets, contacts)
-    pairs = [(m, c) for m, one in enumerate(facets) for c, two in enumerate(contacts) if one >= 0 and one in two]
-    assert sorted(zip(miss.tolist(), contact.tolist(), strict=True)) == sorted(pairs)
-
-
-def test_a_tolerance_that_a_deck_may_not_give_is_not_advised() -> None:
-    """Decks allow 0.1 and no more; a twentieth more than what is needed, rounded, is advised."""
-    assert _by_tolerance(0.09, "above {:.2g}") == "above 0.095"
-    assert _by_tolerance(0.0944, "above {:.2g}") == "above 0.099"
-    assert _by_tolerance(0.0952, "above {:.2g}") == ""
-    assert _by_tolerance(0.2, "above {:.2g}") == ""
-
-
 PILE = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2]), ([0, 0, 2.012], [1, 1, 3]), ([1.05, 0, 0], [2, 1, 3]))
 """Gaps of 0.004 and 0.012 in a pile on the ground, and of 0.05 to the pier beside it."""
 
@@ -411,28 +390,3 @@ def test_the_share_of_the_area_is_told() -> None:
 @pytest.mark.parametrize("overrides", [("parameters.n=24",), ("parameters.eps=1.e-5",)])
 def test_nothing_is_said_where_every_corner_stays(overrides: tuple[str, ...]) -> None:
     assert not remarks(*overrides)
-
-
-def told_of_outline_notices(*drawn: float) -> list[str]:
-    """Of three unit squares drawn by four, five and six corners, with these areas."""
-    n = len(drawn)
-    nothing = np.zeros(n)
-    overlays = Overlays(
-        np.array([[k, k + 1] for k in range(n)]), np.zeros((n, 2), dtype=np.int64), np.zeros((n, 3)),
-        np.zeros((n, 3, 3)), np.ones(n), np.zeros((n, 3)),
-    )  # fmt: skip
-    squares = np.array([shapely.box(0, 0, 1, 1)] * n, dtype=object)
-    patches = Patches(overlays, squares, np.ones(n), nothing, nothing, nothing)
-    counts = np.arange(n) + 4
-    corners = Corners(np.zeros((counts.sum(), 2)), np.append(0, np.cumsum(counts)), np.arange(n))
-    model = model_of(blocks_of(boxes(*(([k, 0, 0], [k + 1, 1, 1]) for k in range(n + 1)))))
-    return [one.message for one in outline_notices(model, section(), patches, corners, np.array(drawn))]
-
-
-def test_the_outline_that_changed_most_is_told() -> None:
-    (text,) = told_of_outline_notices(1.0, 0.97, 1.01)
-    assert "the area of 2 common surfaces, most that of block[1] and block[2], drawn by 5 corners, by 3 %" in text
-    (alone,) = told_of_outline_notices(1.0, 1.0, 1.0 - 1.1e-4)
-    assert "the area of 1 common surface, most that of block[2] and block[3], drawn by 6 corners, by 0.011 %" in alone
-    assert "by 75 %" in told_of_outline_notices(0.25)[0]
-    assert told_of_outline_notices(1.0, 1.0 + 0.9e-4, 1.0 - 0.9e-4) == []

@@ -1,8 +1,8 @@
 """Computing in planes: axes across a normal, and polygons cut by half-planes, of which the signed integral counts.
 
 Sutherland and Hodgman 1974 (doi:10.1145/360767.360802): along each edge a corner inside is kept, and where an edge
-crosses the line the crossing is added. Corners that fall away repeat the one before them, so that all loops of an array
-keep one length; repeated corners and edges there and back along the line add nothing to an integral over the loop.
+crosses the line the crossing is added. All loops of an array have the length of the longest, others repeat their last
+corner; repeated corners and edges there and back along the line add nothing to an integral over the loop.
 """
 
 from __future__ import annotations
@@ -30,7 +30,10 @@ def plane_axes(normals: FloatArray) -> FloatArray:
 
 
 def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:
-    """What of loops lies where ``heights`` >= 0, (n, 2 k, d) from (n, k, d) and the height of each corner, (n, k)."""
+    """What of loops lies where ``heights`` >= 0, (n, m, d) from (n, k, d) and the height of each corner, (n, k).
+
+    Loops of which nothing is left are zero.
+    """
     n, k = heights.shape
     after = np.roll(np.arange(k), -1)
     inside = np.greater_equal(heights, 0.0)
@@ -40,9 +43,10 @@ def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:
     crossing = loops + t[..., None] * (loops[:, after] - loops)
     corners = np.stack([loops, crossing], axis=2).reshape(n, 2 * k, loops.shape[-1])
     kept = np.stack([inside, crosses], axis=2).reshape(n, 2 * k)
-    last = np.maximum.accumulate(np.where(kept, np.arange(2 * k), -1), axis=1)
-    last = np.where(last < 0, last[:, -1:], last)  # before the first one that is kept stands the last
-    found = np.take_along_axis(corners, np.maximum(last, 0)[..., None], axis=1)
+    counts = kept.sum(axis=1)
+    column = np.minimum(np.arange(max(int(counts.max(initial=k)), k)), np.maximum(counts, 1)[:, None] - 1)
+    source = np.take_along_axis(np.argsort(~kept, axis=1, kind="stable"), column, axis=1)
+    found = np.take_along_axis(corners, source[..., None], axis=1)
     return np.where(np.any(kept, axis=1, keepdims=True)[..., None], found, 0.0)
 
 

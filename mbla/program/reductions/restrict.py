@@ -46,13 +46,7 @@ def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array, forces: sp.csr_
 
 def chosen_limits(limits: YieldLimits, points: IntArray) -> YieldLimits:
     """Limits of the given points."""
-    return YieldLimits(
-        limits.friction[points],
-        limits.dilatancy[points],
-        limits.cohesion[points],
-        limits.tension[points],
-        limits.compression[points],
-    )
+    return YieldLimits(**{name: values[points] for name, values in vars(limits).items()})
 
 
 def selection(kept: IntArray, total: int, size: int) -> sp.csr_array:
