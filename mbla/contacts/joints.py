@@ -23,9 +23,9 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.contacts import AboutNormal, ContactOverride, ContactsSection
 from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
 from mbla.deck.sections.selectors import Selector
-from mbla.errors import Fault, Notice
+from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.model.selectors import Roster, bodies_selected, build_roster, selector_words
+from mbla.model.selectors import Roster, bodies_selected, selector_words
 from mbla.model.solids.plane import unit
 from mbla.model.wording import vector
 
@@ -85,21 +85,15 @@ def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -
     if sites.prescribed is not None:
         settled = np.array([bool(name) for name in sites.prescribed], dtype=bool)
         rows[settled] = [names.index(name) for name in sites.prescribed if name]
-    roster = build_roster(model.blocks, frozenset(), _not_to_be_reported) if section.overrides else None
+    roster = Roster(model.blocks)
     notices = []
     for override in section.overrides:
-        assert roster is not None
         fits = _fits(model, roster, sites, override) & ~settled
         rows[fits] = names.index(override.joint)
         if not fits.any():
             text = f"no contact {override_words(override)}: the override with joint {override.joint} has no effect"
             notices.append(Notice("warning", "override-without-contact", text))
     return Laws(rows, names), notices
-
-
-def _not_to_be_reported(*_: object) -> Fault:
-    """Selectors without blocks are the model stage's to report."""
-    raise AssertionError("the model stage has resolved every selector already")
 
 
 def _fits(model: Model, roster: Roster, sites: Sites, override: ContactOverride) -> BoolArray:

@@ -16,19 +16,19 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.sections.output import OutputSection
 from mbla.deck.tree import KeyPath
-from mbla.errors import DeckError, Fault, Message, Notice
+from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.added_masses import with_added_masses
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
-from mbla.model.selectors import Roster, build_roster, check_overrides
+from mbla.model.selectors import Roster, check_overrides, unplaced
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_fault, far_notices
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports.build import Supports, build_supports, does_nothing
-from mbla.model.symmetry import symmetry_faults, with_images
+from mbla.model.symmetry import with_images
 from mbla.process.sharing import once
 
 
@@ -42,32 +42,27 @@ def build_model(deck: Deck) -> Model:
         supports and loads that do nothing
     """
     structure = structure_of(deck)
-    faults, notices = list(structure.faults), list(structure.notices)
-    load_cases = _all_load_cases(deck, structure.roster, structure.supports, faults, notices)
-    if faults:
-        raise DeckError(faults)
-    supports, interfaces = structure.supports, structure.interfaces
+    roster, supports, interfaces = structure.roster, structure.supports, structure.interfaces
+    load_cases = _all_load_cases(deck, roster, supports)
+    if roster.faults:
+        raise DeckError(roster.faults)
     model = Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=structure.roster.blocks,
+        blocks=roster.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
-        notices=(*structure.first_notices, *joint_notices(deck), *notices),
+        notices=(*structure.first_notices, *joint_notices(deck), *roster.notices),
         guides=supports.guides,
         interfaces=interfaces,
         bent=structure.bent,
     )
-    if faults := symmetry_faults(deck, model):
-        raise DeckError(faults)
     return with_images(deck, model)
 
 
-def _all_load_cases(
-    deck: Deck, roster: Roster, supports: Supports, faults: list[Fault], notices: list[Notice]
-) -> tuple[LoadCase, ...]:
+def _all_load_cases(deck: Deck, roster: Roster, supports: Supports) -> tuple[LoadCase, ...]:
     """Load cases of the deck, in its order."""
     site = LoadSite(
         roster=roster,
@@ -77,8 +72,6 @@ def _all_load_cases(
         grounds=supports.grounds,
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
-        faults=faults,
-        notices=notices,
     )
     sections = deck.content.load_cases.items()
     return tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
@@ -91,18 +84,18 @@ def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: S
     if section.settlement is not None:
         settles = (*path, "settlement")
         return [
-            build_settlement(section.settlement, settles, load_case, supports, site.roster, site.faults)
-            for load_case in load_cases
+            build_settlement(section.settlement, settles, load_case, supports, site.roster) for load_case in load_cases
         ]
     for load_case in load_cases:
-        if not site.faults and does_nothing(load_case.live_load, supports):
+        if not site.roster.faults and does_nothing(load_case.live_load, supports):
             where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
             site.refuse(
-                (*path, "live"),
-                Message(
+                Finding(
                     "live-load-without-effect",
                     f"the supports take every live load{where}, for they act on guided blocks across what these may do",
-                ),
+                    *path,
+                    "live",
+                )
             )
     return load_cases
 
@@ -113,11 +106,10 @@ NO_LAW = JointLaw(friction=0.0)
 
 @dataclass(frozen=True)
 class Structure:
-    """Blocks by name, with the masses that rest on them, and what holds them.
+    """Blocks by name, with the masses that rest on them, and what holds them; what is wrong with it is in the roster.
 
-    bent                   : faces that were split
-    first_notices, notices : before and after those on joint laws
-    faults                 : in the order in which they are told
+    bent          : faces that were split
+    first_notices : before those on joint laws
     """
 
     roster: Roster
@@ -125,8 +117,6 @@ class Structure:
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
     first_notices: tuple[Notice, ...]
-    notices: tuple[Notice, ...]
-    faults: tuple[Fault, ...]
 
 
 def structure_of(deck: Deck) -> Structure:
@@ -135,8 +125,8 @@ def structure_of(deck: Deck) -> Structure:
     keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is looked for where its name is given
     files = tuple(str(source.path.absolute()) for source in deck.sources)
     content = (bare.content, bare.units, files, keys_set)
-    structure = once("structure", content, lambda: _build(bare), lasts=lambda structure: not structure.faults)
-    return replace(structure, roster=replace(structure.roster, fault_at=deck.fault_at))
+    structure = once("structure", content, lambda: _build(bare), lasts=lambda structure: not structure.roster.faults)
+    return replace(structure, roster=structure.roster.of_deck(deck.fault_at))
 
 
 def _bare(deck: Deck) -> Deck:
@@ -156,13 +146,8 @@ def _bare(deck: Deck) -> Deck:
     return replace(deck, content=content)
 
 
-def _unplaced(path: KeyPath, message: Message) -> Fault:
-    raise AssertionError(f"no deck to find {path} in: {message}")
-
-
 def _build(deck: Deck) -> Structure:
     faults: list[Fault] = []
-    notices: list[Notice] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
     far = far_fault(items.polyhedra, deck.contacts.tolerance)
@@ -172,16 +157,15 @@ def _build(deck: Deck) -> Structure:
         else [deck.fault_at(("blocks",), Message("coordinate-out-of-range", far))]
     )
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
-    roster = build_roster(built.blocks, partial, deck.fault_at)
-    supports = build_supports(deck, Supports(items.fixed, items.grounds), roster, faults)
-    check_overrides(deck.contacts.overrides, roster, faults)
-    interfaces = read_interfaces(deck, roster, supports.grounds, faults)
+    roster = Roster(built.blocks, partial, deck.fault_at, faults)
+    supports = build_supports(deck, Supports(items.fixed, items.grounds), roster)
+    check_overrides(deck.contacts.overrides, roster)
+    interfaces = read_interfaces(deck, roster, supports.grounds)
     if deck.content.masses:
-        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed, faults, notices))
+        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))
     first = (*items.notices, *built.notices, *far_notices(items.polyhedra, items.labels.name))
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    roster = replace(roster, fault_at=_unplaced)  # places are those of one deck
-    return Structure(roster, supports, interfaces, bent, first, tuple(notices), tuple(faults))
+    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, first)  # places are those of one deck
 
 
 UNLIMITED = 1e6

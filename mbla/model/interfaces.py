@@ -18,7 +18,7 @@ from mbla.deck.deck import Deck
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import did_you_mean, unknown
 from mbla.deck.tree import KeyPath
-from mbla.errors import DeckError, Fault, Message
+from mbla.errors import DeckError, Message
 from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
@@ -35,10 +35,8 @@ FACING = 0.99
 """cosine of the angle between an interface and a face that it may lie on, as of faces of one facet"""
 
 
-def read_interfaces(
-    deck: Deck, roster: Roster, grounds: tuple[Ground, ...], faults: list[Fault]
-) -> PrescribedInterfaces | None:
-    """Interfaces of the deck's table; None where it has none, or where it is at fault."""
+def read_interfaces(deck: Deck, roster: Roster, grounds: tuple[Ground, ...]) -> PrescribedInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it is at fault, which the roster is told."""
     path: KeyPath = ("contacts", "table")
     if deck.contacts.table is None or roster.partial:
         return None
@@ -47,9 +45,9 @@ def read_interfaces(
         laws = (*deck.content.joints, *BUILT_IN)
         return prescribed_interfaces(table, roster.blocks, roster.members, grounds, laws, deck.contacts.tolerance)
     except DeckError as error:
-        faults += error.faults
+        roster.faults.extend(error.faults)
     except TableRefused as refused:
-        faults += [deck.fault_at(path, fault) for fault in refused.faults]
+        roster.faults.extend(deck.fault_at(path, fault) for fault in refused.faults)
     return None
 
 
@@ -70,12 +68,10 @@ def prescribed_interfaces(
     TableRefused
         with every fault, by file and line
     """
-    faults: list[Message] = []
-    points = table.numbers("xyz", faults)
-    bodies = np.array([_bodies(table, row, members, len(blocks), len(grounds), faults) for row in range(len(table))])
-    start = _starts(table, bodies, joints, faults)
-    if faults:
-        raise TableRefused(faults)
+    points = table.numbers("xyz")
+    bodies = np.array([_bodies(table, row, members, len(blocks), len(grounds)) for row in range(len(table))])
+    start = _starts(table, bodies, joints)
+    table.check()
     first = start[:-1]
     pairs = [_ground_first(bodies[row].tolist(), len(blocks)) for row in first]
     normals, outlines = _fitted(table, points, start, pairs, blocks, grounds, tolerance)
@@ -101,24 +97,23 @@ def _fitted(
         for row, last, pair in zip(first, start[1:], pairs, strict=True)
     ]
     faults = [
-        Message("interface-misfit", f"{_called(table, row)} {wrong}")
-        for row, wrong in zip(first, found, strict=True)
-        if isinstance(wrong, str)
+        f"{_called(table, row)} {wrong}" for row, wrong in zip(first, found, strict=True) if isinstance(wrong, str)
     ]
     fitting = [each for each in found if not isinstance(each, str)]
     normals, outlines = [normal for normal, _ in fitting], [outline for _, outline in fitting]
     if not faults:
         reach = tolerance * np.array([_size(pair, blocks) for pair in pairs])
         faults = [
-            Message("interface-misfit", _overlaps(table, first[one], first[other]))
+            f"{_called(table, first[other])} overlaps interface {table.columns['interface'][first[one]]} between the "
+            "same bodies"
             for one, other in overlapping(pairs, normals, outlines, reach)
         ]
     if faults:
-        raise TableRefused(faults)
+        raise TableRefused(*(Message("interface-misfit", fault) for fault in faults))
     return normals, outlines
 
 
-def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: list[Message]) -> IntArray:
+def _starts(table: Table, bodies: IntArray, joints: Collection[str]) -> IntArray:
     """First row of each interface, and the number of rows; rows of one interface agree and follow each other."""
     names, laws = table.columns["interface"], table.columns.get("joint", [""] * len(table))
     first = [row for row in range(len(table)) if row == 0 or names[row] != names[row - 1]]
@@ -126,27 +121,20 @@ def _starts(table: Table, bodies: IntArray, joints: Collection[str], faults: lis
     seen: set[str] = set()
     for row, last in zip(first, start[1:], strict=True):
         if names[row] in seen:
-            faults.append(
-                Message("table-row", f"{table.place(row)}: the rows of interface {names[row]} do not follow each other")
-            )
+            table.refuse(row, f"the rows of interface {names[row]} do not follow each other")
         seen.add(names[row])
         if (bodies[row:last] != bodies[row]).any():
-            faults.append(Message("table-row", f"{_called(table, row)} is between different blocks in its rows"))
+            table.refuse(row, f"interface {names[row]} is between different blocks in its rows")
         if len(set(laws[row:last])) > 1:
-            faults.append(Message("table-row", f"{_called(table, row)} has different joint laws in its rows"))
+            table.refuse(row, f"interface {names[row]} has different joint laws in its rows")
         elif laws[row] and laws[row] not in joints:
-            faults.append(Message("table-row", f"{table.place(row)}: {unknown('joint', laws[row], joints, 'known')}"))
+            table.refuse(row, unknown("joint", laws[row], joints, "known"))
     return start
 
 
 def _called(table: Table, row: int) -> str:
     """``contacts.csv:7: interface bed``."""
-    return f"{table.place(row)}: interface {table.columns['interface'][row]}"
-
-
-def _overlaps(table: Table, row: int, other: int) -> str:
-    """That the interface at row ``other`` overlaps the one at ``row``."""
-    return f"{_called(table, other)} overlaps interface {table.columns['interface'][row]} between the same bodies"
+    return f"{table.file}:{table.lines[row]}: interface {table.columns['interface'][row]}"
 
 
 def _ground_first(bodies: Sequence[int], n_blocks: int) -> tuple[int, int]:
@@ -160,30 +148,23 @@ def _size(bodies: tuple[int, int], blocks: Blocks) -> float:
     return min(float(blocks.sizes[body]) for body in bodies if body < len(blocks))
 
 
-def _bodies(
-    table: Table, row: int, members: dict[str, IntArray], n_blocks: int, n_grounds: int, faults: list[Message]
-) -> tuple[int, int]:
+def _bodies(table: Table, row: int, members: dict[str, IntArray], n_blocks: int, n_grounds: int) -> tuple[int, int]:
     """Both bodies of a row; -1 where there is a fault."""
-    found = []
+    found: list[int | None] = []
     for side in "ab":
-        group, index = table.columns[f"group_{side}"][row], table.columns[f"index_{side}"][row]
+        group = table.columns[f"group_{side}"][row]
         known = np.arange(n_blocks, n_blocks + n_grounds) if group == GROUND else members.get(group)
         if known is None:
-            faults.append(
-                Message("table-row", f"{table.place(row)}: unknown group {group}{did_you_mean(group, members)}")
-            )
-        elif not index.isdecimal() or int(index) >= len(known):
-            there = f"has 0 to {len(known) - 1}" if len(known) else "has none: give ground under supports"
-            faults.append(
-                Message("table-row", f"{table.place(row)}: index_{side} = {index or '(empty)'}: {group} {there}")
-            )
-        else:
-            found.append(int(known[int(index)]))
-    if len(found) == 2 and (found[0] == found[1] or min(found) >= n_blocks):
-        faults.append(
-            Message("table-row", f"{table.place(row)}: an interface is between two blocks, or a block and ground")
-        )
-    return (found[0], found[1]) if len(found) == 2 else (-1, -1)
+            table.refuse(row, f"unknown group {group}{did_you_mean(group, members)}")
+            continue
+        there = f"has 0 to {len(known) - 1}" if len(known) else "has none: give ground under supports"
+        found.append(table.place_in(f"index_{side}", row, known, f"{group} {there}"))
+    match found:
+        case [int(a), int(b)]:
+            if a == b or min(a, b) >= n_blocks:
+                table.refuse(row, "an interface is between two blocks, or a block and ground")
+            return a, b
+    return -1, -1
 
 
 def _oriented(

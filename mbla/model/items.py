@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,10 +17,9 @@ from mbla.deck.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Message, Notice
 from mbla.model.generators import KINDS, amount_of, amounts, generator_of
-from mbla.model.generators.amounts import Amount
-from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.model import Ground
-from mbla.model.solids.blocks import NONE, BlockLabels, Blocks, join_labels, labels_of
+from mbla.model.solids.blocks import NONE, Blocks, join_labels, labels_of
 from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
@@ -50,34 +49,15 @@ class CollectedItems:
     partial: frozenset[str]
 
 
-@dataclass
-class _Collection:
-    """What the items gave so far, one entry for each part."""
-
-    polyhedra: list[Polyhedra] = field(default_factory=list)
-    groups: list[str] = field(default_factory=list)
-    densities: list[float] = field(default_factory=list)
-    items: list[int] = field(default_factory=list)
-    fixed: list[bool] = field(default_factory=list)
-    labels: list[BlockLabels] = field(default_factory=list)
-    grounds: list[Ground] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
-    partial: set[str] = field(default_factory=set)
-    n_blocks: int = 0
-
-
 @dataclass(frozen=True)
-class _Entry:
-    """What all blocks of an item share: its number in the deck, group, material, and the deck's default joint law.
+class _Placed:
+    """A part of an item in one of its copies; ``copy`` is -1 where there is but one."""
 
-    densities : by the name of each material
-    """
-
-    number: int
+    part: Part
+    item: int
     group: str
     material: str
-    joint: str
-    densities: Mapping[str, float]
+    copy: int
 
 
 def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
@@ -91,26 +71,50 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
         with all faults, where no item can be built; where all of them together make too much
     """
     _refuse_together(deck)
-    collection = _Collection()
-    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    placed: list[_Placed] = []
+    grounds: list[Ground] = []
+    notices: list[Notice] = []
+    partial: set[str] = set()
+    n_blocks = 0
     for number, block_item in enumerate(deck.content.blocks):
         kind, item = kind_of(block_item)
         path: KeyPath = ("blocks", number, kind)
-        entry = _Entry(number, item.group or kind, item.material, deck.contacts.joint, densities)
+        group = item.group or kind
         try:
             generated = _generate(deck, kind, item, path)
-            _refuse_copies(item, generated, collection.n_blocks)
+            _refuse_copies(item, generated, n_blocks)
         except ItemRefused as refused:
             faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
+            partial |= {group, f"{group}_springers"}
+            continue
         except DeckError as error:
             faults += error.faults
-        else:
-            _add_copies(collection, generated, item, entry)
+            partial |= {group, f"{group}_springers"}
             continue
-        collection.partial |= {entry.group, f"{entry.group}_springers"}
-    if not collection.polyhedra:
+        notices += generated.notices
+        copies = repetitions(item.repeat)
+        for copy in range(len(copies)):
+            own = transform_item(generated, copies.map(copy)) if copy else generated
+            for ground in own.grounds:
+                joint = ground.joint or deck.contacts.joint
+                grounds.append(Ground(ground.point, ground.normal, joint, n_blocks + ground.blocks, "ground"))
+            for part in own.parts:
+                label = copy if len(copies) > 1 else NONE
+                placed.append(_Placed(part, number, group + part.suffix, part.material or item.material, label))
+                n_blocks += len(part.polyhedra)
+    if not placed:
         raise DeckError(faults)
-    return _joined(collection)
+    labels = _labels(deck, placed)
+    counts = [len(each.part.polyhedra) for each in placed]
+    return CollectedItems(
+        polyhedra=join_polyhedra([each.part.polyhedra for each in placed]),
+        labels=labels,
+        items=np.repeat([each.item for each in placed], counts),
+        fixed=np.repeat([each.part.fixed for each in placed], counts),
+        grounds=tuple(_named(ground, labels) for ground in grounds),
+        notices=tuple(notices),
+        partial=frozenset(partial),
+    )
 
 
 def kind_of(entry: BlockItem) -> tuple[str, Item]:
@@ -127,11 +131,12 @@ def density_of(material: Material, units: Units) -> float:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    """An item in the coordinates of the deck."""
+    """An item in the coordinates of the deck; ItemRefused where it makes too much, before any of it is made."""
     site = Site(
         deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
     )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
+        amounts.refuse_too_many(amount_of(kind, item), item)
         generated = generator_of(kind)(item, site)
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
@@ -139,13 +144,10 @@ def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
 
 def _refuse_together(deck: Deck) -> None:
     """DeckError where items make more than can be handled, each of which could be, before any of them is made."""
-    total = 0.0
     with np.errstate(all="ignore"):  # lengths beyond what a double holds are told by the item itself
-        for block_item in deck.content.blocks:
-            kind, item = kind_of(block_item)
-            about = amount_of(kind, item).of_copies(item)
-            total += about if about <= amounts.MOST else 0.0  # that one is refused by itself
-    if message := amounts.too_many_together(total):
+        items = [kind_of(block_item) for block_item in deck.content.blocks]
+        about = [amount_of(kind, item).of_copies(item) for kind, item in items]
+    if message := amounts.too_many_together(sum(each for each in about if each <= amounts.MOST)):
         raise DeckError([deck.fault_at(("blocks",), message)])
 
 
@@ -157,61 +159,24 @@ def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
     amounts.refuse_beyond(amounts.MOST, blocks, key, "blocks")
     if copies > 1:
         facets = sum(len(part.polyhedra.block_of_face) for part in generated.parts)
-        amounts.refuse_too_many(Amount(facets, key, "facets"), item)
+        amounts.refuse_too_many(amounts.Amount(facets, key, "facets"), item)
     amounts.refuse_beyond(amounts.MOST, before + blocks, (), "blocks, with those of the items before it")
     if copies > 1 and blocks:
-        _refuse_crowd(item, next(part.polyhedra for part in generated.parts if len(part.polyhedra)), blocks)
+        first = next(part.polyhedra for part in generated.parts if len(part.polyhedra))
+        with np.errstate(all="ignore"):  # coordinates that are not finite are refused by block
+            corners = first.vertices[: min(int(first.vertex_start[1]), CORNERS_OF_A_BLOCK)]
+            images = repetitions(item.repeat).points(corners)
+            amounts.refuse_crowd(images.min(axis=1), images.max(axis=1), blocks)
 
 
-def _refuse_crowd(item: Item, polyhedra: Polyhedra, blocks: int) -> None:
-    """Refuse an item of which the copies of the first block lie in one place by the thousand."""
-    corners = polyhedra.vertices[: min(int(polyhedra.vertex_start[1]), CORNERS_OF_A_BLOCK)]
-    with np.errstate(all="ignore"):  # coordinates that are not finite are refused by block
-        images = repetitions(item.repeat).points(corners)
-        amounts.refuse_crowd(images.min(axis=1), images.max(axis=1), blocks)
-
-
-def _add_copies(collection: _Collection, generated: Generated, item: Item, entry: _Entry) -> None:
-    """Add an item as often as it is repeated; what it has to say is said once."""
-    copies = repetitions(item.repeat)
-    for copy in range(len(copies)):
-        number = copy if len(copies) > 1 else NONE
-        _add(collection, transform_item(generated, copies.map(copy)) if copy else generated, entry, number)
-    collection.notices += generated.notices
-
-
-def _add(collection: _Collection, generated: Generated, entry: _Entry, copy: int) -> None:
-    """Add one copy of an item; ``copy`` is -1 where there is but one."""
-    for ground in generated.grounds:
-        carried = collection.n_blocks + ground.blocks
-        joint = ground.joint or entry.joint
-        collection.grounds.append(Ground(ground.point, ground.normal, joint, carried, "ground"))
-    for part in generated.parts:
-        collection.polyhedra.append(part.polyhedra)
-        collection.groups.append(entry.group + part.suffix)
-        collection.densities.append(entry.densities[part.material or entry.material])
-        collection.items.append(entry.number)
-        collection.fixed.append(part.fixed)
-        collection.labels.append(labels_of(len(part.polyhedra), part.member, part.labels, copy))
-        collection.n_blocks += len(part.polyhedra)
-
-
-def _joined(collection: _Collection) -> CollectedItems:
-    """Values of parts as values of their blocks; grounds with the names of the blocks they carry."""
-    counts = [len(polyhedra) for polyhedra in collection.polyhedra]
-    groups = tuple(group for group, count in zip(collection.groups, counts, strict=True) for _ in range(count))
-    labels = Labels(
-        groups, indices_in_groups(groups), np.repeat(collection.densities, counts), join_labels(collection.labels)
-    )
-    return CollectedItems(
-        polyhedra=join_polyhedra(collection.polyhedra),
-        labels=labels,
-        items=np.repeat(collection.items, counts),
-        fixed=np.repeat(np.array(collection.fixed, dtype=bool), counts),
-        grounds=tuple(_named(ground, labels) for ground in collection.grounds),
-        notices=tuple(collection.notices),
-        partial=frozenset(collection.partial),
-    )
+def _labels(deck: Deck, placed: Sequence[_Placed]) -> Labels:
+    """Names and densities of the blocks of all parts."""
+    counts = [len(each.part.polyhedra) for each in placed]
+    groups = tuple(each.group for each, count in zip(placed, counts, strict=True) for _ in range(count))
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    within = [labels_of(len(each.part.polyhedra), each.part.member, each.part.labels, each.copy) for each in placed]
+    of_parts = [densities[each.material] for each in placed]
+    return Labels(groups, indices_in_groups(groups), np.repeat(of_parts, counts), join_labels(within))
 
 
 def _named(ground: Ground, labels: Labels) -> Ground:

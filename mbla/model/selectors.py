@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -13,48 +14,69 @@ from mbla.deck.sections.contacts import ContactOverride
 from mbla.deck.sections.selectors import POSITIONS, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import Fault, Finding, Message, Notice
 from mbla.model.solids.blocks import Blocks
 from mbla.model.wording import vector
 
 
+def unplaced(path: KeyPath, message: Message) -> Fault:
+    """Stands for the places of a deck where there is none: everything in it was checked before."""
+    raise AssertionError(f"no deck to find {path} in: {message}")
+
+
 @dataclass(frozen=True)
 class Roster:
-    """The blocks that selectors choose from.
+    """The blocks that selectors choose from, and what is found wrong with a deck that chooses.
 
-    members : blocks of each group, in order
     partial : groups of which an item could not be built; what a selector finds in them is not the deck's fault
     fault_at : see ``Deck.fault_at``
+    faults, notices : each once
     """
 
     blocks: Blocks
-    members: dict[str, IntArray]
-    partial: frozenset[str]
-    fault_at: Callable[[KeyPath, Message], Fault]
+    partial: frozenset[str] = frozenset()
+    fault_at: Callable[[KeyPath, Message], Fault] = unplaced
+    faults: list[Fault] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
+
+    @cached_property
+    def members(self) -> dict[str, IntArray]:
+        """Blocks of each group, in order."""
+        names, codes = np.unique(np.array(self.blocks.groups, dtype=np.str_), return_inverse=True)
+        order = np.argsort(codes, kind="stable")
+        parts = np.split(order, np.cumsum(np.bincount(codes, minlength=len(names)))[:-1])
+        return dict(zip(names.tolist(), parts, strict=True))
+
+    def of_deck(self, fault_at: Callable[[KeyPath, Message], Fault]) -> Roster:
+        """The same for another deck with these blocks, with a record of its own of what is found."""
+        return replace(self, fault_at=fault_at, faults=list(self.faults), notices=list(self.notices))
+
+    def refuse(self, finding: Finding) -> None:
+        """Add a fault, once: several load cases may have the same named load."""
+        fault = self.fault_at(*finding)
+        if fault not in self.faults:
+            self.faults.append(fault)
+
+    def remark(self, notice: Notice) -> None:
+        """Add a notice, once."""
+        if notice not in self.notices:
+            self.notices.append(notice)
 
 
-def build_roster(blocks: Blocks, partial: frozenset[str], fault_at: Callable[[KeyPath, Message], Fault]) -> Roster:
-    """Roster of all blocks by group."""
-    names, codes = np.unique(np.array(blocks.groups, dtype=np.str_), return_inverse=True)
-    order = np.argsort(codes, kind="stable")
-    parts = np.split(order, np.cumsum(np.bincount(codes, minlength=len(names)))[:-1])
-    return Roster(blocks, dict(zip(names.tolist(), parts, strict=True)), partial, fault_at)
-
-
-def select_blocks(selector: Selector, path: KeyPath, roster: Roster, faults: list[Fault]) -> IntArray | None:
+def select_blocks(selector: Selector, path: KeyPath, roster: Roster) -> IntArray | None:
     """Blocks that a selector means, ascending, each once, (n,).
 
-    None where that cannot be said: a fault was added to ``faults``, or items it depends on could not be built.
+    None where that cannot be said: a fault was added to the roster, or items it depends on could not be built.
     """
     if isinstance(selector, list):
-        each = [_select(term, (*path, number), roster, faults) for number, term in enumerate(selector)]
+        each = [_select(term, (*path, number), roster) for number, term in enumerate(selector)]
     else:
-        each = [_select(selector, path, roster, faults)]
+        each = [_select(selector, path, roster)]
     found = [blocks for blocks in each if blocks is not None]
     return np.unique(np.concatenate(found)).astype(np.int64) if len(found) == len(each) else None
 
 
-def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster, faults: list[Fault]) -> IntArray | None:
+def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster) -> IntArray | None:
     if isinstance(term, str):
         return None if term in roster.partial else roster.members[term]
     # any block that could not be built might lie in a box
@@ -62,94 +84,78 @@ def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster, faults: lis
         return None
     blocks = roster.members[term.group] if term.group is not None else np.arange(len(roster.blocks))
     for narrow in (_with_index, _of_member, _at_positions, _in_box):
-        narrowed = narrow(term, blocks, roster)
-        if isinstance(narrowed, _Nothing):
-            faults.append(roster.fault_at((*path, narrowed.key), narrowed.message))
+        narrowed = narrow(term, blocks, roster.blocks)
+        if isinstance(narrowed, Finding):
+            roster.refuse(narrowed.below(*path))
             return None
         blocks = narrowed
     return blocks
 
 
-@dataclass(frozen=True)
-class _Nothing:
-    """No block is left: the key of the selector that excludes the last ones, and why."""
-
-    key: str
-    message: Message
+# Each step gives the blocks (n,) that are left, or the key of the selector that excludes the last ones, and why.
 
 
-def _with_index(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+def _with_index(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:
     if term.index is None:
-        return blocks
-    if term.index >= len(blocks):
-        allowed = f"0 to {len(blocks) - 1}" if len(blocks) > 1 else "0 only"
-        return _Nothing(
-            "index",
-            Message("empty-selector", f"there is no such block: {term.group} has {len(blocks)}, index {allowed}"),
-        )
-    return blocks[term.index : term.index + 1]
+        return rows
+    if term.index >= len(rows):
+        allowed = f"0 to {len(rows) - 1}" if len(rows) > 1 else "0 only"
+        words = f"there is no such block: {term.group} has {len(rows)}, index {allowed}"
+        return Finding("empty-selector", words, "index")
+    return rows[term.index : term.index + 1]
 
 
-def _of_member(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+def _of_member(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:
     if term.member is None:
-        return blocks
-    members = np.array(roster.blocks.labels.members, dtype=object)[blocks]
-    found: IntArray = blocks[members == term.member]
+        return rows
+    members = np.array(blocks.labels.members, dtype=object)[rows]
+    found: IntArray = rows[members == term.member]
     if len(found):
         return found
     known = sorted({str(member) for member in members if member})
     if not known:
-        return _Nothing("member", Message("empty-selector", "these blocks have no members: leave it out"))
-    return _Nothing("member", Message("unknown-name", unknown("member", term.member, known, "these blocks have")))
+        return Finding("empty-selector", "these blocks have no members: leave it out", "member")
+    return Finding("unknown-name", unknown("member", term.member, known, "these blocks have"), "member")
 
 
-def _at_positions(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+def _at_positions(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:
     for name in POSITIONS:
         asked = term.position(name)
         if asked is None:
             continue
-        positions = roster.blocks.labels.position(name)[blocks]
+        positions = blocks.labels.position(name)[rows]
         if not (positions >= 0).any():
-            return _Nothing(name, Message("empty-selector", f"these blocks have no {name}: leave it out"))
+            return Finding("empty-selector", f"these blocks have no {name}: leave it out", name)
         count = int(positions.max()) + 1
         first, last = (at + count if at < 0 else at for at in (asked if isinstance(asked, tuple) else (asked, asked)))
         fits = (positions >= max(first, 0)) & (positions <= last)
         if not fits.any():
-            return _Nothing(
-                name,
-                Message(
-                    "empty-selector", f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}"
-                ),
-            )
-        blocks = blocks[fits]
-    return blocks
+            words = f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}"
+            return Finding("empty-selector", words, name)
+        rows = rows[fits]
+    return rows
 
 
-def _in_box(term: SelectorTerm, blocks: IntArray, roster: Roster) -> IntArray | _Nothing:
+def _in_box(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:
     if term.box is None:
-        return blocks
+        return rows
     least, greatest = np.array(term.box)
-    centroids = roster.blocks.centroids[blocks]
+    centroids = blocks.centroids[rows]
     inside = ((centroids >= least) & (centroids <= greatest)).all(axis=1)
-    found: IntArray = blocks[inside]
-    if len(found):
-        return found
+    if inside.any():
+        return np.asarray(rows[inside])
     low, high = centroids.min(axis=0), centroids.max(axis=0)
     which = "a block" if term.group is None else "these blocks"
-    return _Nothing(
-        "box",
-        Message(
-            "empty-selector", f"no centroid of {which} lies in it; they lie between {vector(low)} and {vector(high)}"
-        ),
-    )
+    words = f"no centroid of {which} lies in it; they lie between {vector(low)} and {vector(high)}"
+    return Finding("empty-selector", words, "box")
 
 
-def check_overrides(overrides: Sequence[ContactOverride], roster: Roster, faults: list[Fault]) -> None:
-    """Add to ``faults`` the selectors of overrides that mean no block."""
+def check_overrides(overrides: Sequence[ContactOverride], roster: Roster) -> None:
+    """Refuse the selectors of overrides that mean no block."""
     for number, override in enumerate(overrides):
         for side, selector in enumerate(override.between or ()):
             for below, term in _blocks_in(selector):
-                select_blocks(term, ("contacts", "overrides", number, "between", side, *below), roster, faults)
+                select_blocks(term, ("contacts", "overrides", number, "between", side, *below), roster)
 
 
 def bodies_selected(selector: Selector, roster: Roster, n_grounds: int) -> BoolArray:
@@ -157,7 +163,7 @@ def bodies_selected(selector: Selector, roster: Roster, n_grounds: int) -> BoolA
     n_blocks = len(roster.blocks)
     chosen = np.zeros(n_blocks + n_grounds, dtype=bool)
     for below, term in _blocks_in(selector):
-        blocks = select_blocks(term, below, roster, [])
+        blocks = select_blocks(term, below, roster)
         assert blocks is not None  # ``check_overrides`` found blocks for every one
         chosen[blocks] = True
     terms = selector if isinstance(selector, list) else [selector]

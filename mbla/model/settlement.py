@@ -20,7 +20,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.load_cases import SettlementSection
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import Finding
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
@@ -36,13 +36,12 @@ def build_settlement(
     load_case: LoadCase,
     supports: Supports,
     roster: Roster,
-    faults: list[Fault],
 ) -> LoadCase:
     """The load case with its settlement; the reference reaction is not known before there are contacts.
 
-    Adds to ``faults``: blocks that `supports` does not fix, and settlements under no dead load or of everything fixed.
+    Refuses blocks that `supports` does not fix, and settlements under no dead load or of everything fixed.
     """
-    chosen = select_blocks(section.on, (*path, "on"), roster, faults)
+    chosen = select_blocks(section.on, (*path, "on"), roster)
     if chosen is None:
         return load_case
     loose = chosen[~supports.fixed[chosen]]
@@ -51,7 +50,7 @@ def build_settlement(
             f"{named(loose, roster.blocks.name)} {'is' if len(loose) == 1 else 'are'} not fixed: a support that gives "
             "way is made of blocks that `supports` fixes; in place of a ground plane give a block and fix it"
         )
-        faults.append(roster.fault_at((*path, "on"), Message("settlement-not-fixed", message)))
+        roster.refuse(Finding("settlement-not-fixed", message, *path, "on"))
         return load_case
     free = ~supports.fixed
     with np.errstate(over="ignore", invalid="ignore"):
@@ -61,7 +60,7 @@ def build_settlement(
     if not weights.sum() > 0.0:
         if free.any() and not roster.partial:
             message = "there is no dead load on blocks that can move: no reaction is lost"
-            faults.append(roster.fault_at(path, Message("settlement-without-effect", message)))
+            roster.refuse(Finding("settlement-without-effect", message, *path))
         return load_case
     motions, words = _motion(section, chosen, roster.blocks)
     size = float(weights.sum())

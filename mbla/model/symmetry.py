@@ -7,7 +7,7 @@ with its image: both without their faces on the plane.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,12 +19,12 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault, Message, Notice
+from mbla.errors import DeckError, Finding, Notice
 from mbla.model.join import halves_joined, polyhedra_of, reflected
 from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.load_kind import entries_of
 from mbla.model.model import Ground, LoadCase, Model, Settlement
-from mbla.model.selectors import build_roster, select_blocks
+from mbla.model.selectors import Roster, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
 from mbla.model.solids.build import Labels, build_blocks
@@ -47,38 +47,31 @@ def with_images(deck: Deck, model: Model) -> Model:
 
     Raises
     ------
-    DeckError is left to the caller: faults are returned by ``symmetry_faults`` beforehand
+    DeckError
+        for what keeps a plane from mirroring the model
     """
     for number, plane in enumerate(deck.content.symmetry):
-        mirror, faults = find_mirror(deck, model, plane, ("symmetry", number))
-        assert mirror is not None, faults  # found by symmetry_faults
+        path: KeyPath = ("symmetry", number)
+        mirror = find_mirror(deck, model, plane, path)
+        findings = [
+            finding
+            for name, section in deck.content.load_cases.items()
+            for finding in _loads_across(deck, section, ("load_cases", name), mirror)
+        ]
+        _refuse(deck, findings)
+        _refuse(deck, _cannot_mirror(deck, model, mirror, path))
         model = _mirrored(model, mirror, deck.contacts.tolerance)
     return model
 
 
-def symmetry_faults(deck: Deck, model: Model) -> list[Fault]:
-    """What keeps the deck's planes from mirroring the model."""
-    faults: list[Fault] = []
-    for number, plane in enumerate(deck.content.symmetry):
-        path: KeyPath = ("symmetry", number)
-        mirror, found = find_mirror(deck, model, plane, path)
-        faults += found
-        if mirror is None:
-            return faults
-        for name, section in deck.content.load_cases.items():
-            faults += _loads_across(deck, section, ("load_cases", name), mirror)
-        if faults:
-            return faults
-        faults += _cannot_mirror(deck, model, mirror, path)
-        if faults:
-            return faults
-        model = _mirrored(model, mirror, deck.contacts.tolerance)
-    return faults
+def _refuse(deck: Deck, findings: Iterable[Finding]) -> None:
+    """DeckError where there are findings."""
+    if faults := [deck.fault_at(*finding) for finding in findings]:
+        raise DeckError(faults)
 
 
-def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mirror) -> list[Fault]:
+def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mirror) -> Iterator[Finding]:
     """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
-    faults = []
     dead = entries_of(section.dead or [], (*path, "dead"), deck.content.loads)
     live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
     for entry in (*with_gravity(dead, path, deck.units), *live):
@@ -94,28 +87,21 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
                 f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
                 "other way; give the whole structure"
             )
-        faults.append(deck.fault_at((*entry.path, kind), Message("symmetry-broken", message)))
-    return faults
+        yield Finding("symmetry-broken", message, *entry.path, kind)
 
 
-def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> list[Fault]:
+def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> Iterator[Finding]:
     """Supports and forces that have no image."""
-    faults = []
+    near = deck.contacts.tolerance * float(model.blocks.sizes.min())
     for ground in model.grounds:
-        if abs(float(ground.normal @ mirror.normal)) > 1.0 - ACROSS and abs(
-            float((ground.point - mirror.point) @ mirror.normal)
-        ) <= deck.contacts.tolerance * float(model.blocks.sizes.min()):
-            faults.append(
-                deck.fault_at(
-                    path, Message("symmetry-broken", f"{ground.label} lies in it: what is mirrored is not held there")
-                )
-            )
+        along = abs(float(ground.normal @ mirror.normal)) > 1.0 - ACROSS
+        if along and abs(float((ground.point - mirror.point) @ mirror.normal)) <= near:
+            yield Finding("symmetry-broken", f"{ground.label} lies in it: what is mirrored is not held there", *path)
     guided = model.guides.blocks[mirror.halves[model.guides.blocks]]
     if len(guided):
-        message = (
-            f"{named(guided, model.blocks.name)} cannot be guided and halved: by symmetry it moves in the plane only"
-        )
-        faults.append(deck.fault_at((*path, "halves"), Message("symmetry-broken", message)))
+        them = named(guided, model.blocks.name)
+        message = f"{them} cannot be guided and halved: by symmetry it moves in the plane only"
+        yield Finding("symmetry-broken", message, *path, "halves")
     for case in model.load_cases:
         across = np.zeros_like(mirror.halves)
         for load in (case.dead_load, case.live_load):
@@ -125,7 +111,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> l
                 f"a load acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: the other "
                 "half is loaded the other way, and nothing is left of it"
             )
-            faults.append(deck.fault_at(("load_cases", case.name), Message("symmetry-broken", message)))
+            yield Finding("symmetry-broken", message, "load_cases", case.name)
         settlement = case.settlement
         if settlement is not None and mirror.halves[settlement.blocks].any():
             moved = settlement.motions[mirror.halves[settlement.blocks]]
@@ -133,10 +119,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> l
                 message = (
                     "a support that the plane of symmetry cuts can only give way along that plane, without turning"
                 )
-                faults.append(
-                    deck.fault_at(("load_cases", case.name, "settlement"), Message("symmetry-broken", message))
-                )
-    return faults
+                yield Finding("symmetry-broken", message, "load_cases", case.name, "settlement")
 
 
 def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
@@ -296,8 +279,8 @@ def _plane(plane: SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
     return np.array(plane.point), unit(plane.normal), "the plane of symmetry"
 
 
-def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> tuple[Mirror | None, list[Fault]]:
-    """The plane as it stands to the blocks, or what is wrong with that."""
+def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> Mirror:
+    """The plane as it stands to the blocks; DeckError where blocks reach across it."""
     blocks, (point, normal, label) = model.blocks, _plane(plane)
     heights = (blocks.vertices - point) @ normal
     allowed = deck.contacts.tolerance * blocks.sizes
@@ -311,22 +294,21 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
             f"{named(across, blocks.name)} {verb} across {label}: give the blocks on one side, and of a block that the "
             "plane cuts its half, named by halves"
         )
-        return None, [deck.fault_at(path, Message("symmetry-broken", message))]
+        _refuse(deck, [Finding("symmetry-broken", message, *path)])
     halves = np.zeros(len(blocks), dtype=bool)
     if plane.halves is not None:
-        faults: list[Fault] = []
-        roster = build_roster(blocks, frozenset(), deck.fault_at)
-        chosen = select_blocks(plane.halves, (*path, "halves"), roster, faults)
+        roster = Roster(blocks, fault_at=deck.fault_at)
+        chosen = select_blocks(plane.halves, (*path, "halves"), roster)
         if chosen is None:
-            return None, faults
+            raise DeckError(roster.faults)
         on_plane = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start) <= allowed[blocks.block_of_face]
         cut = np.bincount(blocks.block_of_face[on_plane], minlength=len(blocks)) > 0
         loose = chosen[~cut[chosen]]
         if len(loose):
             verb = "has" if len(loose) == 1 else "have"
             message = f"{named(loose, blocks.name)} {verb} no face on {label}, where the other half would join"
-            return None, [deck.fault_at((*path, "halves"), Message("symmetry-broken", message))]
+            _refuse(deck, [Finding("symmetry-broken", message, *path, "halves")])
         halves[chosen] = True
     image_of = np.arange(len(blocks))
     image_of[~halves] = len(blocks) + np.arange(int((~halves).sum()))
-    return Mirror(point, normal, label, halves, image_of), []
+    return Mirror(point, normal, label, halves, image_of)

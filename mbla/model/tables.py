@@ -10,14 +10,14 @@ import csv
 import io
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.suggestions import did_you_mean, listed
-from mbla.errors import Message
+from mbla.errors import Finding, Message
 
 MOST_FAULTS = 10
 """faults of one table that are told one by one"""
@@ -26,12 +26,16 @@ MOST_FAULTS = 10
 class TableRefused(Exception):  # noqa: N818 - an answer, not a defect
     """The table cannot be used; ``faults`` has a sentence with file and line for each reason."""
 
-    def __init__(self, faults: Sequence[Message]) -> None:
-        told = list(faults[:MOST_FAULTS])
+    def __init__(self, *faults: Message) -> None:
+        told = faults[:MOST_FAULTS]
         if len(faults) > MOST_FAULTS:
-            told.append(Message("more-faults", f"{len(faults) - MOST_FAULTS} more faults of this table"))
-        self.faults = tuple(told)
+            told = (*told, Message("more-faults", f"{len(faults) - MOST_FAULTS} more faults of this table"))
+        self.faults = told
         super().__init__("; ".join(told))
+
+    def findings(self, *path: str | int) -> list[Finding]:
+        """The faults at the key that names the file."""
+        return [Finding(fault.identifier, fault.words, *path) for fault in self.faults]
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,7 @@ class Table:
     columns : texts by name, (n,) each; missing optional columns are not there
     rest    : what a row has beyond the named columns, where the table may have that
     lines   : (n,) numbers of lines, from 1
+    faults  : what was found wrong with its rows so far
     """
 
     file: str
@@ -48,29 +53,43 @@ class Table:
     rest: list[list[str]]
     lines: list[int]
     decimal_comma: bool
+    faults: list[Message] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self.lines)
 
-    def place(self, row: int) -> str:
-        """``stones.csv:7``."""
-        return f"{self.file}:{self.lines[row]}"
+    def refuse(self, row: int, words: str) -> None:
+        """Something is wrong with a row."""
+        self.faults.append(Message("table-row", f"{self.file}:{self.lines[row]}: {words}"))
 
-    def numbers(self, names: Sequence[str], faults: list[Message]) -> FloatArray:
-        """Columns as numbers, (n, k); what is no finite number is told in ``faults`` and left at zero."""
+    def check(self) -> None:
+        """TableRefused where something is wrong with a row."""
+        if self.faults:
+            raise TableRefused(*self.faults)
+
+    def numbers(self, names: Sequence[str]) -> FloatArray:
+        """Columns as numbers, (n, k); what is no finite number is among the faults and left at zero."""
         values = np.zeros((len(self), len(names)))
         for column, name in enumerate(names):
             for row, text in enumerate(self.columns[name]):
                 number = _number(text, self.decimal_comma)
                 if number is None:
-                    faults.append(
-                        Message(
-                            "table-number", f"{self.place(row)}: {name} = {text or '(empty)'}: must be a finite number"
-                        )
-                    )
+                    words = f"{self.file}:{self.lines[row]}: {name} = {text or '(empty)'}: must be a finite number"
+                    self.faults.append(Message("table-number", words))
                 else:
                     values[row, column] = number
         return values
+
+    def place_in(self, column: str, row: int, known: IntArray, otherwise: str) -> int | None:
+        """Which of some blocks, (n,), the number in a column means; None, and a fault, where there is none.
+
+        otherwise : ends the message, after the name of the group
+        """
+        text = self.columns[column][row]
+        if text.isdecimal() and int(text) < len(known):
+            return int(known[int(text)])
+        self.refuse(row, f"{column} = {text or '(empty)'}: {otherwise}")
+        return None
 
 
 def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = (), *, with_rest: bool = False) -> Table:
@@ -88,35 +107,35 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
-        raise TableRefused(
-            [Message("table-unreadable", f"{name}: cannot be read: {error.strerror or error}")]
-        ) from error
+        raise _unreadable(f"{name}: cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
-        raise TableRefused([Message("table-unreadable", f"{name}: is not UTF-8 text: save it as CSV UTF-8")]) from error
+        raise _unreadable(f"{name}: is not UTF-8 text: save it as CSV UTF-8") from error
     semicolons = ";" in next((line for line in text.splitlines() if _counts(line)), "")
     rows = _rows(name, text, ";" if semicolons else ",")
     if not rows:
-        raise TableRefused(
-            [
-                Message(
-                    "table-unreadable",
-                    f"{name}: is empty: its first line must name the columns {listed(required, 'and')}",
-                )
-            ]
-        )
+        raise _unreadable(f"{name}: is empty: its first line must name the columns {listed(required, 'and')}")
     (line, header), *rows = rows
     header = [each.lower() for each in header]
-    if faults := _header_faults(name, line, header, required, optional, with_rest):
-        raise TableRefused(faults)
-    known = list(required) if with_rest else [each for each in header if each]
-    faults = [fault for number, row in rows if (fault := _row_fault(name, number, row, known, with_rest))]
+    faults = _header_faults(header, required, optional, with_rest)
     if faults:
-        raise TableRefused(faults)
+        raise TableRefused(*(Message("table-columns", f"{name}:{line}: {fault}") for fault in faults))
+    known = list(required) if with_rest else [each for each in header if each]
+    for number, row in rows:
+        if len(row) < len(known):
+            faults.append(f"{name}:{number}: has {len(row)} columns instead of {len(known)} ({', '.join(known)})")
+        elif not with_rest and any(row[len(known) :]):
+            faults.append(f"{name}:{number}: has more columns than the header ({', '.join(known)})")
+    if faults:
+        raise TableRefused(*(Message("table-columns", fault) for fault in faults))
     if not rows:
-        raise TableRefused([Message("table-unreadable", f"{name}: has no rows below its header")])
+        raise _unreadable(f"{name}: has no rows below its header")
     columns = {each: [row[place] for _, row in rows] for place, each in enumerate(known)}
     rest = [[text for text in row[len(known) :] if text] for _, row in rows] if with_rest else []
     return Table(name, columns, rest, [number for number, _ in rows], semicolons)
+
+
+def _unreadable(words: str) -> TableRefused:
+    return TableRefused(Message("table-unreadable", words))
 
 
 def _counts(line: str) -> bool:
@@ -132,41 +151,23 @@ def _rows(name: str, text: str, delimiter: str) -> list[tuple[int, list[str]]]:
             try:
                 fields = next(csv.reader(io.StringIO(line), delimiter=delimiter, strict=True))
             except csv.Error as error:
-                raise TableRefused(
-                    [Message("table-unreadable", f"{name}:{number}: cannot be read: {error}")]
-                ) from error
+                raise _unreadable(f"{name}:{number}: cannot be read: {error}") from error
             rows.append((number, [field.strip() for field in fields]))
     return rows
 
 
-def _header_faults(
-    name: str, line: int, header: list[str], required: Sequence[str], optional: Sequence[str], with_rest: bool
-) -> list[Message]:
-    place = f"{name}:{line}"
+def _header_faults(header: list[str], required: Sequence[str], optional: Sequence[str], with_rest: bool) -> list[str]:
     if with_rest:
-        if header[: len(required)] == list(required):
-            return []
-        begins = f"{place}: the header must begin with {','.join(required)}, not {','.join(header[: len(required)])}"
-        return [Message("table-columns", begins)]
+        given, wanted = ",".join(header[: len(required)]), ",".join(required)
+        return [] if given == wanted else [f"the header must begin with {wanted}, not {given}"]
     allowed = [*required, *optional]
     faults = [
-        f"{place}: unknown column {each}{did_you_mean(each, allowed) or ';'} columns are {listed(allowed, 'and')}"
+        f"unknown column {each}{did_you_mean(each, allowed) or ';'} columns are {listed(allowed, 'and')}"
         for each in header
         if each and each not in allowed
     ]
-    faults += [f"{place}: column {each} is missing" for each in required if each not in header]
-    faults += [f"{place}: column {each} is there twice" for each in allowed if header.count(each) > 1]
-    return [Message("table-columns", fault) for fault in faults]
-
-
-def _row_fault(name: str, number: int, row: list[str], known: list[str], with_rest: bool) -> Message | None:
-    if len(row) < len(known):
-        return Message(
-            "table-columns", f"{name}:{number}: has {len(row)} columns instead of {len(known)} ({', '.join(known)})"
-        )
-    if not with_rest and any(row[len(known) :]):
-        return Message("table-columns", f"{name}:{number}: has more columns than the header ({', '.join(known)})")
-    return None
+    faults += [f"column {each} is missing" for each in required if each not in header]
+    return faults + [f"column {each} is there twice" for each in allowed if header.count(each) > 1]
 
 
 def _number(text: str, decimal_comma: bool) -> float | None:

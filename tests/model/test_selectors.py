@@ -9,7 +9,7 @@ from pydantic import TypeAdapter
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.tree import KeyPath
 from mbla.errors import Fault, Message, Place
-from mbla.model.selectors import Roster, build_roster, select_blocks
+from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import BlockLabels, join_labels, labels_of
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import cuboids
@@ -25,7 +25,7 @@ def roster(partial: frozenset[str] = frozenset()) -> Roster:
     labels = Labels(
         ("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10), join_labels([_within(cube) for cube in range(10)])
     )
-    return build_roster(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
+    return Roster(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
 
 
 def _within(cube: int) -> BlockLabels:
@@ -36,10 +36,9 @@ def _within(cube: int) -> BlockLabels:
 
 
 def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, list[Fault]]:
-    faults: list[Fault] = []
-    checked = TypeAdapter(Selector).validate_python(selector)
-    blocks = select_blocks(checked, ("on",), roster(partial), faults)
-    return None if blocks is None else blocks.tolist(), faults
+    site = roster(partial)
+    blocks = select_blocks(TypeAdapter(Selector).validate_python(selector), ("on",), site)
+    return None if blocks is None else blocks.tolist(), site.faults
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.item import Item, Repetition
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding, Message
 from mbla.model.generators.generator import ItemRefused
 
 MOST = 2_000_000
@@ -59,11 +59,10 @@ def refuse_too_many(amount: Amount, item: Item) -> None:
     """
     copies = copies_of(item)
     words = amount.what if copies == 1 else f"{amount.what} in {copies:,} copies"
-    if amount.what == "units":
-        refuse_beyond(MOST, amount.number * copies, amount.key, words)
-    else:
+    if amount.what == "facets":
         refuse_beyond(MOST, amount.number, amount.key, amount.what)
-        refuse_beyond(FACETS_OF_A_UNIT * MOST, amount.number * copies, amount.key, words)
+    most = MOST if amount.what == "units" else FACETS_OF_A_UNIT * MOST
+    refuse_beyond(most, amount.number * copies, amount.key, words)
 
 
 def most_pairs(blocks: int) -> int:
@@ -87,14 +86,13 @@ def refuse_crowd(lower: FloatArray, upper: FloatArray, blocks: int) -> None:
     """
     width = (upper - lower).min(axis=0)
     cells = np.floor((lower + upper) / 2 / np.where(width > 0, width, 1.0))
-    kinds, together = np.unique(cells.view([(axis, cells.dtype) for axis in "xyz"]), return_counts=True)
+    together = np.unique(cells[np.isfinite(cells).all(axis=1)], axis=0, return_counts=True)[1]
     most = most_pairs(blocks)
-    together = together[np.isfinite(kinds["x"]) & np.isfinite(kinds["y"]) & np.isfinite(kinds["z"])]
     if (together * (together - 1) // 2).sum() > most:
         words = (
             f"lays copies in one place: more than {most:,} pairs of them come near each other; no more can be handled"
         )
-        raise ItemRefused([(("repeat",), Message("too-many-units", words))])
+        raise ItemRefused(Finding("too-many-units", words, "repeat"))
 
 
 def too_many_together(about: float) -> Message | None:
@@ -114,6 +112,5 @@ def refuse_beyond(most: int, amount: float, key: str | KeyPath, what: str) -> No
         at that key
     """
     if amount > most:
-        path = (key,) if isinstance(key, str) else key
         words = f"makes about {min(amount, 1e300):.0e} {what}; at most {most:,} can be handled"
-        raise ItemRefused([(path, Message("too-many-units", words))])
+        raise ItemRefused(Finding("too-many-units", words, *((key,) if isinstance(key, str) else key)))

@@ -10,8 +10,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.arch import ArchItem
-from mbla.errors import Message
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.errors import Finding
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
     LEVEL,
     Section,
@@ -47,7 +47,6 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     ItemRefused
         where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the springings
     """
-    refuse_too_many(amount_arch(item), item)
     springing = item.thickness if item.springing_thickness is None else item.springing_thickness
     thickness = Thickness(item.thickness, springing, 0.5 if item.line == "centre" else 0.0)
     section = build_section(_curve(item), item.voussoirs, item.rings, thickness)
@@ -133,15 +132,13 @@ def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) 
     for joint in joints:
         unfit = unfit_rise(joint)
         if unfit is not None:
-            raise ItemRefused([(("piers",), Message("arch-shape", unfit))])
+            raise ItemRefused(Finding("arch-shape", unfit, "piers"))
     if item.piers.width < least * (1 - LEVEL):
         raise ItemRefused(
-            [(("piers", "width"), Message("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint"))]
+            Finding("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint", "piers", "width")
         )
     if joints[1].intrados[0] <= joints[0].intrados[0]:
-        raise ItemRefused(
-            [(("piers",), Message("arch-shape", "the piers would overlap: nothing is left of the clear span"))]
-        )
+        raise ItemRefused(Finding("arch-shape", "the piers would overlap: nothing is left of the clear span", "piers"))
 
 
 def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:

@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.vaults import VaultItem
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.generator import GroundPart, ItemRefused
 from mbla.model.solids.chains import in_space
@@ -116,7 +116,7 @@ def _check_count(curve: Curve, voussoirs: int) -> None:
     least = int((turned + 1e-9) // 180) + 1  # a semicircle up to rounding is one
     if voussoirs < least:
         message = f"too few: at least {least}, so that each spans less than 180 degrees"
-        raise ItemRefused([(("voussoirs",), Message("arch-shape", message))])
+        raise ItemRefused(Finding("arch-shape", message, "voussoirs"))
 
 
 def _check_joints(section: Section) -> None:
@@ -134,7 +134,7 @@ def _check_joints(section: Section) -> None:
                 f"too many for this curve and thickness: the joints of voussoir {number} cross within the arch; "
                 "use fewer voussoirs, a thinner arch, or a curve that turns less sharply there"
             )
-            raise ItemRefused([(("voussoirs",), Message("arch-shape", message))])
+            raise ItemRefused(Finding("arch-shape", message, "voussoirs"))
 
 
 def springer_polygons(section: Section, length: float) -> list[FloatArray]:

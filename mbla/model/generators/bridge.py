@@ -15,9 +15,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.bridge import BridgeItem
-from mbla.deck.tree import KeyPath
-from mbla.errors import Message
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.errors import Finding
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
     LEVEL,
     Section,
@@ -94,9 +93,8 @@ def generate_bridge(item: BridgeItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        where voussoirs are too few or cross, springing joints do not fit piers and abutments, or units are too many
+        where voussoirs are too few or cross, or springing joints do not fit piers and abutments
     """
-    refuse_too_many(amount_bridge(item), item)
     frame = _frame(item)
     rows = [*_arches(item, frame), *_supports(item, frame)]
     if item.spandrels != "none":
@@ -137,34 +135,30 @@ def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Sec
     except ItemRefused as refused:
         if isinstance(item.voussoirs, int):
             raise
-        raise ItemRefused([((*path, number), message) for path, message in refused.findings]) from None
+        words = [Finding(message.identifier, message, *path, number) for path, message in refused.findings]
+        raise ItemRefused(*words) from None
 
 
 def _check_widths(item: BridgeItem, joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]) -> None:
-    findings: list[tuple[KeyPath, Message]] = []
+    findings: list[Finding] = []
     for number, both_sides in enumerate(joints):
         unfit = unfit_rise(both_sides[0])
         if unfit is not None:
-            raise ItemRefused(
-                [(("rise", number) if isinstance(item.rise, list) else ("rise",), Message("arch-shape", unfit))]
-            )
+            path = ("rise", number) if isinstance(item.rise, list) else ("rise",)
+            raise ItemRefused(Finding("arch-shape", unfit, *path))
     least = max(joints[0][0].reach, joints[-1][1].reach)
     if item.abutments.width < least * (1 - LEVEL):
-        findings.append(
-            (
-                ("abutments", "width"),
-                Message("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint"),
-            )
-        )
+        words = f"must be >= {least:g}, the extent of the springing joint"
+        findings.append(Finding("out-of-bounds", words, "abutments", "width"))
     for one, other in pairwise(joints):
         assert item.piers is not None  # a rule of the deck
         both = one[1].reach + other[0].reach
         if item.piers.width < both * (1 + LEVEL):
-            message = f"must be > {both:g}, the extent of the springing joints on both sides"
-            findings.append((("piers", "width"), Message("out-of-bounds", message)))
+            words = f"must be > {both:g}, the extent of the springing joints on both sides"
+            findings.append(Finding("out-of-bounds", words, "piers", "width"))
             break
     if findings:
-        raise ItemRefused(findings)
+        raise ItemRefused(*findings)
 
 
 def _pier_springer(left: SpringingJoint, right: SpringingJoint) -> FloatArray | None:
@@ -237,7 +231,7 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
         units += list(range(len(pieces)))
     if not polygons:
         message = "is too large for what lies above the arches: take a smaller unit, or more cover"
-        raise ItemRefused([(("unit",), Message("out-of-bounds", message))])
+        raise ItemRefused(Finding("out-of-bounds", message, "unit"))
     labels = {"course": np.array(levels, dtype=np.int64), "unit": np.array(units, dtype=np.int64)}
     rows = _in_place(item, polygons, labels)
     if item.parapets is not None:
@@ -283,7 +277,7 @@ def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, cou
     height = item.parapets.height
     if top + height == top:
         message = f"is lost beside {top:g}, the height of the spandrels: make it larger"
-        raise ItemRefused([(("parapets", "height"), Message("out-of-bounds", message))])
+        raise ItemRefused(Finding("out-of-bounds", message, "parapets", "height"))
     masonry = replace(masonry, extent=min(masonry.extent, height))
     bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)
     outline = Outline(np.array([[frame.left, top], [frame.right, top]]))

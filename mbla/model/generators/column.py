@@ -20,7 +20,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.column import ColumnEnd, ColumnItem
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.chains import chains
 
@@ -56,14 +56,7 @@ def amount_column(item: ColumnItem) -> Amount:
 
 
 def generate_column(item: ColumnItem, site: Site) -> Generated:
-    """Base, drums from the bottom, and capital.
-
-    Raises
-    ------
-    ItemRefused
-        for more facets than can be handled
-    """
-    refuse_too_many(amount_column(item), item)
+    """Base, drums from the bottom, and capital."""
     outline = corner_radius(item.sides, item.polygon) * regular_polygon(item.sides)
     foot = item.base.height if item.base else 0.0
     joints = foot + _joints(item)

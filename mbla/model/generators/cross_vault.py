@@ -13,8 +13,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.vaults import CrossVaultItem
-from mbla.errors import Message
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.errors import Finding
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.generators.mitres import (
     CORNERS,
@@ -71,9 +71,8 @@ def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        where the webs end before the feet of the groins, or for more units than can be handled
+        where the webs end before the feet of the groins
     """
-    refuse_too_many(amount_cross_vault(item), item)
     section = half_section(item, item.bay)
     ends = _ends(item, section)
     groins, webs = [], _Webs()
@@ -105,7 +104,7 @@ def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     edge = _edge(item)
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
-        raise ItemRefused([(("edge",), Message("out-of-bounds", message))])
+        raise ItemRefused(Finding("out-of-bounds", message, "edge"))
     return np.array(item.bay) / 2 + edge
 
 

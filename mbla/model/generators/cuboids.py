@@ -13,7 +13,7 @@ from mbla.deck.items.box import BoxItem
 from mbla.deck.items.polyhedron import PolyhedronItem
 from mbla.deck.items.stack import StackItem
 from mbla.deck.items.trilithon import TrilithonItem
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import cuboids, polyhedra_from_lists
 
@@ -34,14 +34,7 @@ def amount_stack(item: StackItem) -> Amount:
 
 
 def generate_stack(item: StackItem, site: Site) -> Generated:
-    """Blocks from the bottom.
-
-    Raises
-    ------
-    ItemRefused
-        for more blocks than can be handled
-    """
-    refuse_too_many(amount_stack(item), item)
+    """Blocks from the bottom."""
     shifts = np.concatenate([np.zeros((1, 2)), np.cumsum(_shifts(item), axis=0)])
     heights = item.block[2] * np.arange(item.count + 1)
     least = np.column_stack([shifts, heights[:-1]])

@@ -28,8 +28,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
-from mbla.errors import Message
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.errors import Finding
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.curves import Circle, named_curve
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.solids.chains import chains
@@ -77,7 +77,7 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        for an opening or keystone as wide as the dome, a drum that does not carry it, or too many facets
+        for an opening or keystone as wide as the dome, or a drum that does not carry it
     """
     dome = _dome(item)
     joints = [dome.joint(angle) for angle in dome.angles]
@@ -102,7 +102,6 @@ def _dome(item: DomeItem) -> _Dome:
     shape = "semicircular" if item.shape == "hemispherical" else item.shape
     circle = named_curve(shape, item.span, item.rise, item.embrace)
     assert isinstance(circle, Circle)  # which both shapes are
-    refuse_too_many(amount_dome(item), item)
     springing = item.drum.height if item.drum else 0.0
     angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
     return _Dome(circle, item.thickness, angles, springing, item.segments, _facets(item), item.bond == "running")
@@ -116,9 +115,7 @@ def _top(item: DomeItem, circle: Circle) -> float:
         return circle.half_angle / (2 * item.rings + 1)
     widest = 2 * circle.radius * np.sin(min(circle.half_angle, np.pi / 2))
     if diameter >= widest:
-        raise ItemRefused(
-            [((key,), Message("out-of-bounds", f"must be < {widest:g}, the greatest diameter of the intrados"))]
-        )
+        raise ItemRefused(Finding("out-of-bounds", f"must be < {widest:g}, the greatest diameter of the intrados", key))
     return float(np.arcsin(diameter / (2 * circle.radius)))
 
 
@@ -136,7 +133,7 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     if foot[1, 0] > outside + FLUSH * dome.thickness:
         message = f"must be >= {foot[1, 0] - inside:g}, so that the dome stands on the drum"
         raise ItemRefused(
-            [(("drum",) if drum.thickness is None else ("drum", "thickness"), Message("out-of-bounds", message))]
+            Finding("out-of-bounds", message, *(("drum",) if drum.thickness is None else ("drum", "thickness")))
         )
     heights = np.linspace(0.0, drum.height, drum.courses + 1)
     for course, (low, high) in enumerate(pairwise(heights)):
@@ -147,12 +144,9 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
                 profile = np.insert(profile, 2, foot[1], axis=0)
             if foot[1, 1] <= low:
                 raise ItemRefused(
-                    [
-                        (
-                            ("drum", "courses"),
-                            Message("vault-shape", "too many: the springing joint cuts through the last course"),
-                        )
-                    ]
+                    Finding(
+                        "vault-shape", "too many: the springing joint cuts through the last course", "drum", "courses"
+                    )
                 )
         yield dome.ring(profile, course - drum.courses)
 

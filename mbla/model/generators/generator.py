@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message, Notice
+from mbla.errors import Finding, Notice
 from mbla.model.solids.polyhedra import Polyhedra
 
 
@@ -79,8 +79,8 @@ class Site:
 class ItemRefused(Exception):  # noqa: N818 - an answer, not a defect
     """The item cannot be built; key paths below the item, and what is wrong there."""
 
-    def __init__(self, findings: Sequence[tuple[KeyPath, Message]]) -> None:
-        self.findings = tuple(findings)
+    def __init__(self, *findings: Finding) -> None:
+        self.findings = findings
         super().__init__("; ".join(message for _, message in findings))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,9 +11,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.mesh import MeshItem
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import KeyPath
 from mbla.deck.units import METRES
-from mbla.errors import Message, Notice
+from mbla.errors import Finding, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.cells import join_cells
@@ -39,15 +39,15 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     try:
         geometry = _read(path, item)
     except GeometryFileError as error:
-        raise ItemRefused([(("file",), error.message)]) from error
-    if findings := _misfits(item, geometry):
-        raise ItemRefused(findings)
+        raise ItemRefused(Finding(error.message.identifier, str(error), "file")) from error
+    if findings := list(_misfits(item, geometry)):
+        raise ItemRefused(*findings)
     vertices = _placed(geometry, item, site)
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
     blocks = repair(placed, site.tolerance, item.weld)
     if not len(blocks.polyhedra):
         words = "the file holds no blocks: nothing is left of faces without area"
-        raise ItemRefused([(("file",), Message("geometry-without-blocks", words))])
+        raise ItemRefused(Finding("geometry-without-blocks", words, "file"))
     members = [member_name(name) for name in blocks.names]
     told = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in told)
@@ -60,49 +60,31 @@ def _read(path: Path, item: MeshItem) -> Geometry:
     if item.members is not None:
         names = [member_name(name) for name in geometry.names]
         known = sorted({name for name in names if name})
-        wrong = [
-            (
-                ("members", number),
-                Message(
-                    "unknown-name",
-                    unknown("member", name, known, "the file has") if known else "the file has no names",
-                ),
-            )
-            for number, name in enumerate(item.members)
-            if member_name(name) not in known
-        ]
+        wrong = []
+        for number, name in enumerate(item.members):
+            if member_name(name) not in known:
+                words = unknown("member", name, known, "the file has") if known else "the file has no names"
+                wrong.append(Finding("unknown-name", words, "members", number))
         if wrong:
-            raise ItemRefused(wrong)
+            raise ItemRefused(*wrong)
         wanted = {member_name(name) for name in item.members}
         rows = np.array([row for row, name in enumerate(names) if name in wanted], dtype=np.int64)
         kept = tuple(geometry.names[row] for row in rows)
         geometry = replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=kept)
     if item.join_cells and not geometry.cells:
-        raise ItemRefused(
-            [
-                (
-                    ("join_cells",),
-                    Message("key-of-another-choice", "applies to files with volume cells only: leave it out"),
-                )
-            ]
-        )
+        words = "applies to files with volume cells only: leave it out"
+        raise ItemRefused(Finding("key-of-another-choice", words, "join_cells"))
     return join_cells(geometry) if item.join_cells else geometry
 
 
-def _misfits(item: MeshItem, geometry: Geometry) -> list[tuple[KeyPath, Message]]:
+def _misfits(item: MeshItem, geometry: Geometry) -> Iterator[Finding]:
     """Keys that the file has no use for, or lacks."""
-    found: list[tuple[KeyPath, Message]] = []
     if geometry.planar and item.extrude is None:
-        found.append(
-            (("file",), Message("geometry-options", "is a drawing of outlines: give their thickness with extrude"))
-        )
+        yield Finding("geometry-options", "is a drawing of outlines: give their thickness with extrude", "file")
     if geometry.planar and item.up is not None:
-        found.append(
-            (("up",), Message("key-of-another-choice", "does not apply to a drawing: its y points upwards in the deck"))
-        )
+        yield Finding("key-of-another-choice", "does not apply to a drawing: its y points upwards in the deck", "up")
     if not geometry.planar and item.extrude is not None:
-        found.append((("extrude",), Message("key-of-another-choice", "applies to drawings (DXF) only: leave it out")))
-    return found
+        yield Finding("key-of-another-choice", "applies to drawings (DXF) only: leave it out", "extrude")
 
 
 def _placed(geometry: Geometry, item: MeshItem, site: Site) -> FloatArray:

@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.spiral_stair import SpiralStairItem
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.solids.chains import chains
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
@@ -27,14 +27,7 @@ def amount_spiral_stair(item: SpiralStairItem) -> Amount:
 
 
 def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:
-    """Treads from the bottom; shelves, then blocks on top of the ends of the treads.
-
-    Raises
-    ------
-    ItemRefused
-        for more facets than can be handled
-    """
-    refuse_too_many(amount_spiral_stair(item), item)
+    """Treads from the bottom; shelves, then blocks on top of the ends of the treads."""
     angles = _angles(item)
     number = np.arange(item.treads)
     outer = item.outer_radius + item.built_in

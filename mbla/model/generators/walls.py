@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount, refuse_too_many
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Site
 from mbla.model.generators.masonry.bonds import random_levels
 from mbla.model.generators.masonry.buttresses import PlacedButtress, check_buttresses, place_buttress
@@ -31,10 +31,9 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     Raises
     ------
     ItemRefused
-        for openings off the bed joints, lintels and arches without support, buttresses across openings, too many
-        units, or where nothing is left of the wall
+        for openings off the bed joints, lintels and arches without support, buttresses across openings, or where
+        nothing is left of the wall
     """
-    refuse_too_many(amount_wall(item), item)
     findings: list[Finding] = []
     openings = []
     for number, opening in enumerate(item.openings):
@@ -46,7 +45,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     findings += check_spans(openings, item.length, item)
     findings += check_buttresses(buttresses, openings, item)
     if findings:
-        raise ItemRefused(findings)
+        raise ItemRefused(*findings)
     passages = tuple(placed.passage for placed in buttresses if placed.buttress.bonded)
     leg = Leg(
         item=item,
@@ -74,11 +73,7 @@ class _Placed:
 
 def amount_walls(item: WallsItem) -> Amount:
     """About how many units such an item has."""
-    return _amount(item, lines_of(item))
-
-
-def _amount(item: WallsItem, lines: Sequence[Line]) -> Amount:
-    length = sum(line.whole_length for line in lines)
+    length = sum(line.whole_length for line in lines_of(item))
     return amount_of_units(item, length, ("plan",), item.gables, item.buttresses)
 
 
@@ -89,10 +84,9 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
     ------
     ItemRefused
         for walls that meet in part or lie on each other, openings off the bed joints or in corners, lintels and arches
-        without support, buttresses across openings, gables that meet, too many units
+        without support, buttresses across openings, gables that meet
     """
     lines = lines_of(item)
-    refuse_too_many(_amount(item, lines), item)
     _check_each(item, lines, site.tolerance)
     meets = passages_of(lines, item.courses)
     placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
@@ -106,7 +100,7 @@ def _check_each(item: WallsItem, lines: Sequence[Line], tolerance: float) -> Non
     for number, opening in enumerate(item.openings):
         findings += [found.below("openings", number) for found in check_opening(item, opening, tolerance)]
     if findings:
-        raise ItemRefused(findings)
+        raise ItemRefused(*findings)
 
 
 def _check_together(
@@ -120,7 +114,7 @@ def _check_together(
         findings += _check_meetings(item, wall)
     findings += _check_gables(item, meets)
     if findings:
-        raise ItemRefused(findings)
+        raise ItemRefused(*findings)
 
 
 def _walls(item: WallsItem, placed: Sequence[_Placed]) -> list[Wall]:

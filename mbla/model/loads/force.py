@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
 from mbla.model.solids.blocks import distance_outside
 from mbla.model.wording import vector
@@ -52,5 +52,5 @@ def _one_block(what: str, blocks: IntArray | None, path: KeyPath, site: LoadSite
     if len(blocks) == 1:
         return int(blocks[0])
     message = f"a {what} acts on one block, {len(blocks)} are selected: give an index, or one {what} for each"
-    site.refuse((*path, "on"), Message("one-block-only", message))
+    site.refuse(Finding("one-block-only", message, *path, "on"))
     return None

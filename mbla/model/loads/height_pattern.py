@@ -25,7 +25,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.loads import HeightPattern
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
@@ -59,7 +59,7 @@ def pattern_factors(pattern: HeightPattern, blocks: IntArray, path: KeyPath, sit
         base = heights_of_vertices.min() if pattern.base is None else pattern.base
         top = heights_of_vertices.max() if pattern.top is None else pattern.top
         if not base < top:
-            site.refuse(path, Message("out-of-bounds", f"its base, {base:g}, must be below its top, {top:g}"))
+            site.refuse(Finding("out-of-bounds", f"its base, {base:g}, must be below its top, {top:g}", *path))
             return None
         heights, factors = np.array([base, top]), np.array([0.0, 1.0])
     means, levers = _over_volumes(heights, factors, along, heights_of_vertices, blocks, site)

@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import LineLoad, Load
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.blocks_under import stretches_under
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.solids.plane import unit
@@ -83,7 +83,7 @@ def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPat
         f"{lost:.6g} of its {length:.6g} {site.units.length} lie over no block, from {vector(first)} on; "
         "shorten the line, or look for blocks in another direction with towards"
     )
-    site.refuse((*path, "line"), Message("load-beside-structure", message))
+    site.refuse(Finding("load-beside-structure", message, *path, "line"))
 
 
 def _remark_above(line: LineLoad, above: FloatArray, loaded: IntArray, words: str, site: LoadSite) -> None:

@@ -12,7 +12,7 @@ from mbla.deck.section import given
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
@@ -57,21 +57,21 @@ class _Sum:
 def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tuple[LoadCase, ...]:
     """Dead and live load of one case, or of one for each position of a load that travels.
 
-    Gravity of 9.81 m/s2 along -z is one of the dead loads unless the deck gives another, or none. Adds to
-    ``site.faults`` what no load can be made of, and live loads without effect, which are those that act on fixed
+    Gravity of 9.81 m/s2 along -z is one of the dead loads unless the deck gives another, or none. Refuses
+    what no load can be made of, and live loads without effect, which are those that act on fixed
     blocks only or cancel each other.
     """
     path: KeyPath = ("load_cases", name)
     dead_loads = with_gravity(entries_of(section.dead or [], (*path, "dead"), site.named), path, site.units)
-    before = len(site.faults)
+    before = len(site.roster.faults)
     dead = _add_up(dead_loads, site, live=False)
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
-    sound = len(site.faults) == before
+    sound = len(site.roster.faults) == before
     cases = []
     for position in positions:
         own = live if position is None else live.with_load(position.applied)
-        if len(site.faults) == before and own.complete and section.live is not None:
+        if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(position, path, own, site)
         words = (tuple(dead.words), tuple(own.words))
         case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
@@ -119,7 +119,7 @@ def _judge_live(position: PositionLoad | None, path: KeyPath, live: _Sum, site: 
     if position is not None and site.fixed[position.applied.blocks].all():
         them = "the block does" if len(position.applied.blocks) == 1 else "the blocks do"
         words = f"{position.applied.words} has no effect: {them} not move; change the path"
-    site.refuse((*path, "live"), Message("live-load-without-effect", words))
+    site.refuse(Finding("live-load-without-effect", words, *path, "live"))
 
 
 def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
@@ -132,7 +132,7 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
         return False
     size = f"{largest:.1e}" if np.isfinite(largest) else f"more than {np.finfo(np.float64).max:.1e}"
     words = f"the loads reach {size} {site.units.force}: {least:.0e} to {most:.0e} can be computed with"
-    site.refuse(path, Message("load-beyond-computing", words))
+    site.refuse(Finding("load-beyond-computing", words, *path))
     return True
 
 
@@ -159,7 +159,7 @@ def _apply(entry: Entry, site: LoadSite) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
     load, path, blocks = entry.load, entry.path, None
     if load.on is not None:
-        blocks = select_blocks(load.on, (*path, "on"), site.roster, site.faults)
+        blocks = select_blocks(load.on, (*path, "on"), site.roster)
         if blocks is None:
             return None
     applied = LOAD_KINDS[kind_of(load)](load, blocks, path, site)
@@ -176,13 +176,17 @@ def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool
     # what weighs nothing is refused as such, and rows of a table that cancel each other as live loads that do
     weightless = kind == "table" or (kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any())
     if live and not applied.wrenches.any() and not weightless:
-        site.refuse((*entry.path, kind), Message("live-load-without-effect", "is a live load with no effect"))
+        site.refuse(Finding("live-load-without-effect", "is a live load with no effect", *entry.path, kind))
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
     if live:
         site.refuse(
-            (*entry.path, key),
-            Message("live-load-without-effect", "every block it acts on is fixed: the live load has no effect"),
+            Finding(
+                "live-load-without-effect",
+                "every block it acts on is fixed: the live load has no effect",
+                *entry.path,
+                key,
+            )
         )
     elif kind not in ("gravity", "acceleration"):
         name = named(blocks, site.blocks.name)

@@ -1,7 +1,7 @@
 """What a kind of load gets and gives.
 
-A kind is a function ``(load, blocks, path, site) -> AppliedLoad | None``; where it gives None, it left a fault in
-``site.faults``. Combinations name loads: these stand in for the entries that refer to them, with the product of their
+A kind is a function ``(load, blocks, path, site) -> AppliedLoad | None``; where it gives None, it left a fault with
+the site. Combinations name loads: these stand in for the entries that refer to them, with the product of their
 factors.
 """
 
@@ -18,7 +18,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
 from mbla.deck.units import Units
-from mbla.errors import Fault, Message, Notice
+from mbla.errors import Finding, Notice
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
@@ -26,15 +26,13 @@ from mbla.model.solids.blocks import Blocks
 
 @dataclass(frozen=True)
 class LoadSite:
-    """What loads act on: blocks to choose from, those that do not move, the deck's units; and where to complain.
+    """What loads act on: blocks to choose from, with a place for complaints; those that do not move; the deck's units.
 
     fixed   : (n_blocks,) blocks that do not move
     resolve_file : path of a file named by the value at a key path of the deck
     grounds : planes of rigid ground
     named   : loads of the deck by name
     tolerance : of contacts, relative to block size
-    faults  : what is wrong with a load goes here
-    notices : what its author should look at twice goes here
     """
 
     roster: Roster
@@ -44,25 +42,19 @@ class LoadSite:
     grounds: tuple[Ground, ...] = ()
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3
-    faults: list[Fault] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
 
     @property
     def blocks(self) -> Blocks:
         """All blocks of the model."""
         return self.roster.blocks
 
-    def refuse(self, path: KeyPath, message: Message) -> None:
-        """Add a fault, once: several load cases may have the same named load."""
-        fault = self.roster.fault_at(path, message)
-        if fault not in self.faults:
-            self.faults.append(fault)
+    def refuse(self, finding: Finding) -> None:
+        """Add a fault, once."""
+        self.roster.refuse(finding)
 
     def warn(self, identifier: str, message: str) -> None:
         """Add a warning, once."""
-        notice = Notice("warning", identifier, message)
-        if notice not in self.notices:
-            self.notices.append(notice)
+        self.roster.remark(Notice("warning", identifier, message))
 
 
 @dataclass(frozen=True)

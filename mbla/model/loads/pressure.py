@@ -17,7 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.loads import Load, PressureLoad
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.free_faces import FaceParts, face_parts
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
 from mbla.model.solids.blocks import Blocks
@@ -34,13 +34,13 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
     faces = _selected_faces(pressure, chosen, site.blocks)
     if not len(faces):
         if not site.roster.partial:
-            site.refuse(here, Message("load-beside-structure", _no_face(pressure)))
+            site.refuse(Finding("load-beside-structure", _no_face(pressure), *here))
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free")
     forces, moments, areas = _integrals(parts, pressure, faces, site.blocks)
     if not areas.any():
         if not site.roster.partial:
-            site.refuse(here, Message("load-beside-structure", _no_area(pressure, parts)))
+            site.refuse(Finding("load-beside-structure", _no_area(pressure, parts), *here))
         return None
     words = _in_words(pressure, float(areas.sum()), int((areas > 0).sum()), site)
     _remark_partly(parts, areas, words, site)

@@ -9,7 +9,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Message
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.tables import Table, TableRefused, read_table
 from mbla.model.wording import counted
 
@@ -24,72 +24,50 @@ def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     assert load.table is not None  # what makes it this kind
     here = (*path, "table")
     try:
-        file = site.resolve_file(here, load.table)
-        table = read_table(file, ("group", "index", *FORCE), (*POINT, *MOMENT))
-        wrenches, rows = _wrenches(table, site)
+        table = read_table(site.resolve_file(here, load.table), ("group", "index", *FORCE), (*POINT, *MOMENT))
+        forces, points, moments = _numbers(table)
+        rows = _blocks(table, site)
+        table.check()
     except DeckError as error:
-        site.faults.extend(error.faults)
+        site.roster.faults.extend(error.faults)
         return None
     except TableRefused as refused:
-        for fault in refused.faults:
-            site.refuse(here, fault)
+        for finding in refused.findings(*here):
+            site.refuse(finding)
         return None
     if rows is None:
         return None
-    acted_on = np.unique(rows)
-    total = np.zeros((len(site.blocks), 6))
-    np.add.at(total, rows, wrenches)
-    words = f"{counted(len(rows), 'row')} of {load.table}: forces on {counted(len(acted_on), 'block')}"
-    return AppliedLoad(acted_on, total[acted_on], words)
-
-
-def _wrenches(table: Table, site: LoadSite) -> tuple[FloatArray, IntArray | None]:
-    """Force and moment of each row about the centroid of its block, (n, 6), and the blocks; None if not built."""
-    faults: list[Message] = []
-    forces = table.numbers(FORCE, faults)
-    given = [name for name in POINT if name in table.columns]
-    if given and len(given) < len(POINT):
-        raise TableRefused(
-            [
-                Message(
-                    "table-columns", f"{table.file}: columns x, y, z go together, only {listed(given, 'and')} is there"
-                )
-            ]
-        )
-    given_moments = [name for name in MOMENT if name in table.columns]
-    moments = np.zeros((len(table), 3))
-    moments[:, [MOMENT.index(name) for name in given_moments]] = table.numbers(given_moments, faults)
-    rows = _blocks(table, site, faults)
-    points = table.numbers(POINT, faults) if given else None
-    if faults:
-        raise TableRefused(faults)
-    if rows is None:
-        return np.zeros((0, 6)), None
     centroids = site.blocks.centroids[rows]
     wrenches = wrenches_of(forces, centroids if points is None else points, centroids)
     wrenches[:, 3:] += moments
-    return wrenches, rows
+    acted_on, total = sum_on_blocks(rows, wrenches)
+    words = f"{counted(len(rows), 'row')} of {load.table}: forces on {counted(len(acted_on), 'block')}"
+    return AppliedLoad(acted_on, total, words)
 
 
-def _blocks(table: Table, site: LoadSite, faults: list[Message]) -> IntArray | None:
-    """Block of each row; None where a group could not be built."""
-    found = np.zeros(len(table), dtype=np.int64)
-    built = True
+def _numbers(table: Table) -> tuple[FloatArray, FloatArray | None, FloatArray]:
+    """Forces, points where they act unless at the centroids, and moments; (n, 3) each."""
+    given = [name for name in POINT if name in table.columns]
+    if given and len(given) < len(POINT):
+        words = f"{table.file}: columns x, y, z go together, only {listed(given, 'and')} is there"
+        raise TableRefused(Message("table-columns", words))
+    moments = np.zeros((len(table), 3))
+    for axis, name in enumerate(MOMENT):
+        if name in table.columns:
+            moments[:, axis] = table.numbers([name])[:, 0]
+    return table.numbers(FORCE), table.numbers(POINT) if given else None, moments
+
+
+def _blocks(table: Table, site: LoadSite) -> IntArray | None:
+    """Block of each row, (n,); None where a group could not be built."""
+    found: list[int | None] = []
     groups = site.roster.members
-    for row, (group, index) in enumerate(zip(table.columns["group"], table.columns["index"], strict=True)):
-        if group in site.roster.partial:
-            built = False
-        elif group not in groups:
-            faults.append(
-                Message("table-row", f"{table.place(row)}: unknown group {group}{did_you_mean(group, groups)}")
-            )
-        elif not index.isdecimal() or int(index) >= len(groups[group]):
-            last = len(groups[group]) - 1
-            faults.append(
-                Message(
-                    "table-row", f"{table.place(row)}: index = {index or '(empty)'}: {group} has blocks 0 to {last}"
-                )
-            )
-        else:
-            found[row] = groups[group][int(index)]
-    return found if built else None
+    for row, group in enumerate(table.columns["group"]):
+        if group in groups:
+            otherwise = f"{group} has blocks 0 to {len(groups[group]) - 1}"
+            found.append(table.place_in("index", row, groups[group], otherwise))
+        elif group not in site.roster.partial:
+            table.refuse(row, f"unknown group {group}{did_you_mean(group, groups)}")
+    if site.roster.partial.intersection(table.columns["group"]):
+        return None
+    return np.array([block or 0 for block in found], dtype=np.int64)

@@ -17,7 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.sections.loads import Tilt as TiltSection
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.gravity import mass_forces, vector_of
 from mbla.model.loads.load_kind import Entry, LoadSite
 from mbla.model.model import Tilt
@@ -44,7 +44,7 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
     size = max(np.abs(gravity).max(), np.finfo(np.float64).tiny)  # so that squares do not overflow
     if np.linalg.norm(level / size) <= ALONG * np.linalg.norm(gravity / size):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
-        site.refuse((*path, "live", 0, "tilt"), Message("live-load-without-effect", f"nothing turns: {what}"))
+        site.refuse(Finding("live-load-without-effect", f"nothing turns: {what}", *path, "live", 0, "tilt"))
     if others:
         name = path[-1]
         message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"

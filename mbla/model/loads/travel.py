@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import Load, Travel
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.loads.blocks_under import block_under
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.model import TravelPosition
@@ -45,7 +45,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
     assert travel is not None  # what makes it this kind
     chosen: IntArray | None = np.arange(len(site.blocks))
     if entry.load.on is not None:
-        chosen = select_blocks(entry.load.on, (*entry.path, "on"), site.roster, site.faults)
+        chosen = select_blocks(entry.load.on, (*entry.path, "on"), site.roster)
     if chosen is None:
         return None
     vehicle = vehicle_on_path(travel)
@@ -55,7 +55,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
             f"at position {empty[0]} of {len(vehicle)} no force is on the path: make it longer than the gaps between "
             "them"
         )
-        site.refuse((*entry.path, "travel", "axles"), Message("load-beside-structure", words))
+        site.refuse(Finding("load-beside-structure", words, *entry.path, "travel", "axles"))
         return None
     towards = np.array(travel.towards)
     forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
@@ -68,7 +68,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
     if bare:
         if not site.roster.partial:
             site.refuse(
-                (*entry.path, "travel"), Message("load-beside-structure", _bare_in_words(bare, len(vehicle), site))
+                Finding("load-beside-structure", _bare_in_words(bare, len(vehicle), site), *entry.path, "travel")
             )
         return None
     return [PositionLoad(position, _applied(position, site)) for position in positions]

@@ -11,7 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.supports import GroundPlane
 from mbla.deck.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import Finding
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
@@ -35,12 +35,12 @@ class Supports:
     guides: Guides = NO_GUIDES
 
 
-def build_supports(deck: Deck, brought_along: Supports, roster: Roster, faults: list[Fault]) -> Supports:
+def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Supports:
     """Supports of the deck, with those that items bring along.
 
     brought_along : fixed blocks and grounds of items, such as the springers of arches
 
-    Adds to ``faults``: grounds with blocks below them or without a face on them, blocks held in two ways, structures
+    Refuses grounds with blocks below them or without a face on them, blocks held in two ways, structures
     without support, and structures in which nothing can move.
     """
     fixed = brought_along.fixed.copy()
@@ -51,7 +51,7 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster, faults: 
         path: KeyPath = ("supports", number)
         chosen = None
         if support.blocks is not None:
-            chosen = select_blocks(support.blocks, (*path, "blocks"), roster, faults)
+            chosen = select_blocks(support.blocks, (*path, "blocks"), roster)
             if chosen is None:
                 complete = False
                 continue
@@ -63,32 +63,24 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster, faults: 
             guides.append((path, guides_of(support, chosen, roster.blocks)))
         else:
             fixed[chosen] = True
-    everything_guided = _joined_guides(guides, fixed, roster, faults)
+    everything_guided = _joined_guides(guides, fixed, roster)
     for path, ground in grounds:
-        check_ground(ground, path, fixed, roster, deck.contacts.tolerance, faults)
+        check_ground(ground, path, fixed, roster, deck.contacts.tolerance)
     found = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds)), everything_guided)
     if complete:
-        _check_hold(found, roster, faults)
+        _check_hold(found, roster)
     return found
 
 
-def _check_hold(supports: Supports, roster: Roster, faults: list[Fault]) -> None:
+def _check_hold(supports: Supports, roster: Roster) -> None:
     """Something holds the structure, and something can move."""
     if not supports.fixed.any() and not supports.grounds and not len(supports.guides):
-        faults.append(
-            roster.fault_at(
-                ("supports",), Message("no-support", "nothing holds the structure: give ground or fixed blocks")
-            )
-        )
+        roster.refuse(Finding("no-support", "nothing holds the structure: give ground or fixed blocks", "supports"))
     if supports.fixed.all():
-        faults.append(
-            roster.fault_at(("supports",), Message("nothing-can-move", "every block is fixed: nothing can move"))
-        )
+        roster.refuse(Finding("nothing-can-move", "every block is fixed: nothing can move", "supports"))
 
 
-def _joined_guides(
-    guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, roster: Roster, faults: list[Fault]
-) -> Guides:
+def _joined_guides(guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, roster: Roster) -> Guides:
     """All guides; a block that is fixed as well, or guided twice, is a fault of the later item."""
     result, held = NO_GUIDES, np.zeros_like(fixed)
     for path, own in guides:
@@ -97,7 +89,7 @@ def _joined_guides(
             if len(twice):
                 verb = "is" if len(twice) == 1 else "are"
                 message = f"{named(twice, roster.blocks.name)} {verb} {words}: say how a block is held in one item"
-                faults.append(roster.fault_at((*path, "blocks"), Message("support-held-twice", message)))
+                roster.refuse(Finding("support-held-twice", message, *path, "blocks"))
         held[own.blocks] = True
         result = joined(result, own)
     return result
@@ -137,9 +129,7 @@ def plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
     return point, normal, f"ground at {vector(point)} with normal {vector(normal)}"
 
 
-def check_ground(
-    ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float, faults: list[Fault]
-) -> None:
+def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float) -> None:
     """Blocks it may carry must not reach below it, and one of their faces must lie on it."""
     blocks = roster.blocks
     # what cannot be built need not lie right, either
@@ -150,13 +140,11 @@ def check_ground(
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > tolerance * blocks.sizes))
     if len(sunk):
-        faults.append(roster.fault_at(path, Message("ground-misplaced", _sunk_in_words(sunk, depths, blocks))))
+        roster.refuse(Finding("ground-misplaced", _sunk_in_words(sunk, depths, blocks), *path))
     elif not _faces_on(ground, heights, may_carry, blocks, tolerance) and not roster.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         nearest = f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else ""
-        faults.append(
-            roster.fault_at(path, Message("ground-misplaced", f"no face of a block that can move lies on it{nearest}"))
-        )
+        roster.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
 
 
 def _sunk_in_words(sunk: IntArray, depths: FloatArray, blocks: Blocks) -> str:

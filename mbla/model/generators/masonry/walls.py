@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Buttress, Gable, Masonry
 from mbla.deck.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import ItemRefused, Part
 from mbla.model.generators.masonry.buttresses import PlacedButtress, buttress_leg, levels_with_top
@@ -70,7 +70,7 @@ def parts_of(walls: Sequence[Wall], numbered: bool) -> Iterator[Part]:
     """
     parts = [(units_of(wall.leg), wall.leg) for wall in walls]
     if not any(len(part.polyhedra) for part, _ in parts):
-        raise ItemRefused([(("openings",), Message("wall-shape", "nothing is left of the wall"))])
+        raise ItemRefused(Finding("wall-shape", "nothing is left of the wall", "openings"))
     parts += [(part, wall.leg) for wall in walls for part in spans_of(wall.leg, wall.openings)]
     parts += [(units_of(buttress_leg(wall.leg, placed)), wall.leg) for wall in walls for placed in wall.buttresses]
     for part, leg in parts:
