@@ -37,6 +37,11 @@ def faults(folder: Path, items: str) -> list[str]:
             "abutments: {width: 2}, spandrels: none",
             "bridge.voussoirs = 1000",
         ),
+        ("wall: {unit: [0.4, 0.2, 0.1], length: 400000, courses: 3", "wall.length = 400000"),
+        (
+            "cross_vault: {shape: semicircular, bay: [4, 4], thickness: 0.2, courses: 15, unit: 4.8e-5, edge: 0.4",
+            "cross_vault.unit = 4.8e-5",
+        ),
     ],
 )
 def test_an_item_of_too_many_units(tmp_path: Path, item: str, key: str) -> None:

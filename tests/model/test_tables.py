@@ -30,15 +30,14 @@ def refused(path: Path, **keys: bool) -> tuple[str, ...]:
 )
 def test_columns_in_any_order_comments_and_decimal_commas(tmp_path: Path, text: str) -> None:
     read = read_table(table(tmp_path, text), ("block", "x"), ("y",))
-    faults: list[Message] = []
-    assert read.numbers("xy", faults).tolist() == [[1.5, 2], [-300, 0]]
+    assert read.numbers("xy").tolist() == [[1.5, 2], [-300, 0]]
     assert read.columns["block"] == ["a", "b"]
-    assert faults == []
+    assert read.faults == []
 
 
 def test_lines_are_counted_with_comments_and_empty_ones(tmp_path: Path) -> None:
     read = read_table(table(tmp_path, "# one\nblock,x\n\na,1\n# two\nb,2\n"), ("block", "x"))
-    assert [read.place(row) for row in range(2)] == ["t.csv:4", "t.csv:6"]
+    assert read.lines == [4, 6]
 
 
 def test_rows_may_go_on(tmp_path: Path) -> None:
@@ -83,12 +82,11 @@ def test_header_of_a_table_whose_rows_go_on(tmp_path: Path) -> None:
 def test_no_numbers(tmp_path: Path, text: str) -> None:
     quoted = f'"{text}"' if "," in text else text
     read = read_table(table(tmp_path, f"block,x\na,{quoted}\n"), ("block", "x"))
-    faults: list[Message] = []
-    read.numbers("x", faults)
-    assert faults == [f"t.csv:2: x = {text or '(empty)'}: must be a finite number"]
+    read.numbers("x")
+    assert read.faults == [f"t.csv:2: x = {text or '(empty)'}: must be a finite number"]
 
 
 def test_many_faults_are_counted() -> None:
-    faults = TableRefused([Message("table-row", f"fault {number}") for number in range(25)]).faults
+    faults = TableRefused(*(Message("table-row", f"fault {number}") for number in range(25))).faults
     assert len(faults) == MOST_FAULTS + 1
     assert faults[-1] == "15 more faults of this table"

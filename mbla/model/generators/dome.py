@@ -30,7 +30,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
-from mbla.model.generators.curves import Circle, named_curve
+from mbla.model.generators.curves import Symmetric, named_curve, radius_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.solids.chains import chains
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
@@ -43,7 +43,7 @@ FLUSH = 1e-9
 class _Dome:
     """Intrados circle, thickness, angles of the joints from the springing up, height of the springing, facets."""
 
-    circle: Circle
+    circle: Symmetric
     thickness: float
     angles: FloatArray
     springing: float
@@ -101,22 +101,23 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
 def _dome(item: DomeItem) -> _Dome:
     shape = "semicircular" if item.shape == "hemispherical" else item.shape
     circle = named_curve(shape, item.span, item.rise, item.embrace)
-    assert isinstance(circle, Circle)  # which both shapes are
+    assert isinstance(circle, Symmetric)  # a circle, which both shapes are
     springing = item.drum.height if item.drum else 0.0
-    angles = np.linspace(circle.half_angle, _top(item, circle), item.rings + 1)
+    angles = np.linspace(circle.end, _top(item, circle), item.rings + 1)
     return _Dome(circle, item.thickness, angles, springing, item.segments, _facets(item), item.bond == "running")
 
 
-def _top(item: DomeItem, circle: Circle) -> float:
+def _top(item: DomeItem, circle: Symmetric) -> float:
     """Angle of the last joint from the crown."""
     key = "oculus" if item.oculus is not None else "keystone"
     diameter: float | None = getattr(item, key)
     if diameter is None:
-        return circle.half_angle / (2 * item.rings + 1)
-    widest = 2 * circle.radius * np.sin(min(circle.half_angle, np.pi / 2))
+        return circle.end / (2 * item.rings + 1)
+    across = 2 * radius_of(circle.span, circle.end)
+    widest = across * np.sin(min(circle.end, np.pi / 2))
     if diameter >= widest:
         raise ItemRefused(Finding("out-of-bounds", f"must be < {widest:g}, the greatest diameter of the intrados", key))
-    return float(np.arcsin(diameter / (2 * circle.radius)))
+    return float(np.arcsin(diameter / across))
 
 
 def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
@@ -127,7 +128,7 @@ def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
 
 def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     """Courses from the bottom; the last has a bevelled bed for the dome, and a ledge where the drum is wider."""
-    foot = dome.joint(dome.circle.half_angle)
+    foot = dome.joint(dome.circle.end)
     inside = foot[0, 0]
     outside = inside + (dome.thickness if drum.thickness is None else drum.thickness)
     if foot[1, 0] > outside + FLUSH * dome.thickness:
@@ -160,7 +161,7 @@ def _keystone(dome: _Dome, joint: FloatArray) -> Polyhedra:
 
 def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
     """Profile of the fixed blocks: from the springing joint back by the thickness."""
-    back = dome.thickness * np.array([np.cos(dome.circle.half_angle), -np.sin(dome.circle.half_angle)])
+    back = dome.thickness * np.array([np.cos(dome.circle.end), -np.sin(dome.circle.end)])
     return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])
 
 

@@ -224,7 +224,6 @@ def test_units_of_length_do_not_matter() -> None:
     [
         ({"piers": {"width": 0.5, "height": 2.5, "courses": 4}}, ("piers", "width")),
         ({"abutments": {"width": 0.2}}, ("abutments", "width")),
-        ({"unit": [1e-4, 1e-4]}, ("unit",)),
         ({"voussoirs": 1, "shape": "semicircular", "rise": None}, ("voussoirs",)),
         ({"voussoirs": [13, 1], "shape": "semicircular", "rise": None}, ("voussoirs", 1)),
         ({"rise": [1.4, 3.49]}, ("rise", 1)),

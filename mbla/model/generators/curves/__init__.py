@@ -7,20 +7,17 @@ from collections.abc import Callable
 import numpy as np
 
 from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
-from mbla.model.generators.curves.arcs import Basket as Basket
-from mbla.model.generators.curves.arcs import Circle as Circle
-from mbla.model.generators.curves.arcs import Pointed as Pointed
-from mbla.model.generators.curves.arcs import segmental as segmental
 from mbla.model.generators.curves.curve import Curve as Curve
-from mbla.model.generators.curves.ellipse import Catenary as Catenary
-from mbla.model.generators.curves.ellipse import Ellipse as Ellipse
-from mbla.model.generators.curves.spline import Spline as Spline
+from mbla.model.generators.curves.pointed import Pointed
+from mbla.model.generators.curves.symmetric import Symmetric as Symmetric
+from mbla.model.generators.curves.symmetric import basket, catenary, circle, ellipse, segmental
+from mbla.model.generators.curves.symmetric import radius_of as radius_of
 
 WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
     "segmental": segmental,
     "pointed": Pointed,
-    "elliptic": Ellipse,
-    "catenary": Catenary,
+    "elliptic": ellipse,
+    "catenary": catenary,
 }
 """curves that span and rise determine"""
 
@@ -33,10 +30,10 @@ def named_curve(
     The deck's rules see to it that what a shape needs is given, and that the rise is one it can have.
     """
     if shape == "semicircular":
-        return Circle(span, np.pi / 2)
+        return circle(span, np.pi / 2)
     if embrace is not None:
-        return Circle(span, float(np.radians(embrace) / 2))
+        return circle(span, float(np.radians(embrace) / 2))
     assert rise is not None  # a rule of the deck
     if shape == "basket":
-        return Basket(span, rise, float(np.radians(SIDE_ANGLE if side_angle is None else side_angle)))
+        return basket(span, rise, float(np.radians(SIDE_ANGLE if side_angle is None else side_angle)))
     return WITH_RISE[shape](span, rise)

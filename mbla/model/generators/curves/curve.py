@@ -63,25 +63,7 @@ def invert(function: Callable[[FloatArray], FloatArray], values: FloatArray, low
     return np.asarray((below + above) / 2, dtype=np.float64)
 
 
-def divide_symmetric(length: Callable[[FloatArray], FloatArray], end: float, count: int) -> FloatArray:
-    """Parameters (count + 1,) from -end to end at equal steps of a length counted from the crown, parameter 0.
-
-    Both halves are mirror images to the last digit, and the ends are exact.
-    """
-    steps = np.arange(count, -1, -2)  # in half steps from the crown, to both sides
-    outer = steps[steps > 0]
-    total = float(length(np.array([end]))[0])
-    half = invert(length, total * outer / count, 0.0, end)
-    half[:1] = end
-    crown = [0.0] if count % 2 == 0 else []
-    return np.concatenate([-half, crown, half[::-1]])
-
-
-def outside(forwards: FloatArray) -> FloatArray:
-    """Unit normals to the left of directions, (n, 2)."""
-    return np.stack([-forwards[:, 1], forwards[:, 0]], axis=1)
-
-
 def beside(points: FloatArray, forwards: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Points at offsets (n, k) outside points (n, 2) of a curve, (n, k, 2)."""
-    return np.asarray(points[:, None, :] + offsets[..., None] * outside(forwards)[:, None, :], dtype=np.float64)
+    """Points at offsets (n, k) outside points (n, 2) of a curve with these directions (n, 2), as (n, k, 2)."""
+    outside = np.stack([-forwards[:, 1], forwards[:, 0]], axis=1)
+    return np.asarray(points[:, None, :] + offsets[..., None] * outside[:, None, :], dtype=np.float64)

@@ -1,0 +1,172 @@
+"""Symmetric curves of arches and vaults: circle, basket, ellipse, catenary.
+
+A curve that is its own mirror image is known by its points, by its length from the crown and by the angle that it has
+turned by since, over a parameter from -end to end that is 0 at the crown.
+
+*Circle* (semicircular and segmental arches). With r the radius and a the half angle of embrace, the springings lie at z
+= 0, a span s = 2 r sin a apart, and the centre at x = s/2, z = -r cos a (above the springings for an embrace beyond 180
+degrees). The parameter is the angle t from the crown: x = s/2 + r sin t, z = -r cos a + r cos t, with t from -a to a.
+
+*Basket* of three centres: a flat arc between two sharper ones, with common tangents where they meet. Half the span a,
+the rise b, and the angle w of each side arc give k = (1 - sin w)/cos w, the radius of the side arcs r = (b - k a)/(1 -
+k) with their centres on the springing line, and that of the middle arc R = r + (a - r)/cos w. With w = 60 degrees all
+three arcs have the same angle (the construction named after Huygens). The parameter is the angle t from the crown of
+the normal, from -pi/2 to pi/2.
+
+*Ellipse*, its upper half, upright at the springings: x = a + a sin u, z = b cos u with u from -pi/2 to pi/2, half the
+span a and the rise b. The length from the crown is a E(u | 1 - b^2/a^2), the incomplete elliptic integral of the second
+kind; the curve has turned by atan(b/a tan u).
+
+*Catenary*: the line of thrust of its own weight, where that is the same per length of the line. With the parameter u
+from -U to U, x = s/2 + a u and z = a (cosh U - cosh u), where s = 2 a U is the span and the rise f fixes U by f/s =
+(cosh U - 1)/(2 U). The length from the crown is a sinh u, and the curve has turned by atan(sinh u).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.model.generators.curves.curve import beside, invert
+
+RIGHT = np.pi / 2
+Along: TypeAlias = Callable[[FloatArray], FloatArray]
+"""function of parameters (n,), with values (n,)"""
+
+
+@dataclass(frozen=True)
+class Symmetric:
+    """A smooth curve over a span [length] that is its own mirror image, from -end to end.
+
+    x, z   : coordinates [length]
+    length : from the crown, negative to the left [length]
+    turned : angle by which it has turned to the right since the crown [rad]
+    """
+
+    span: float
+    end: float
+    x: Along
+    z: Along
+    length: Along
+    turned: Along
+    crest: None = None
+
+    def divide(self, count: int, offset: float) -> FloatArray:
+        """As ``Curve.divide``; both halves are mirror images to the last digit, and the ends are exact."""
+
+        def length(parameters: FloatArray) -> FloatArray:
+            return np.asarray(self.length(parameters) + offset * self.turned(parameters), dtype=np.float64)
+
+        steps = np.arange(count, -1, -2)  # in half steps from the crown, to both sides
+        outer = steps[steps > 0]
+        half = invert(length, float(length(np.array([self.end]))[0]) * outer / count, 0.0, self.end)
+        half[:1] = self.end
+        return np.concatenate([-half, [0.0] if count % 2 == 0 else [], half[::-1]])
+
+    def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
+        """As ``Curve.points``; the springings of the curve itself are exact."""
+        curve = np.stack([self.x(parameters), self.z(parameters)], axis=1)
+        curve[parameters == -self.end] = [0.0, 0.0]
+        curve[parameters == self.end] = [self.span, 0.0]
+        return beside(curve, self.forwards(parameters), offsets)
+
+    def forwards(self, parameters: FloatArray) -> FloatArray:
+        """As ``Curve.forwards``."""
+        turned = self.turned(parameters)
+        return np.stack([_cosine(turned), -np.sin(turned)], axis=1)
+
+    def lengths(self, parameters: FloatArray) -> FloatArray:
+        """As ``Curve.lengths``."""
+        return np.asarray(self.length(parameters) + self.length(np.array([self.end])), dtype=np.float64)
+
+
+def _cosine(angles: FloatArray) -> FloatArray:
+    """Exactly zero at a right angle: joints at springings are level there."""
+    return np.where(np.abs(angles) == RIGHT, 0.0, np.cos(angles))
+
+
+def circle(span: float, half_angle: float) -> Symmetric:
+    """Arc of a circle over a span [length] with a half angle of embrace [rad]."""
+    radius = radius_of(span, half_angle)
+    return Symmetric(
+        span,
+        half_angle,
+        x=lambda t: span / 2 + radius * np.sin(t),
+        z=lambda t: radius * (np.cos(t) - np.cos(half_angle)),
+        length=lambda t: radius * t,
+        turned=lambda t: t,
+    )
+
+
+def radius_of(span: float, half_angle: float) -> float:
+    """Of the circle over a span with a half angle of embrace [length]."""
+    return float(span / (2 * np.sin(half_angle)))
+
+
+def segmental(span: float, rise: float) -> Symmetric:
+    """Arc of a given rise: half the rise over half the span is the tangent of half the half angle."""
+    return circle(span, float(2 * np.arctan2(rise, span / 2)))
+
+
+def basket(span: float, rise: float, side_angle: float) -> Symmetric:
+    """Three-centred curve over a span, with a rise [length] and the angle of each side arc [rad]."""
+    k = float((1 - np.sin(side_angle)) / np.cos(side_angle))
+    sides = (rise - k * span / 2) / (1 - k)  # positive where the rise exceeds k a
+    middle = float(sides + (span / 2 - sides) / np.cos(side_angle))
+
+    def beyond(t: FloatArray) -> FloatArray:
+        """Angle on a side arc, negative on the left one."""
+        return np.asarray(np.sign(t) * np.maximum(np.abs(t) - (RIGHT - side_angle), 0.0))
+
+    return Symmetric(
+        span,
+        RIGHT,
+        x=lambda t: (
+            span / 2 + np.where(beyond(t) != 0, np.sign(t) * (span / 2 - sides) + sides * np.sin(t), middle * np.sin(t))
+        ),
+        z=lambda t: np.where(beyond(t) != 0, sides * _cosine(t), rise - middle + middle * np.cos(t)),
+        length=lambda t: middle * t + (sides - middle) * beyond(t),
+        turned=lambda t: t,
+    )
+
+
+def ellipse(span: float, rise: float) -> Symmetric:
+    """Half an ellipse over a span, with a rise [length]."""
+    half = span / 2
+    ratio = rise / half
+
+    def length(u: FloatArray) -> FloatArray:
+        from scipy.special import ellipeinc
+
+        return np.asarray(half * ellipeinc(u, 1 - ratio * ratio), dtype=np.float64)
+
+    return Symmetric(
+        span,
+        RIGHT,
+        x=lambda u: half + half * np.sin(u),
+        z=lambda u: rise * _cosine(u),
+        length=length,
+        turned=lambda u: np.arctan2(rise * np.sin(u), half * _cosine(u)),
+    )
+
+
+def catenary(span: float, rise: float) -> Symmetric:
+    """Catenary over a span, with a rise [length]."""
+    ratio = np.array([2 * rise / span])
+    # (cosh u - 1)/u is at least u/2, and more than the ratio at the logarithm below
+    most = float(min(2.0 * ratio[0], 2.0 + 2.0 * np.log1p(ratio[0])))
+    end = float(invert(lambda u: 2 * np.sinh(u / 2) ** 2 / u, ratio, 0.0, most)[0])
+    scale = span / (2 * end)  # radius of curvature at the crown, a
+    return Symmetric(
+        span,
+        end,
+        x=lambda u: span / 2 * (1 + u / end),
+        # cosh U - cosh u, without the loss of digits in a flat one
+        z=lambda u: 2 * scale * (np.sinh(end / 2) ** 2 - np.sinh(u / 2) ** 2),
+        length=lambda u: scale * np.sinh(u),
+        turned=lambda u: np.arctan(np.sinh(u)),
+    )
