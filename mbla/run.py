@@ -18,11 +18,10 @@ from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.stopwatch import timing
 from mbla.program.build import build_program
 from mbla.results.files import OutputFolder
+from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
-from mbla.results.run_record import as_expected, results_before, with_case
 from mbla.results.sta import StatusFile
-from mbla.results.stopped_run import leaves_nothing, stopped
-from mbla.results.write import write_results
+from mbla.results.write import leaves_nothing, stopped, write_results
 from mbla.solution.settings import SolverSettings, solver_settings
 from mbla.solution.solution import IterationRecord
 from mbla.solution.solve import solve
@@ -45,7 +44,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
         nothing is written then, and an earlier result stays as it was
     StoppedRun
         of whatever else ends it when load cases are done: these are written beside it
-        (:mod:`mbla.results.stopped_run`)
+        (:mod:`mbla.results.write`)
     """
     started = time.perf_counter()
     return run_and_write(read_deck(deck_path, options.overrides), options, progress, started)

@@ -15,8 +15,8 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
+from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
-from mbla.results.run_record import with_loads_found
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
 from mbla.solution.settings import solver_settings

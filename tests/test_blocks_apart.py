@@ -8,7 +8,7 @@ import pytest
 
 from mbla.results.listing.summary import summary_lines
 from mbla.results.results import Results
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 
 DECK = """\

@@ -11,9 +11,9 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.process.run_options import RunOptions
-from mbla.results.hdf5.reading import MOST
+from mbla.results.hdf5.layout import MOST
 from mbla.results.record.quantity import WORDS
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK

@@ -18,7 +18,7 @@ from mbla.results.outcome import unproved_words
 from mbla.results.record.json_record import verification_json
 from mbla.results.record.quantity import STANDING
 from mbla.results.results import Results
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from mbla.run import run
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.verification.verify import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN

@@ -18,9 +18,8 @@ from mbla.program.build import build_program
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.resultants import convex_form
 from mbla.results.files import OutputFolder
-from mbla.results.provenance import CaseNeeds
+from mbla.results.provenance import CaseNeeds, results_before
 from mbla.results.results import Results
-from mbla.results.run_record import results_before
 from mbla.solution.cone_solvers.choice import interior_point_method
 from mbla.solution.settings import solver_settings
 

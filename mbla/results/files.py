@@ -4,7 +4,7 @@ Every file is written under a temporary name in the folder itself (a rename is a
 flushed to the disk and renamed into place when the run has succeeded.
 
 A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
-:mod:`mbla.results.stopped_run`, which the next whole result removes); signals wait while it does that, and while it
+:mod:`mbla.results.write`, which the next whole result removes); signals wait while it does that, and while it
 puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
 (:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
 """

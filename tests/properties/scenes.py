@@ -18,8 +18,8 @@ from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
+from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
-from mbla.results.run_record import with_loads_found
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
 from mbla.solution.settings import solver_settings

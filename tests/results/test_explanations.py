@@ -17,7 +17,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES
 from mbla.results.explanations import FIGURES, explanations, find_explanations, sections
 from mbla.results.findings import REMARKS_THAT_WARN, UNSETTLED
-from mbla.results.listing.figure_words import residual_figures
+from mbla.results.listing.figures import residual_figures
 from mbla.solution.solution import Standing, Status
 from mbla.sweeps.command import FAILED_POINTS
 from tests.results.synthetic import tower_results

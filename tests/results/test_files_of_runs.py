@@ -16,13 +16,13 @@ import xarray
 
 from mbla.cli.check import check
 from mbla.deck import read_deck
-from mbla.results.hdf5.reading import text_of
+from mbla.results.hdf5.layout import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.outcome import result_of
 from mbla.results.record.json_record import check_json, results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.record.keys import RECORD
-from mbla.results.record.stored import STORED
+from mbla.results.record.quantity import STORED
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run

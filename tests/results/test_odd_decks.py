@@ -27,7 +27,7 @@ from mbla.results.report.report import report_html
 from mbla.results.series import told_cases
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import Formats, export_results, tables_of
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from tests.results.odd_decks import DECKS
 
 pytestmark = pytest.mark.long

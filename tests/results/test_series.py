@@ -24,7 +24,7 @@ from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, factor_of, series_of, told_cases
 from mbla.results.tilt_angle import angle_bounds, angle_of
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from tests.results.synthetic import standing_at, tower_results

@@ -17,8 +17,7 @@ from mbla.results.outcome import notices_of
 from mbla.results.record.json_record import contacts_json, model_json, notice_json
 from mbla.results.record.json_values import as_json
 from mbla.results.record.keys import RECORD
-from mbla.results.record.quantity import UnitKind, unit_text
-from mbla.results.record.stored import STORED_BY_PATH
+from mbla.results.record.quantity import STORED_BY_PATH, UnitKind, unit_text
 from mbla.results.results import Results
 
 SAME_TOTAL = 1e-9

@@ -13,8 +13,8 @@ from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
-from mbla.results.listing.solving import METHODS
-from mbla.results.record.stored import ANSWERS, stored
+from mbla.results.listing.figures import METHODS
+from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,

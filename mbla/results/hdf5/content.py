@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -16,9 +15,9 @@ from mbla.model.model import Joint, LoadCase, Model, Settlement, Tilt, TravelPos
 from mbla.model.solids.blocks import Blocks
 from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
-from mbla.results.hdf5.layout import FILETYPE, VERSION, fields_of
+from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.outcome import least_and_greatest
-from mbla.results.record.stored import ANSWERS, stored
+from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
     Checks,
@@ -32,9 +31,6 @@ from mbla.solution.solution import (
     StandingResult,
 )
 from mbla.solution.verification.verify import residual_of
-
-Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[Any] | float | int | bool"
-Content: TypeAlias = dict[str, Value]
 
 RECORD_NAMES = {
     "travel/points": "travel/load_points",

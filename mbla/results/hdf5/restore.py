@@ -23,8 +23,9 @@ from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
 from mbla.model.supports.guides import NO_GUIDES, Guides
 from mbla.results.hdf5.case_restore import case_from
-from mbla.results.hdf5.content import RECORD_NAMES, Content
-from mbla.results.record.stored import stored
+from mbla.results.hdf5.content import RECORD_NAMES
+from mbla.results.hdf5.layout import Content
+from mbla.results.record.quantity import stored
 from mbla.results.results import DeckRecord, Results
 
 LEAST, MOST = 1e-120, 1e120

@@ -20,15 +20,21 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import FileError
-from mbla.results.hdf5.content import Content, Value, content_of, root_attributes
+from mbla.results.hdf5.content import content_of, root_attributes
 from mbla.results.hdf5.layout import (
     ATTRIBUTES,
     FILETYPE,
     SHARED_DIMENSIONS,
     VERSION,
+    Content,
+    Value,
+    check_indices,
+    differences,
     fields_of,
+    read_field,
+    strings,
+    text_of,
 )
-from mbla.results.hdf5.reading import check_indices, differences, read_field, strings, text_of
 from mbla.results.hdf5.restore import results_from
 from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.results import Results

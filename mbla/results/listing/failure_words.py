@@ -13,9 +13,8 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse
+from mbla.results.collapse.collapse import Collapse, Failure
 from mbla.results.collapse.cracks import Crack, YieldLine
-from mbla.results.collapse.failure import Failure
 from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach

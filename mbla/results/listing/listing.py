@@ -1,27 +1,126 @@
-"""The listing: what was asked, what the model is, what was found; ``mbla show`` prints it from the .h5 alone."""
+"""The listing: what was asked, what the model is, what was found; ``mbla show`` prints it from the .h5 alone.
+
+The sections of one load case tell how it collapses, how well that is known, where the forces go.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.results.collapse.collapse import collapse_of, failure_of
+from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.answers import series_lines, worst_words
-from mbla.results.listing.case_words import case_lines
-from mbla.results.listing.contact_words import contact_lines
-from mbla.results.listing.figure_words import figures
+from mbla.results.listing.failure_words import failure_sentences
+from mbla.results.listing.figures import figures, path_lines, program_lines
+from mbla.results.listing.forces import (
+    enough_lines,
+    force_range_lines,
+    freedom_lines,
+    group_reaction_lines,
+    lock_lines,
+    reaction_lines,
+    work_lines,
+)
+from mbla.results.listing.mechanism_words import fall_lines, fall_sentences, mechanism_lines, mechanism_summary
 from mbla.results.listing.model_words import (
+    contact_lines,
     header_lines,
     model_lines,
     notice_lines,
+    reduction_lines,
     settings_lines,
+    spaced,
 )
 from mbla.results.listing.summary import warning_lines
-from mbla.results.listing.text import counted, entry, heading, number, sentence
-from mbla.results.listing.verdict_words import verdict
-from mbla.results.outcome import unproved_words
-from mbla.results.results import Results
+from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
+from mbla.results.listing.verdict_words import bound_words, known_words, verdict
+from mbla.results.outcome import result_of, unproved_words
+from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
+
+
+@dataclass(frozen=True)
+class Section:
+    """Lines of one subject; the listing has them one below the other, the report under their titles."""
+
+    title: str
+    lines: list[str]
+
+
+def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
+    """All sections of a load case, as the listing has them."""
+    lines = heading(f"Load case {case.load_case.name}")
+    return lines + [line for section in case_sections(model, contacts, case) for line in section.lines]
+
+
+def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
+    """What there is to say of a load case, the verdict and the failure first; no section is empty."""
+    solution, held, model = case.solution, model, model.of_case(case.load_case)
+    mechanics, load_case = solution.mechanics, case.load_case
+    if mechanics is None:
+        motion = solution.certificate
+        told = [] if motion is None else fall_sentences(model, contacts, load_case, motion)
+        sections = [Section("Verdict", _verdict_lines(model, case, "", told))]
+        if motion is not None:
+            sections.append(Section("Mechanism", spaced(fall_lines(model, contacts, motion))))
+        if solution.lock is not None:
+            sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
+    else:
+        collapse = collapse_of(model, contacts, load_case, mechanics)
+        failure = failure_of(model, contacts, collapse, mechanics)
+        told = failure_sentences(model, contacts, load_case, collapse, failure)
+        dimension = 3 if solution.size is None else solution.size.dimension
+        work = enough_lines(case, enough_of(model, contacts, collapse.parts))
+        work += work_lines(model, contacts, load_case, mechanics, collapse.work)
+        reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
+        reactions += group_reaction_lines(held, contacts, mechanics)
+        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
+        sections = [
+            Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
+            Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
+            Section("Work", ["", *work]),
+            Section("Reactions", reactions),
+        ]
+        if solution.force_ranges is not None:
+            ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
+            sections.append(Section("Range of normal forces", ranges))
+    sections += [
+        Section("Load factor and bounds", ["", *figures(model, case)]),
+        Section("Reductions", spaced(reduction_lines(solution.reductions))),
+        Section("Load path", path_lines(model, case)),
+        Section("Solver programs", program_lines(solution)),
+    ]
+    return [section for section in sections if any(section.lines)]
+
+
+def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Find how a case fails, which is kept for listing, files and pictures: takes longest on large models."""
+    model, mechanics, size = model.of_case(case.load_case), case.solution.mechanics, case.solution.size
+    if mechanics is not None:
+        collapse = collapse_of(model, contacts, case.load_case, mechanics)
+        failure_of(model, contacts, collapse, mechanics)
+        force_freedom(model, contacts, mechanics, 3 if size is None else size.dimension)
+
+
+def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:
+    """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
+    says = verdict(model, case)
+    if summary:
+        says += f"{_mechanism_label(case)}: {summary}"
+    lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
+    lines += spaced([line for text in told for line in sentence(text)])
+    known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
+    return lines + spaced([line for text in known for line in sentence(text)])
+
+
+def _mechanism_label(case: CaseResult) -> str:
+    return "" if result_of(case) is not None else "; its mechanism, not verified"
+
 
 ANOTHER_POSITION = (
     "Of these positions the worst has a section of its own above, and so have those without a result; "

@@ -12,9 +12,8 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, fall_of
+from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.cracks import Crack
-from mbla.results.collapse.failure import Failure, failure_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.mechanics import curvature_sides

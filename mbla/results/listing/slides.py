@@ -9,7 +9,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.collapse import Failure
 from mbla.results.collapse.joint_planes import SlidingPlane
 from mbla.results.collapse.mechanics import Work
 from mbla.results.collapse.rigid_parts import PartMotion

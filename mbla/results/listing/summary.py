@@ -7,8 +7,7 @@ from collections.abc import Sequence
 
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
 from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.mechanism_words import fall_summary, mechanism_summary

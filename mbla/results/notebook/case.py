@@ -8,8 +8,7 @@ from pathlib import Path
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.listing.answers import reaction_of
 from mbla.results.listing.mechanism_words import mechanism_summary

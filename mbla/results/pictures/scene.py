@@ -11,8 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.clusters import clusters_of
-from mbla.results.collapse.collapse import Collapse, collapse_of, falling_motion
-from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, falling_motion
 from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion

@@ -1,22 +1,42 @@
-"""The object that ``--json`` prints: keys and nesting as scripts rely on them; no number but finite ones."""
+"""A run as one JSON object: what ``--json`` prints and ``STEM.json`` holds; its load cases below it.
+
+Values that do not exist are None, numbers are finite.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from mbla import __version__
+from mbla.arrays import FloatArray
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.results.collapse.mechanics import guide_reactions, support_reactions
 from mbla.results.hdf5.content import as_told
-from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
+from mbla.results.listing.answers import reaction_json
+from mbla.results.listing.figures import solver_json
+from mbla.results.outcome import (
+    associative_of,
+    best_iterate,
+    dimension_of,
+    notices_of,
+    result_of,
+    standing_of,
+    unproved_words,
+)
 from mbla.results.provenance import CaseNeeds
-from mbla.results.record.case_json import case_json, series_json
+from mbla.results.record.cases import CASE_COLUMNS
 from mbla.results.record.json_values import as_json, number, numbers
-from mbla.results.record.scene import scene_of
-from mbla.results.results import Results
-from mbla.results.series import series_of
+from mbla.results.record.mechanism_json import mechanism_json
+from mbla.results.record.scene import Column, Scene, scene_of
+from mbla.results.results import CaseResult, Results
+from mbla.results.series import Series, factor_of, position_of, series_of
+from mbla.solution.solution import Checks, Mechanics, Solution
+from mbla.solution.verification.statics import power
 
 
 def results_json(results: Results) -> dict[str, Any]:
@@ -110,4 +130,163 @@ def contacts_json(results: Results) -> dict[str, Any]:
         "interfaces": len(contacts),
         "contact_points": len(contacts.points),
         "contact_area": number(contacts.areas.sum()),
+    }
+
+
+def case_json(scene: Scene) -> dict[str, Any]:
+    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
+    case = scene.case
+    assert case is not None  # the record of a model alone has no cases
+    solution, mechanics, model = case.solution, result_of(case), scene.model
+    dimension = 3 if solution.size is None else solution.size.dimension
+    solver = float(sum(program.seconds for program in solution.programs))
+    return {
+        "name": case.load_case.name,
+        **{each.quantity.name: _value(each, scene) for each in CASE_COLUMNS if "json" in each.files},
+        "reaction": reaction_json(case),
+        "best_iterate": _best_iterate(case),
+        "bracket": _bracket(solution, associative_of(case)),
+        "powers": powers_json(model, case),
+        "residuals": residuals_json(case.checks),
+        "standing": _standing(model, solution),
+        "certificate": _certificate(solution),
+        "solver": solver_json(solution),
+        "size": as_json(solution.size),
+        "reductions": as_json(solution.reductions),
+        "path": as_json(solution.path),
+        "mechanism": None
+        if mechanics is None
+        else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension),
+        "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
+        "time": {"total": number(solution.seconds), "solver": number(solver)},
+    }
+
+
+def _value(column: Column, scene: Scene) -> Any:
+    """What a column says of the case, as JSON has it."""
+    values, quantity = column.of(scene), column.quantity
+    if quantity.dims == ("sentence",):
+        return [] if values is None else [str(sentence) for sentence in values]
+    if values is None:
+        return None
+    if quantity.dims:
+        return numbers(values[0])
+    if quantity.kind == "text":
+        return str(values[0]) or None
+    return number(values[0]) if quantity.kind == "float" else values[0].item()
+
+
+def residuals_json(checks: Checks) -> dict[str, float | None]:
+    """The residuals of forces and mechanism in one object."""
+    return {
+        "equilibrium": number(checks.equilibrium_residual),
+        "yield": number(checks.yield_violation),
+        "tension": number(checks.tension_violation),
+        "penetration": number(checks.penetration),
+        "complementarity": number(checks.complementarity_residual),
+        "slip": number(checks.slip_residual),
+    }
+
+
+def _best_iterate(case: CaseResult) -> dict[str, Any] | None:
+    best = best_iterate(case)
+    if best is None:
+        return None
+    return {"load_factor": number(best.load_factor), "residuals": residuals_json(case.checks)}
+
+
+def _bracket(solution: Solution, associative: Mechanics | None) -> dict[str, float | int | None] | None:
+    """Polyhedral friction: associative factors with the inscribed and the circumscribed polyhedron."""
+    if solution.outer is None or associative is None:
+        return None
+    inner, outer = number(associative.load_factor), number(solution.outer.load_factor)
+    return {"inner": inner, "outer": outer, "sides": solution.sides}
+
+
+def _standing(model: Model, solution: Solution) -> dict[str, str | None] | None:
+    standing = solution.standing
+    if standing is None:
+        return None
+    block = None if standing.block is None else model.blocks.name(standing.block)
+    return {"verdict": standing.verdict.value, "block": block, "reason": standing.reason or None}
+
+
+def _certificate(solution: Solution) -> str | None:
+    """What proves that there is no load factor: a motion, or forces that balance the live load alone."""
+    if solution.certificate is not None:
+        return "motion"
+    return "forces" if solution.lock is not None else None
+
+
+def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | None:
+    """Power of the live load of every load case in the mechanism behind a kinematic bound, by name.
+
+    A mechanism u that the joints allow with associative flow bounds every live load at once. With the dead load G, the
+    dissipation D and live loads L_c of the same structure, no factors x_c acting together are carried unless
+
+        Σ x_c L_c·u ≤ D(u) − G·u.
+
+    u is scaled so that the live load of its own case has unit power; the right side then is its kinematic bound k, and
+    Σ x_c p_c ≤ k a half-space that contains the safe domain. Positions of travelling loads and settlements have none;
+    None where there is no such mechanism, and for polyhedral friction, whose bounds belong to two of them.
+    """
+    associative = associative_of(case)
+    if associative is None or case.solution.outer is not None or case.load_case.settlement is not None:
+        return None
+    own = power(case.load_case.live_load, associative.mechanism)
+    if not own > 0.0:
+        return None
+    others = [one for one in model.load_cases if one.travel is None and one.settlement is None and one.tilt is None]
+    return {one.name: number(power(one.live_load, associative.mechanism) / own) for one in others}
+
+
+def _reactions(scene: Scene, case: CaseResult, mechanics: Mechanics) -> dict[str, Any]:
+    """Resultants on the structure, moments about the origin: of all supports, and by ground plane and group.
+
+    Guides are among them: what they take is a support too.
+    """
+    found = [
+        *support_reactions(scene.model, scene.contacts, mechanics.contact_forces, by_group=True),
+        *guide_reactions(scene.model, scene.contacts, case.load_case, mechanics, by_group=True),
+    ]
+    total = np.sum([reaction.wrench for reaction in found], axis=0) if found else np.zeros(6)
+    return {
+        "total": _wrench_json(total),
+        "supports": {reaction.support: _wrench_json(reaction.wrench) for reaction in found},
+    }
+
+
+def _wrench_json(wrench: FloatArray) -> dict[str, Any]:
+    wrench = wrench + 0.0  # no -0.0
+    return {"force": numbers(wrench[:3]), "moment": numbers(wrench[3:])}
+
+
+def series_json(model: Model, series: Series) -> dict[str, Any]:
+    """Load factor and status at every position, null where there is none; the worst, null where it is not known."""
+    return {
+        "name": series.name,
+        "complete": series.complete,
+        "positions": [_position(model, case) for case in series.cases],
+        "worst": None if series.worst is None else _position(model, series.worst),
+    }
+
+
+def _block(model: Model, block: int) -> str | None:
+    return model.blocks.name(int(block)) if block >= 0 else None
+
+
+def _position(model: Model, case: CaseResult) -> dict[str, Any]:
+    position = position_of(case)
+    return {
+        "case": case.load_case.name,
+        "position": position.number,
+        "point": numbers(position.point),
+        "distance": number(position.distance),
+        "block": _block(model, position.blocks[0]),
+        "axles": [
+            {"point": numbers(point), "distance": number(distance), "block": _block(model, block)}
+            for point, distance, block in zip(position.points, position.distances, position.blocks, strict=True)
+        ],
+        "status": case.status.value,
+        "load_factor": number(factor_of(case)),
     }

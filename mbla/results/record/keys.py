@@ -14,8 +14,7 @@ from dataclasses import dataclass
 
 from mbla.deck.units import Units
 from mbla.results.record.cases import CASE_COLUMNS
-from mbla.results.record.quantity import Quantity, UnitKind, unit_text
-from mbla.results.record.stored import STORED_BY_PATH, rows_of
+from mbla.results.record.quantity import STORED_BY_PATH, Quantity, UnitKind, rows_of, unit_text
 
 KINDS = {"float": "number?", "int": "integer", "bool": "boolean", "text": "string?"}
 """types in JSON: numbers must be finite there, and texts not empty"""

@@ -11,9 +11,8 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class, moving_joints
 from mbla.results.collapse.cracks import Crack, YieldLine
-from mbla.results.collapse.failure import failure_of, mechanism_class, moving_joints
 from mbla.results.collapse.force_freedom import ForceFreedom, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine

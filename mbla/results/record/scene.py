@@ -23,8 +23,7 @@ from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
 from mbla.results.outcome import best_iterate, result_of
-from mbla.results.record.quantity import Quantity, whole
-from mbla.results.record.stored import STORED_BY_PATH
+from mbla.results.record.quantity import STORED_BY_PATH, Quantity, whole
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 

@@ -10,8 +10,8 @@ import numpy as np
 from mbla.errors import Notice
 from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
-from mbla.results.listing.case_words import case_sections
-from mbla.results.listing.figure_words import residual_figures, verification_verdict
+from mbla.results.listing.figures import residual_figures, verification_verdict
+from mbla.results.listing.listing import case_sections
 from mbla.results.listing.text import number, small
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import case_notices, result_of

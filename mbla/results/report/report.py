@@ -10,8 +10,7 @@ from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import write_whole
 from mbla.results.listing.answers import series_lines
-from mbla.results.listing.contact_words import contact_lines, finding_lines
-from mbla.results.listing.model_words import model_lines, settings_lines
+from mbla.results.listing.model_words import contact_lines, finding_lines, model_lines, settings_lines
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import notices_of

@@ -13,9 +13,8 @@ from mbla.errors import Notice
 from mbla.model.model import TravelPosition
 from mbla.results.collapse.mechanics import Reaction, guide_reactions, support_reactions
 from mbla.results.outcome import notices_of
-from mbla.results.record.quantity import Kind, Quantity, UnitKind, real
+from mbla.results.record.quantity import STORED, Kind, Quantity, UnitKind, real
 from mbla.results.record.scene import FIGURES_TOLD, Scene, Values, as_text
-from mbla.results.record.stored import STORED
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, factor_of, position_of, series_of
 from mbla.results.tables.table import TableColumn, TableKind, case_scenes, described

@@ -17,8 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices

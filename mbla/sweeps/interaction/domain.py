@@ -6,7 +6,7 @@ states, mixed, carry the mixed loads within convex yield conditions). So
 - the convex hull of points that static bounds prove safe is safe: the inner polygon. The dead load alone, at the
   origin, is such a point where the structure stands under it, and so is all of a ray on which no factor brings
   collapse;
-- every mechanism bounds the whole set by a half-plane x p_x + y p_y ≤ k (:mod:`mbla.results.record.case_json`), with
+- every mechanism bounds the whole set by a half-plane x p_x + y p_y ≤ k (:mod:`mbla.results.record.json_record`), with
   the powers p of the two loads: their intersection is the outer polygon.
 
 The set lies between the two. Safe points beyond a half-plane, or a hull beyond the kinematic bound of a ray, would show

@@ -13,8 +13,7 @@ import mbla
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.clusters import FEW, SHARES, clusters_of
-from mbla.results.collapse.collapse import collapse_of
-from mbla.results.collapse.failure import NOTABLE, Failure, MovingJoints, failure_of, mechanism_class
+from mbla.results.collapse.collapse import NOTABLE, Failure, MovingJoints, collapse_of, failure_of, mechanism_class
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.listing.failure_words import failure_sentences

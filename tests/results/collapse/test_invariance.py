@@ -12,8 +12,7 @@ import pytest
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.glue import solids_of
-from mbla.results.collapse.collapse import Collapse, collapse_of
-from mbla.results.collapse.failure import Failure, failure_of
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of
 from mbla.results.collapse.force_freedom import _equilibrium, _plane_rows, _resultants, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import group_reactions, support_reactions

@@ -9,8 +9,7 @@ import pytest
 from mbla.deck.units import Units
 from mbla.results.hdf5.layout import ATTRIBUTES, SHARED_DIMENSIONS, VERSION
 from mbla.results.hdf5.result_file import write_results_hdf5
-from mbla.results.record.quantity import unit_text
-from mbla.results.record.stored import STORED
+from mbla.results.record.quantity import STORED, unit_text
 from tests.results.synthetic import full_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"

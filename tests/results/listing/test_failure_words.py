@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.collapse.collapse import collapse_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.places import region_words, way_words
 from mbla.results.listing.slides import part_name

@@ -3,8 +3,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.contacts.contacts import Contacts
-from mbla.results.collapse.collapse import collapse_of
-from mbla.results.collapse.failure import failure_of
+from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary
 from mbla.results.listing.text import MOST_ROWS, WIDTH
 from mbla.solution.solution import ContactMode, Mechanics

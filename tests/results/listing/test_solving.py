@@ -14,9 +14,7 @@ import mbla
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
-from mbla.results.listing.listing import listing
-from mbla.results.listing.model_words import FOUND, found_words, reduction_lines
-from mbla.results.listing.solving import (
+from mbla.results.listing.figures import (
     METHODS,
     MOST_PROGRAMS,
     PURPOSES,
@@ -26,6 +24,8 @@ from mbla.results.listing.solving import (
     solver_lines,
     solver_words,
 )
+from mbla.results.listing.listing import listing
+from mbla.results.listing.model_words import FOUND, found_words, reduction_lines
 from mbla.results.listing.text import MOST_ROWS, WIDTH
 from mbla.results.record.json_record import results_json
 from mbla.results.results import Results

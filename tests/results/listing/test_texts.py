@@ -15,8 +15,7 @@ import pytest
 
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
-from mbla.results.listing.case_words import case_sections
-from mbla.results.listing.listing import listing, verification_lines
+from mbla.results.listing.listing import case_sections, listing, verification_lines
 from mbla.results.listing.model_words import check_listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH

@@ -12,8 +12,7 @@ import pytest
 import mbla
 from mbla.results.collapse.mechanics import load_on_structure
 from mbla.results.provenance import CaseNeeds
-from mbla.results.record.case_json import powers_json
-from mbla.results.record.json_record import check_json, results_json, verification_json
+from mbla.results.record.json_record import check_json, powers_json, results_json, verification_json
 from mbla.results.record.json_values import json_line
 from mbla.results.record.mechanism_json import OnDemand
 from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS

@@ -10,9 +10,8 @@ import pytest
 
 from mbla.errors import FileError, Message, Notice, UsageError
 from mbla.results.explanations import explanations
-from mbla.results.listing.case_words import case_sections
-from mbla.results.listing.contact_words import contact_lines
-from mbla.results.listing.model_words import model_lines, settings_lines
+from mbla.results.listing.listing import case_sections
+from mbla.results.listing.model_words import contact_lines, model_lines, settings_lines
 from mbla.results.listing.text import Entry, Heading, Table, elements_of, number
 from mbla.results.outcome import notices_of
 from mbla.results.record.json_record import results_json

@@ -13,8 +13,8 @@ import h5py
 import numpy as np
 
 from mbla.process.run_options import RunOptions
-from mbla.results.hdf5.reading import AGREEMENT, LINKS
-from mbla.results.record.stored import STORED
+from mbla.results.hdf5.layout import AGREEMENT, LINKS
+from mbla.results.record.quantity import STORED
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
 from tests.results.changed_files import changing

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.verify.verify_file import verify_file
+from mbla.results.verify import verify_file
 from tests.trust.corrupted.forged import claims_changed, content_of, forge, is_proof, write_decks
 from tests.trust.counts import record_counts
 

@@ -27,8 +27,7 @@ def _imported(drawing: bool) -> None:
     import mbla.results.listing.listing
     import mbla.results.record.json_record
     import mbla.results.tables.tables
-    import mbla.results.verify.rebuilt
-    import mbla.results.verify.verify_file
+    import mbla.results.verify
 
     if drawing:
         import matplotlib

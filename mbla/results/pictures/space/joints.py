@@ -1,6 +1,6 @@
 """What joints do, in space: hinges as rods, arrows of sliding, coloured gaps; those that the listing tells stand out.
 
-A large vault moves a little at hundreds of joints. Those between its clusters (:mod:`mbla.results.collapse.failure`),
+A large vault moves a little at hundreds of joints. Those between its clusters (:mod:`mbla.results.collapse.collapse`),
 which the listing tells, are drawn thick, the others as thin lines.
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.results.collapse.failure import Failure
+from mbla.results.collapse.collapse import Failure
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points
 from mbla.results.listing.text import counted

@@ -1,0 +1,271 @@
+"""``mbla verify``: everything that a result file claims, recomputed from what is in it alone, with no solver.
+
+Model, contacts and loads are built again from the deck in the file and must come out the same: residuals and bounds
+prove an answer for the arrays of a file, and that these arrays are the structure that its deck describes follows from
+its texts and the meshes and tables that it names. Of every case the forces and mechanisms are taken, and all that
+follows from them is found again: velocities, modes, parts, work, residuals, bounds, ends of ranges, standing, angle,
+status. The file that this gives must be the one at hand, dataset by dataset. So the file is believed in nothing but the
+fields that say what the run alone can tell (``told`` of :class:`mbla.results.record.quantity.Quantity`), which are
+marked in it and named in what is printed.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.findings import contacts_of
+from mbla.contacts.glue import held_model
+from mbla.deck import Deck
+from mbla.deck.deck import sha256_of
+from mbla.deck.sections.accuracy import knobs_of
+from mbla.errors import DeckError, FileError, Notice
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase, Tilt
+from mbla.model.settlement import with_reference
+from mbla.program.build import crushable_interfaces, takes_stress_blocks
+from mbla.results.exit_status import exit_code
+from mbla.results.hdf5.content import content_of
+from mbla.results.hdf5.layout import Content, Value
+from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
+from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
+from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
+from mbla.results.results import CaseResult, Results
+from mbla.solution.derived import with_derived
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Solution, Standing, Status
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.tilt_circle import chord
+from mbla.solution.verification.verify import level_bound, verify
+from mbla.solution.verification.verify_points import verified_status
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is no number fulfils no condition
+def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
+    """Results with checks, status and exit status recomputed, and where they disagree with what the file says.
+
+    Raises
+    ------
+    FileError
+        as ``read_results_hdf5`` does
+    """
+    results = read_results_hdf5(path)
+    deck, disagreements = rebuilt(results)
+    again = _recomputed(results, deck)
+    for case in again.cases:
+        found = (*_unproved(case), *(() if deck is None else _left_out(case, deck)))
+        disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
+    disagreements += differences_of_file(path, write_results_hdf5(again))
+    code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
+    proved = results.complete and not any(presumes_standing(case) for case in again.cases)
+    if (disagreements or not proved) and code in (0, 5):
+        code = 4
+    return replace(again, exit_code=code), disagreements
+
+
+def _recomputed(results: Results, deck: Deck | None) -> Results:
+    """The results with all that follows from deck, forces and mechanisms in place of what the file says of it."""
+    cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
+    found = {case.load_case.name: case.load_case for case in cases}
+    model = replace(results.model, load_cases=tuple(found.get(case.name, case) for case in results.model.load_cases))
+    code = exit_code(cases, results.notices) if results.complete else results.exit_code
+    return replace(results, model=model, cases=cases, exit_code=code)
+
+
+def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> CaseResult:
+    load_case, contacts = case.load_case, results.contacts
+    model: Model = results.model.of_case(load_case)
+    solution = case.solution
+    if deck is not None:
+        crushable = bool(crushable_interfaces(model, contacts).any())
+        solution = _as_asked_for(solution, deck, crushable and takes_stress_blocks(deck.analysis))
+    solution = with_derived(model, contacts, load_case, solution)
+    if load_case.tilt is not None:
+        upright = level_bound(model, contacts, load_case, solution)
+        load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
+    checks = verify(model, contacts, load_case, solution)
+    return CaseResult(load_case, solution, checks, verified_status(solution, checks))
+
+
+def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Solution:
+    """The solution by the flow rule, the contact model and the solver that its deck asks for."""
+    analysis, settings = deck.analysis, solver_settings(deck.analysis)
+    asked = {settings.gap} if analysis.flow_rule == "associative" else {settings.residual, settings.gap}
+    return replace(
+        solution,
+        flow_rule=analysis.flow_rule,
+        contact_model=analysis.contact_model,
+        stress_blocks=stress_blocks,
+        solver=settings.solver,
+        sides=0 if solution.outer is None else analysis.sides,
+        tolerance_requested=solution.tolerance_requested
+        if solution.tolerance_requested is None or solution.tolerance_requested in asked
+        else settings.residual,
+    )
+
+
+def _unproved(case: CaseResult) -> list[str]:
+    """Claims of a case that do not follow from what they must follow from."""
+    found, solution, checks = [], case.solution, case.checks
+    associative, standing = solution.associative, solution.standing
+    if associative is not None:
+        least, most = checks.static_bound, checks.kinematic_bound
+        room = SOLVED_RESIDUAL * max(abs(most), abs(least))
+        if associative.load_factor < least - room or associative.load_factor > most + room:
+            found.append(
+                f"the associative load factor {associative.load_factor:.8g} is not between its bounds {least:.8g} "
+                f"and {most:.8g}"
+            )
+    if locked_in(case) and case.status in (*WITH_VALUE, Status.UNBOUNDED):
+        found.append(f"it cannot be {case.status} and stand only by self-stress, or not at all")
+    if standing is not None and standing.verdict is Standing.YES and standing.block is not None:
+        found.append("it cannot stand and have a block that falls")
+    return found
+
+
+def _left_out(case: CaseResult, deck: Deck) -> list[str]:
+    """What the deck asks for and the file neither has nor explains."""
+    solution, knobs = case.solution, knobs_of(deck.analysis)
+    claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
+    missing = ["standing"] if knobs.standing and claims and solution.standing is None else []
+    if solution.mechanics is None or solution.conditions_on_interfaces:
+        return [_lacks(what) for what in missing]
+    explained = any(remark.identifier in ("range-not-computed", "range-not-found") for remark in solution.remarks)
+    if knobs.range and not explained and not _by_normality(solution):
+        missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
+    if deck.analysis.force_ranges and solution.force_ranges is None:
+        missing.append("ranges of normal forces")
+    return [_lacks(what) for what in missing]
+
+
+def _by_normality(solution: Solution) -> bool:
+    """Whether the forces are those of associative flow: by that rule, or for want of joints that could flow."""
+    own, associative = solution.mechanics, solution.associative
+    return own is not None and associative is not None and np.array_equal(own.mechanism, associative.mechanism)
+
+
+def _lacks(what: str) -> str:
+    return f"the deck asks for the {what}, which the file does not have"
+
+
+SAME, SAME_OF_LARGEST = 1e-9, 1e-12
+"""Differences of entries, relative to them and to the largest of their kind, that are rounding of another machine."""
+
+UNEXPECTED = "not-as-expected"
+"""identifier of notices that a run has only where it was asked to compare with what its deck expects"""
+
+
+def rebuilt(results: Results) -> tuple[Deck | None, tuple[str, ...]]:
+    """The deck in a file, None where it cannot be built, and where the file is not what follows from it, in words."""
+    record = results.deck
+    differences = []
+    if sha256_of([*(text for _, text in record.sources), *record.overrides]) != record.sha256:
+        differences.append("the hash of the deck is not that of its text")
+    if record.sources[0][0] != record.name:
+        differences.append("the deck does not have the name of its text")
+    deck, of_model = _read_again(results, expected=True)
+    if of_model:  # a study leaves expectations out, and what only they use is told as not used
+        without, others = _read_again(results, expected=False)
+        deck, of_model = (without, others) if deck is None or not others else (deck, of_model)
+    return deck, (*differences, *of_model)
+
+
+def _read_again(results: Results, *, expected: bool) -> tuple[Deck | None, list[str]]:
+    """The deck with or without its expectations, None where it is not valid, and what of its model differs."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        try:
+            deck = deck_of(results.deck, folder, expected=expected)
+            return deck, _differences(results, _content(deck, results, folder))
+        except (DeckError, FileError) as error:
+            why = error.faults[0] if isinstance(error, DeckError) else error
+            return None, [f"the deck in the file is not valid: {str(why).replace(f'{folder}/', '')}"]
+
+
+def _content(deck: Deck, results: Results, folder: Path) -> Content:
+    """The content of a file of the deck's model, without what only solving finds."""
+    model = build_model(deck)
+    contacts = contacts_of(deck, model)
+    model = _with_loads_found(held_model(model, contacts), results.model)
+    built = replace(
+        results,
+        model=model,
+        contacts=contacts,
+        notices=notices_of(deck, model, contacts),
+        settings=settings_in_words(deck, solver_settings(deck.analysis)) | _threads(results),
+    )
+    if deck.content.expected and any(notice.identifier == UNEXPECTED for notice in results.notices):
+        built = as_expected(built, deck)
+    stopped = () if results.complete else results.notices[-1:]  # what stopped a run is not the deck's to say
+    notices = _placed_as(results.notices, (*built.notices, *stopped), folder)
+    return content_of(replace(built, cases=(), notices=notices, exit_code=results.exit_code))
+
+
+def _threads(results: Results) -> dict[str, str]:
+    """Of a run, beside its settings: no deck says them."""
+    return {name: words for name, words in results.settings.items() if name == "threads"}
+
+
+def _placed_as(told: Sequence[Notice], notices: Sequence[Notice], folder: Path) -> tuple[Notice, ...]:
+    """Notices that begin with a place in the deck, with the folder that the file has there."""
+    placed = list(notices)
+    for row, (notice, own) in enumerate(zip(notices, told, strict=False)):
+        place = notice.message.removeprefix(f"{folder}/")
+        if place != notice.message:
+            placed[row] = replace(notice, message=own.message if own.message.endswith(place) else place)
+    return tuple(placed)
+
+
+def _with_loads_found(model: Model, of_file: Model) -> Model:
+    """The model with what is found of its loads by solving, as the file has it: no deck says it.
+
+    That is the reaction from which a support gives way, and the angle of a tilting table.
+    """
+    known = {case.name: case for case in of_file.load_cases}
+    cases = tuple(_found(case, known[case.name]) if case.name in known else case for case in model.load_cases)
+    return replace(model, load_cases=cases)
+
+
+def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:
+    if case.settlement is not None and of_file.settlement is not None:
+        return with_reference(case, of_file.settlement.reference)
+    tilt, known = case.tilt, of_file.tilt
+    if tilt is None or known is None:
+        return case
+    tilt = replace(tilt, angle=known.angle, tangent=known.tangent, upright=known.upright)
+    if known.tangent or of_file.live_load.shape != tilt.across.shape:
+        return replace(case, tilt=tilt)
+    return replace(case, tilt=tilt, live_load=chord(tilt, _angle(tilt, of_file.live_load)))
+
+
+def _angle(tilt: Tilt, live_load: FloatArray) -> float:
+    """Angle in radians to which a live load leads from the level table, whether it is that of collapse or not."""
+    size = max(float(np.abs(tilt.across).max(initial=0.0)), np.finfo(np.float64).tiny)
+    columns = np.column_stack([tilt.across.ravel(), -tilt.turning.ravel()]) / size
+    (across, lowered), *_ = np.linalg.lstsq(columns, live_load.ravel() / size)
+    return float(np.arctan2(across, 1.0 - lowered))
+
+
+def _differences(results: Results, built: Content) -> list[str]:
+    found = content_of(replace(results, cases=()))
+    return [
+        f"{path} is not what the deck in the file gives"
+        for path in sorted(found.keys() | built.keys())
+        if not (path in found and path in built and same(found[path], built[path]))
+    ]
+
+
+def same(one: Value, other: Value) -> bool:
+    """Whether two entries are equal but for rounding."""
+    first, second = np.asarray(one), np.asarray(other)
+    if first.shape != second.shape:
+        return False
+    if first.dtype.kind != "f":
+        return bool(np.array_equal(first, second))
+    size = float(np.abs(second[np.isfinite(second)]).max(initial=0.0))
+    return bool(np.allclose(first, second, rtol=SAME, atol=SAME_OF_LARGEST * size, equal_nan=True))
