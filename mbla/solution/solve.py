@@ -90,14 +90,7 @@ def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = No
 
     log : called once per iteration of a cone program, as it goes
     """
-    started = time.perf_counter()
-    iterations: list[IterationRecord] = []
-
-    def record(iteration: IterationRecord) -> None:
-        iterations.append(iteration)
-        if log is not None:
-            log(iteration)
-
+    started, (iterations, record) = time.perf_counter(), recorded(log)
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
     results = [_result_of(program, settings, record) for program in reduced.parts]
     solution = _combined(stage, results)
@@ -116,6 +109,18 @@ def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = No
         reductions=reduced.steps,
         solver=settings.solver,
     )
+
+
+def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
+    """A list of the iterations to come, and the log that fills it beside the one given."""
+    iterations: list[IterationRecord] = []
+
+    def record(iteration: IterationRecord) -> None:
+        iterations.append(iteration)
+        if log is not None:
+            log(iteration)
+
+    return iterations, record
 
 
 def _result_of(program: Program, settings: SolverSettings, log: Log) -> PartResult:

@@ -1,4 +1,4 @@
-"""Shapes of interfaces as the convex contact model needs them: hull, rectangle or not, torsional radius."""
+"""Shapes of interfaces as the convex contact model needs them: hull, rectangle or not, torsional radius, triangles."""
 
 from __future__ import annotations
 
@@ -165,3 +165,74 @@ def _fit(points: FloatArray, start: IntArray, chosen: BoolArray, radii: FloatArr
         rows = np.flatnonzero(chosen & (counts == count))
         loops = points[items_of_rows(start, rows)].reshape(len(rows), int(count), 2)
         radii[rows], thetas[rows] = fitted_curves(loops)
+
+
+@dataclass(frozen=True)
+class Fan:
+    """Outlines in triangles: interface of each, its corners (n_triangles, 3), its share of the area."""
+
+    interface: IntArray
+    corners: IntArray
+    share: FloatArray
+
+    @classmethod
+    def of(cls, shapes: InterfaceShapes) -> Fan:
+        """Fans from the first corner of each outline."""
+        counts = np.diff(shapes.start)
+        interface = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
+        first = shapes.start[interface]
+        place = np.arange(len(interface)) - np.concatenate([[0], np.cumsum(np.maximum(counts - 2, 0))])[interface]
+        corners = np.stack([first, first + place + 1, first + place + 2], axis=1)
+        x = shapes.corners[corners]
+        one, two = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
+        area = 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+        return cls(interface, corners, area / np.bincount(interface, area, len(counts))[interface])
+
+    @classmethod
+    def of_some(cls, shapes: InterfaceShapes, rows: IntArray) -> Fan:
+        """Those of the interfaces ``rows``, (n,), which are numbered in that order."""
+        fan, place = cls.of(shapes), np.full(len(shapes.convex), -1)
+        place[rows] = np.arange(len(rows))
+        chosen = place[fan.interface] >= 0
+        return cls(place[fan.interface[chosen]], fan.corners[chosen], fan.share[chosen])
+
+
+def second_moments(shapes: InterfaceShapes, rows: IntArray) -> FloatArray:
+    """Second moments of area of interfaces about their centroids, over the area, (n, 2, 2) [m²]."""
+    fan = Fan.of_some(shapes, rows)
+    x = shapes.corners[fan.corners]
+    total = x.sum(axis=1)
+    second = np.einsum("tci,tcj->tij", x, x) + total[:, :, None] * total[:, None, :]
+    moments = np.zeros((len(rows), 2, 2))
+    np.add.at(moments, fan.interface, fan.share[:, None, None] * second / 12.0)
+    return moments
+
+
+def mean_positive(values: FloatArray) -> FloatArray:
+    """Mean over a triangle of the positive part of a linear function with given values at the corners, (..., 3)."""
+    return np.asarray((corner_weights(values) * values).sum(axis=-1))
+
+
+def positive_share(values: FloatArray) -> FloatArray:
+    """Share of a triangle where a linear function is positive."""
+    return np.asarray(corner_weights(values).sum(axis=-1))
+
+
+def corner_weights(values: FloatArray) -> FloatArray:
+    """Mean over a triangle of the barycentric coordinates where a linear function is positive, (..., 3).
+
+    Where only corner i is positive the part is the triangle that ends at shares t_j = v_i/(v_i − v_j) of its edges,
+    with the area Π t_j and the coordinates t_j/3 of the other corners in its centroid; where only i is negative it is
+    what that part leaves.
+    """
+    alone = np.where((values > 0).sum(axis=-1, keepdims=True) == 1, values > 0, values <= 0)
+    single = alone & (alone.sum(axis=-1, keepdims=True) == 1)
+    apex = np.where(single, values, 0.0).sum(axis=-1, keepdims=True)
+    span = np.where(single, 1.0, apex - values)
+    t = np.where(single, 1.0, np.divide(apex, span, out=np.ones_like(values), where=span != 0.0))
+    size = t.prod(axis=-1, keepdims=True)
+    others = np.where(single, 0.0, t / 3.0)
+    part = size * np.where(single, 1.0 - others.sum(axis=-1, keepdims=True), others)
+    has_single = single.any(axis=-1, keepdims=True)
+    whole = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
+    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), whole * np.ones_like(values)))

@@ -152,7 +152,7 @@ def _with_dead_load(
         if says_it_falls(run, reverse):
             return _undecided(run, reverse)
         if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
-            reason = "whether the dead load alone is carried could not be decided: " + _words_of(reverse)
+            reason = "whether the dead load alone is carried could not be decided: " + reverse.shortfall
             return _without_state(run, reverse.status, reason)
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
         return _locked_both_ways(run, settings)
@@ -242,18 +242,9 @@ def _no_equilibrium(run: AssociativeRun, certificate: FloatArray) -> Associative
 def _undecided(run: AssociativeRun, solution: ConeSolution) -> AssociativeResult:
     """No settings gave an answer; a lack of equilibrium that could not be proved is none."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
-        return _without_state(run, solution.status, _words_of(solution))
+        return _without_state(run, solution.status, solution.shortfall)
     reason = (
         "whether there is equilibrium could not be decided: the structure is within rounding of falling under its "
         f"dead load, or too ill-conditioned ({solution.verdict})"
     )
     return _without_state(run, Status.NOT_VERIFIED, reason)
-
-
-def _words_of(solution: ConeSolution) -> str:
-    return {
-        Status.APPROXIMATE: "the solver ended short of its tolerance",
-        Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
-        Status.TIME_LIMIT: "the time limit was reached",
-        Status.NUMERICAL_ERROR: "the solver broke down numerically",
-    }.get(solution.status, str(solution.status)) + f" ({solution.verdict})"

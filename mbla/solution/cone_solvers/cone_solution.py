@@ -41,6 +41,16 @@ class ConeSolution:
         """The library's own word for the outcome, ``clarabel: Solved``."""
         return f"{self.solver}: {self.solver_status}"
 
+    @property
+    def shortfall(self) -> str:
+        """Why it is not solved, in words."""
+        return {
+            Status.APPROXIMATE: "the solver ended short of its tolerance",
+            Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
+            Status.TIME_LIMIT: "the time limit was reached",
+            Status.NUMERICAL_ERROR: "the solver broke down numerically",
+        }.get(self.status, str(self.status)) + f" ({self.verdict})"
+
     def record(self, number: int, kind: str, load_factor: float, change: float = np.nan) -> ProgramRecord:
         """The solution as one program of a sequence."""
         outcome = (self.status, load_factor, change, self.iterations, self.seconds)

@@ -41,7 +41,14 @@ def gravity_forces(
         seconds = time.perf_counter() - started
         records.append(ProgramRecord(number, "gravity", Status.SOLVED, np.nan, np.nan, 0, seconds))
         return stress_free
-    form = gravity_form(program)
+    return least_forces(program, settings, log, records)
+
+
+def least_forces(
+    program: Program, settings: SolverSettings, log: Log, records: list[ProgramRecord]
+) -> FloatArray | ConeSolution:
+    """The least forces that carry the dead load, (n_points, components), or the solver's verdict; a line of records."""
+    form, number = gravity_form(program), len(records) + 1
     solution = interior_point_solver(form.cone_program, settings, log).solve(number, 0.0)
     records.append(solution.record(number, "gravity", np.nan))
     return form.forces(solution.x) if solution.status in (Status.SOLVED, Status.APPROXIMATE) else solution

@@ -27,6 +27,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
+from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.linear_algebra.stiffness import Stiffness
 
 BACKTRACKS = 8
@@ -125,8 +126,11 @@ def joint_state(
     stiffness: Stiffness, slope: FloatArray, anchor: FloatArray, rho: float, velocities: FloatArray
 ) -> JointState:
     """Return map of every joint."""
-    limits = stiffness.program.limits
-    trial = anchor - stiffness.velocities(velocities) / rho
+    return return_map(stiffness.program.limits, slope, anchor - stiffness.velocities(velocities) / rho)
+
+
+def return_map(limits: YieldLimits, slope: FloatArray, trial: FloatArray) -> JointState:
+    """Where joints go to from a and τ, (n_points, components)."""
     size = np.linalg.norm(trial[:, 1:], axis=1)
     direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
     normal = np.clip(trial[:, 0], -limits.tension, limits.compression)

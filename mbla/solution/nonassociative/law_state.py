@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +12,19 @@ from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.solution import PathPoint, ProgramRecord, Status
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NEAR_ZERO = 1e-5
 """Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
 share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
+
+
+SPREAD_STEPS = 10
+"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
+
+AS_ASKED = Message(
+    "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
+)
 
 
 @dataclass(frozen=True)
@@ -24,12 +34,14 @@ class LawState:
     forces     : (n_points, components)
     velocities : (n_rows,)
     residual   : largest of the relative residuals, see ``law_state``
+    motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing, where there are conditions on them
     """
 
     forces: FloatArray
     velocities: FloatArray
     load_factor: float
     residual: float
+    motions: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -50,6 +62,31 @@ class SequenceResult:
     remarks: tuple[Message, ...] = ()
     path: tuple[PathPoint, ...] = ()
     tolerance_requested: float | None = None
+
+
+def as_asked(state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
+    """A rough state with which a scheme ends, for its residual is within the one that was asked for."""
+    words = AS_ASKED.format(residual, wanted)
+    if residual <= SOLVED_RESIDUAL:
+        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,))
+    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
+
+
+def spread_of(best: LawState, states: Sequence[LawState]) -> tuple[float, float]:
+    """Least and greatest load factor of the best state and of the last ones that fit the law as it does."""
+    fits = max(SOLVED_RESIDUAL, best.residual)
+    factors = [state.load_factor for state in (best, *states[-SPREAD_STEPS:]) if state.residual <= fits]
+    return min(factors), max(factors)
+
+
+def not_at_rest(
+    best: LawState, words: Message, programs: tuple[ProgramRecord, ...], spread: tuple[float, float]
+) -> SequenceResult:
+    """The best state of steps that did not come to rest, judged by its residual; ``words`` say so."""
+    if best.residual <= SOLVED_RESIDUAL:
+        return SequenceResult(Status.SOLVED, best, "", programs, spread, (words,))
+    status = Status.APPROXIMATE if best.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED
+    return SequenceResult(status, best, words, programs, spread)
 
 
 def law_state(

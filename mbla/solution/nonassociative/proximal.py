@@ -35,7 +35,16 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.nonassociative.gravity import gravity_forces
-from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult, law_state, residual_with_closing
+from mbla.solution.nonassociative.law_state import (
+    NEAR_ZERO,
+    LawState,
+    SequenceResult,
+    as_asked,
+    law_state,
+    not_at_rest,
+    residual_with_closing,
+    spread_of,
+)
 from mbla.solution.nonassociative.law_steps import (
     Step,
     Stepper,
@@ -83,10 +92,6 @@ WARNED = SOLVED_RESIDUAL
 APPROXIMATE = APPROXIMATE_RESIDUAL
 """Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
 
-AS_ASKED = Message(
-    "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
-)
-
 BELOW_PEAK = 1e-2
 """Share by which the load factor may lie below one that the steps passed through before that is remarked on."""
 
@@ -96,10 +101,6 @@ PATIENCE, PROGRESS, MOVES = 20, 0.5, 1e-3
 MOST_WORK = 600
 """Factorisations within which an exact step must bring the residual to the share ``PROGRESS`` of the lowest so far; as
 many as an interior path takes. On a cross vault of 184 blocks 900 more had brought nothing."""
-
-SPREAD_STEPS = 10
-"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
-
 
 NO_FORCE = 1e-15
 """Forces below this, in mean loads of a block, are none, but rounding: the unit of the program takes their place."""
@@ -264,11 +265,7 @@ def rough_result(
     """A state with which a scheme may end, by ``wanted`` above ``SOLVED``, judged by its residual in verification."""
     if state.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, state, "", records)
-    seen = residual_with_closing(program, slope, state)
-    words = AS_ASKED.format(seen, wanted)
-    if seen <= WARNED:
-        return SequenceResult(Status.SOLVED, state, "", records, remarks=(words,))
-    return SequenceResult(Status.APPROXIMATE, state, words, records, tolerance_requested=wanted)
+    return as_asked(state, residual_with_closing(program, slope, state), wanted, records)
 
 
 def _stands_still(states: list[LawState]) -> bool:
@@ -299,17 +296,12 @@ def finished(run: ProximalRun, cause: str) -> SequenceResult:
         remarks.append(Message("below-passed-load", passed))
     if best.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, best, "", tuple(run.records), remarks=tuple(remarks))
-    fits = max(WARNED, best.residual)
-    factors = [state.load_factor for state in (best, *run.states[-SPREAD_STEPS:]) if state.residual <= fits]
-    spread, wanted, slope = (min(factors), max(factors)), run.stepper.settings.residual, run.stepper.slope
+    spread, wanted, slope = spread_of(best, run.states), run.stepper.settings.residual, run.stepper.slope
     if is_rough_enough(run.program, slope, best, wanted):
         rough = rough_result(run.program, slope, best, wanted, tuple(run.records))
         return replace(rough, spread=spread, remarks=(*remarks, *rough.remarks))
-    if best.residual <= WARNED:
-        remarks.append(words)
-        return SequenceResult(Status.SOLVED, best, "", tuple(run.records), spread, tuple(remarks))
-    status = Status.APPROXIMATE if best.residual <= APPROXIMATE else Status.NOT_VERIFIED
-    return SequenceResult(status, best, words, tuple(run.records), spread, tuple(remarks))
+    result = not_at_rest(best, words, tuple(run.records), spread)
+    return replace(result, remarks=(*remarks, *result.remarks))
 
 
 def _keep(run: ProximalRun, kind: str, step: Step, seconds: float) -> LawState:

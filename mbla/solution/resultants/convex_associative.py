@@ -20,8 +20,8 @@ from mbla.program.resultants.assemble import near_crushing
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.resultants.convex_repair import repaired_convex_forces
-from mbla.solution.resultants.convex_state import ConvexState
 from mbla.solution.resultants.convex_units import (
     HEAVY,
     in_units,
@@ -73,7 +73,7 @@ class ConvexAssociative:
     status: Status
     reason: str
     programs: tuple[ProgramRecord, ...]
-    state: ConvexState | None = None
+    state: LawState | None = None
     velocities: FloatArray | None = None
     motions: FloatArray | None = None
     lock: FloatArray | None = None
@@ -161,7 +161,7 @@ def _crushing_too(convex: ConvexProgram, result: ConvexAssociative, crushing: Bo
     return near_crushing(convex, result.state.forces) if np.any(beyond & ~crushing) else crushing
 
 
-def _repaired(convex: ConvexProgram, state: ConvexState) -> ConvexState:
+def _repaired(convex: ConvexProgram, state: LawState) -> LawState:
     """The state with the forces that its static bound will be proved with, and the load factor that these carry.
 
     The solver's own miss equilibrium and conditions by its tolerance, and its load factor may lie above both bounds.
@@ -176,10 +176,10 @@ def _attempt(run: _Run) -> ConvexAssociative:
     """The program and, with the live load reversed, whether the dead load is carried."""
     form, forward = _forward(run)
     if forward.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        return _without_value(run, form, forward, 1.0, _words(forward))
+        return _without_value(run, form, forward, 1.0, forward.shortfall)
     back, reverse = _solved(run, -1.0)
     if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        words = f"whether the dead load alone is carried is not known: {_words(reverse)}"
+        words = f"whether the dead load alone is carried is not known: {reverse.shortfall}"
         return _without_value(run, back, reverse, -1.0, words)
     for found, solution, sense in ((form, forward, 1.0), (back, reverse, -1.0)):
         if solution.status in WITH_VALUE and _negative(run.program(sense), solution.objective):
@@ -187,9 +187,9 @@ def _attempt(run: _Run) -> ConvexAssociative:
     if forward.status is Status.UNBOUNDED:
         return _unbounded(run, form, forward)
     doubtful = reverse.status is Status.APPROXIMATE and _near_zero(run.convex, reverse.objective)
-    status, reason = (Status.APPROXIMATE, _words(reverse)) if doubtful else (Status.SOLVED, "")
+    status, reason = (Status.APPROXIMATE, reverse.shortfall) if doubtful else (Status.SOLVED, "")
     velocities = form.velocities(forward.x)
-    state = ConvexState(
+    state = LawState(
         forces=form.contact_forces(forward.z) * run.unit,
         velocities=velocities[: run.convex.n_block_rows],
         motions=run.program(1.0).flows(velocities),
@@ -279,12 +279,3 @@ def _unbounded(run: _Run, form: KinematicForm, solution: ConeSolution) -> Convex
 def _homogeneous(form: KinematicForm) -> KinematicForm:
     """The form that reads rays: tension, from which normal forces are counted, has no part in them."""
     return replace(form, limits=replace(form.limits, tension=np.zeros_like(form.limits.tension)))
-
-
-def _words(solution: ConeSolution) -> str:
-    return {
-        Status.APPROXIMATE: "the solver ended short of its tolerance",
-        Status.ITERATION_LIMIT: "the solver reached its limit of iterations",
-        Status.TIME_LIMIT: "the time limit was reached",
-        Status.NUMERICAL_ERROR: "the solver broke down numerically",
-    }.get(solution.status, str(solution.status)) + f" ({solution.verdict})"

@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram
 from mbla.program.resultants.conditions import RESULTANTS
@@ -31,7 +31,7 @@ from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import friction_limit, nearest
 from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
-from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION
+from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION, joint_tangents, return_map
 from mbla.solution.resultants.convex_state import with_motions
 from mbla.solution.resultants.stress_fields import StressFields, nearest_stress
 
@@ -180,7 +180,8 @@ class _Trial:
     ) -> _Trial:
         program, convex = law.program, law.convex
         n_blocks, limits = convex.n_block_rows, convex.torsion
-        points = _Points.at(program, anchor, rho, u)
+        dry = np.zeros(program.n_points)
+        points = return_map(program.limits, dry, anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho)
         forces = points.forces
         size = friction_limit(limits, convex.resultants_of(forces))
         eta, omega = law.split(u[n_blocks:])
@@ -195,7 +196,7 @@ class _Trial:
         return cls(
             forces=forces,
             residual=np.append(balance, program.live_load @ u - 1.0),
-            tangent=points.tangent(program.limits.friction, rho),
+            tangent=block_diagonal(joint_tangents(program, dry, rho, points)),
             by_own=block_diagonal(np.concatenate([found.by_point, follows]) / rho),
             by_forces=sp.csr_array(by_sizes @ convex.resultants),
             closing=closing,
@@ -219,40 +220,6 @@ class _Trial:
             return None
         step = solve(-self.residual)
         return step if np.isfinite(step).all() else None
-
-
-@dataclass(frozen=True)
-class _Points:
-    """Return map of the points without dilatancy: forces, direction and size of the trial shear, the branch."""
-
-    forces: FloatArray
-    direction: FloatArray
-    share: FloatArray
-    slips: BoolArray
-    in_contact: BoolArray
-
-    @classmethod
-    def at(cls, program: Program, anchor: FloatArray, rho: float, u: FloatArray) -> _Points:
-        limits = program.limits
-        trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho
-        normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
-        limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-        size = np.hypot(trial[:, 1], trial[:, 2])
-        slips = size > limit
-        share = np.divide(limit, size, out=np.ones_like(size), where=slips)
-        direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
-        forces = np.column_stack([normal, trial[:, 1:] * share[:, None]])
-        return cls(forces, direction, share, slips, normal == trial[:, 0])
-
-    def tangent(self, friction: FloatArray, rho: float) -> sp.csr_array:
-        """C with dx = −C dv, block-diagonal."""
-        theta, tangents = self.direction, np.zeros((len(friction), 3, 3))
-        tangents[:, 0, 0] = self.in_contact
-        across = np.eye(2) - self.slips[:, None, None] * theta[:, :, None] * theta[:, None, :]
-        tangents[:, 1:, 1:] = self.share[:, None, None] * across
-        follows = self.slips & self.in_contact
-        tangents[follows, 1:, 0] = friction[follows, None] * theta[follows]
-        return block_diagonal(tangents / rho)
 
 
 def _columns(vectors: FloatArray, n: int) -> sp.csr_array:

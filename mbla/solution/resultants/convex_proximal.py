@@ -19,14 +19,15 @@ from mbla.errors import Message
 from mbla.program.resultants import ConvexProgram
 from mbla.program.resultants.friction_limit import friction_limit
 from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
-from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.proximal import AS_ASKED
+from mbla.solution.nonassociative.gravity import least_forces
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult, as_asked, not_at_rest, spread_of
 from mbla.solution.resultants.convex_law import ConvexLaw, convex_law, exact_convex_step
-from mbla.solution.resultants.convex_state import ConvexState, state_without_dilatancy
+from mbla.solution.resultants.convex_state import state_without_dilatancy
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.thresholds import EXACT_RESIDUAL
 
 STEP = 0.01
 """ε: size of a proximal step relative to the gravity state."""
@@ -56,34 +57,12 @@ LONGER, EASY, SHORTER = 3.0, 4, 10.0
 found. Near their end steps of one length creep: on a wall of 33 blocks with a strength of 5 MPa the residual fell by
 8 % a step."""
 
-SOLVED, WARNED, APPROXIMATE = 1e-6, 1e-4, 1e-2
-"""Residuals up to which a state that did not come to rest is solved, solved with a warning, approximate."""
-
 QUIET = 1e-8
 """Tolerance of the proximal programs: velocities are divided by ρ."""
 
 PATIENCE = 15
 """Proximal steps in which the least residual must fall to half of what it was, or the sequence is given up: walls of
 ten courses creep between 1e-3 and 1e-2 for as many steps as they are given."""
-
-SPREAD_STEPS = 10
-"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
-
-
-@dataclass(frozen=True)
-class ConvexSequence:
-    """Best state of a sequence; spread of load factors non-dimensional; with remarks.
-
-    tolerance_requested : approximate: the residual at which it was told to stop, and did
-    """
-
-    status: Status
-    state: ConvexState | None
-    reason: str
-    programs: tuple[ProgramRecord, ...]
-    spread: tuple[float, float] | None = None
-    remarks: tuple[Message, ...] = ()
-    tolerance_requested: float | None = None
 
 
 @dataclass
@@ -94,7 +73,7 @@ class _Run:
     settings: SolverSettings
     log: Log
     records: list[ProgramRecord]
-    states: list[ConvexState] = field(default_factory=list)
+    states: list[LawState] = field(default_factory=list)
     of_steps: list[float] = field(default_factory=list)
 
     def add(self, kind: str, solution: ConeSolution, factor: float) -> None:
@@ -121,15 +100,15 @@ def solve_convex_proximal(
     settings: SolverSettings,
     log: Log,
     unit: float = 1.0,
-) -> ConvexSequence:
+) -> SequenceResult:
     """Run the scheme; ``records`` are those of the programs before it.
 
     unit : of force, in that of the program, in which states are given; of the loads at collapse if it is not 1
     """
     run = _Run(convex, replace(settings, tolerance=min(settings.tolerance, QUIET)), log, list(records))
-    gravity = _gravity_state(run)
-    if isinstance(gravity, ConvexSequence):
-        return gravity
+    gravity = least_forces(convex.points, run.settings, log, run.records)
+    if isinstance(gravity, ConeSolution):
+        return _broken_off(run, gravity, len(run.records))
     run.convex = convex = convex.in_unit_of_force(unit)
     anchor, least = gravity / unit, 1e-300 if unit == 1.0 else 1.0
     rho = STEP / max(float((anchor**2).sum()), least)
@@ -140,7 +119,7 @@ def solve_convex_proximal(
         solver.update(cost=cost, rhs=rhs)
         solution = solver.solve(len(run.records) + 1, -convex.points.scaling.live)
         if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
-            return _broken_off(run, solution)
+            return _broken_off(run, solution, len(run.records) + 1)
         state = _state_of(form, solution)
         run.states.append(state)
         run.of_steps.append(state.residual)
@@ -163,17 +142,7 @@ def _data(form: ConvexStaticForm, rho: float, anchor: FloatArray) -> tuple[Float
     return convex_proximal_data(form, rho, anchor, limit, size.share, np.maximum(size.total - size.share, 0.0))
 
 
-def _gravity_state(run: _Run) -> FloatArray | ConvexSequence:
-    """Forces of the gravity state, (n_points, 3), or how the scheme ends where there is none."""
-    form = gravity_form(run.convex.points)
-    solution = interior_point_solver(form.cone_program, run.settings, run.log).solve(len(run.records) + 1, 0.0)
-    run.add("gravity", solution, np.nan)
-    if solution.status in (Status.SOLVED, Status.APPROXIMATE):
-        return form.forces(solution.x)
-    return _broken_off(run, solution)
-
-
-def _state_of(form: ConvexStaticForm, solution: ConeSolution) -> ConvexState:
+def _state_of(form: ConvexStaticForm, solution: ConeSolution) -> LawState:
     """State of a proximal step; its velocities are those of unit live power."""
     x, z = solution.x, solution.z
     return state_without_dilatancy(
@@ -181,9 +150,10 @@ def _state_of(form: ConvexStaticForm, solution: ConeSolution) -> ConvexState:
     )
 
 
-def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: ConvexState) -> bool:
+def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: LawState) -> bool:
     """Steps of the exact law from the anchor of a proximal step; whether they came to rest."""
     started, count, least, found = time.perf_counter(), 0, 0.0, False
+    assert state.motions is not None
     u, factor = np.concatenate([state.velocities, law.own_of(state.motions)]), state.load_factor
     n_blocks, fits = run.convex.n_block_rows, False
     while count < MOST_WORK:
@@ -212,7 +182,7 @@ def _exact(run: _Run, law: ConvexLaw, anchor: FloatArray, rho: float, state: Con
 def _is_enough(run: _Run) -> bool:
     """Whether a rough state is asked for and here: residual and change of the load factor at most that."""
     wanted, states = run.settings.residual, run.states[-2:]
-    if wanted <= SOLVED or len(states) < 2 or states[-1].residual > wanted:
+    if wanted <= EXACT_RESIDUAL or len(states) < 2 or states[-1].residual > wanted:
         return False
     return abs(states[-1].load_factor - states[-2].load_factor) <= wanted * abs(states[-1].load_factor)
 
@@ -228,34 +198,21 @@ def _is_nearly_exact(run: _Run) -> bool:
     return min(state.residual for state in run.states) <= NEARLY_EXACT
 
 
-def _finished(run: _Run) -> ConvexSequence:
+def _finished(run: _Run) -> SequenceResult:
     best = min(run.states, key=lambda state: state.residual)
     records, wanted = tuple(run.records), run.settings.residual
-    if best.residual > SOLVED and _is_enough(run):
-        best = run.states[-1]
-        words = AS_ASKED.format(best.residual, wanted)
-        if best.residual <= WARNED:
-            return ConvexSequence(Status.SOLVED, best, "", records, remarks=(words,))
-        return ConvexSequence(Status.APPROXIMATE, best, words, records, tolerance_requested=wanted)
-    if best.residual <= SOLVED:
-        return ConvexSequence(Status.SOLVED, best, "", records)
-    words = Message(
-        "law-missed",
-        f"did not converge in {len(run.of_steps)} iterations: residual of the joint law {best.residual:.2g}",
-    )
-    fits = max(WARNED, best.residual)
-    factors = [state.load_factor for state in (best, *run.states[-SPREAD_STEPS:]) if state.residual <= fits]
-    spread = (min(factors), max(factors))
-    if best.residual <= WARNED:
-        return ConvexSequence(Status.SOLVED, best, "", records, spread, (words,))
-    status = Status.APPROXIMATE if best.residual <= APPROXIMATE else Status.NOT_VERIFIED
-    return ConvexSequence(status, best, words, records, spread)
+    if best.residual > EXACT_RESIDUAL and _is_enough(run):
+        return as_asked(run.states[-1], run.states[-1].residual, wanted, records)
+    if best.residual <= EXACT_RESIDUAL:
+        return SequenceResult(Status.SOLVED, best, "", records)
+    words = f"did not converge in {len(run.of_steps)} iterations: residual of the joint law {best.residual:.2g}"
+    return not_at_rest(best, Message("law-missed", words), records, spread_of(best, run.states))
 
 
-def _broken_off(run: _Run, solution: ConeSolution) -> ConvexSequence:
+def _broken_off(run: _Run, solution: ConeSolution, number: int) -> SequenceResult:
     status = solution.status
     if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a program of the scheme, not of the structure
         status = Status.NOT_VERIFIED
-    reason = f"program {len(run.records) + 1} of the sequence ended without a solution ({solution.verdict})"
+    reason = f"program {number} of the sequence ended without a solution ({solution.verdict})"
     best = min(run.states, key=lambda state: state.residual, default=None)
-    return ConvexSequence(status, best, reason, tuple(run.records))
+    return SequenceResult(status, best, reason, tuple(run.records))

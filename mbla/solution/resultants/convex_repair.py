@@ -13,7 +13,6 @@ The helping unknowns of the conditions are chosen well inside their ranges, wher
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -30,6 +29,7 @@ from mbla.program.resultants.torsion import TorsionLimits
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
+from mbla.solution.resultants.convex_state import with_motions
 from mbla.solution.resultants.convex_units import in_units, unit_at_collapse, units_of_unknowns
 from mbla.solution.resultants.least_step import Equilibrium, StepOf, augmented_step, normal_step
 
@@ -105,14 +105,8 @@ def repaired_convex_motions(
     size = np.abs(motions).max(axis=2, keepdims=True)
     for threshold in THRESHOLDS:
         kept = np.where(size > threshold * speed, motions, 0.0)
-        by_interface = convex.resultants.T @ kept.sum(axis=1).ravel()
-        with_motions = replace(
-            program,
-            equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -by_interface[None, :]])),
-            dead_load=np.append(program.dead_load, 0.0),
-            live_load=np.append(program.live_load, 0.0),
-        )
-        moved = list(repaired_mechanisms(with_motions, np.append(velocities, 1.0)))
+        together = sp.csr_array((convex.resultants.T @ kept.sum(axis=1).ravel())[None, :])
+        moved = list(repaired_mechanisms(with_motions(program, together), np.append(velocities, 1.0)))
         found += [(u[:-1], float(u[-1]) * kept) for u in moved]
     return found
 

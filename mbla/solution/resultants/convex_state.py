@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -10,39 +10,12 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram
+from mbla.program.resultants.conditions import RESULTANTS
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import curve_size, curve_support, friction_limit
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_power
-
-
-@dataclass(frozen=True)
-class ConvexState:
-    """A state, non-dimensional.
-
-    forces     : (n_points, 3)
-    velocities : (n_block_rows,)
-    motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing
-    residual   : how badly it fits the law
-    """
-
-    forces: FloatArray
-    velocities: FloatArray
-    motions: FloatArray
-    load_factor: float
-    residual: float
-
-
-def laws_of(convex: ConvexProgram) -> InterfaceLaws:
-    """Strengths of the interfaces in the program's units."""
-    n, torsion = convex.n_interfaces, convex.torsion
-    friction, cohesion, tension = np.zeros(n), np.zeros(n), np.zeros(n)
-    friction[torsion.interfaces], cohesion[torsion.interfaces] = torsion.friction, torsion.cohesion
-    strength = np.full(n, np.inf)
-    crushing = convex.crushing
-    strength[crushing.interfaces], tension[crushing.interfaces] = crushing.strength, crushing.tension
-    shear = (friction > 0) | (cohesion > 0)
-    return InterfaceLaws(convex.shapes, friction, cohesion, tension, strength, shear, np.isfinite(strength))
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.resultants.stress_fields import StressFields
 
 
 def with_motions(program: Program, motions: sp.csr_array) -> Program:
@@ -58,7 +31,7 @@ def with_motions(program: Program, motions: sp.csr_array) -> Program:
 
 def state_without_dilatancy(
     convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
-) -> ConvexState:
+) -> LawState:
     """A state with its residual, the largest of three.
 
     Excess over the conditions of points and interfaces, in mean block loads; closing velocity of points by their own
@@ -79,7 +52,10 @@ def state_without_dilatancy(
     of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
     beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
     twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
-    of_crushing = crushing_power(laws_of(convex), motions[:, 1])
+    rows, of_crushing = convex.crushing.interfaces, np.zeros(convex.n_interfaces)
+    fields = StressFields.of(convex.shapes, rows, convex.crushing.strength)
+    crushed = motions[rows[:, None], 1, RESULTANTS]
+    of_crushing[rows] = fields.power(-crushed / fields.scale) + convex.crushing.tension * crushed[:, 0]
 
     unexplained = at_points + float(np.abs(of_torsion + (r * motion).sum(axis=1)).sum())
     unexplained += float(np.abs(of_crushing + (resultants * motions[:, 1]).sum(axis=1)).sum())
@@ -87,7 +63,7 @@ def state_without_dilatancy(
     balance = max(abs(load_factor), dead_power, of_points + float(of_torsion.sum()), 1e-300)
     excess = [yield_violation(forces, program.limits), twisting, crushing_violation(convex.crushing, resultants)]
     worst = max(float(part.max(initial=0.0)) for part in excess)
-    return ConvexState(forces, velocities, motions, load_factor, max(worst, closing, unexplained / balance))
+    return LawState(forces, velocities, load_factor, max(worst, closing, unexplained / balance), motions)
 
 
 def _unexplained_at_points(limits: YieldLimits, forces: FloatArray, own: FloatArray) -> tuple[float, float]:

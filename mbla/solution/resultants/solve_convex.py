@@ -14,13 +14,13 @@ from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
-from mbla.solution.resultants.convex_proximal import ConvexSequence, solve_convex_proximal
-from mbla.solution.resultants.convex_state import ConvexState
+from mbla.solution.resultants.convex_proximal import solve_convex_proximal
 from mbla.solution.resultants.convex_units import unit_at_collapse
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ContactMode, IterationRecord, Mechanics, Solution, Standing, Status
-from mbla.solution.solve import ONLY_BY_SELF_STRESS
+from mbla.solution.solution import ContactMode, Mechanics, Solution, Standing, Status
+from mbla.solution.solve import ONLY_BY_SELF_STRESS, recorded
 from mbla.solution.standing.standing import assess_dead_load, standing_on_model, standing_without_equilibrium
 
 LOCKED = (
@@ -38,14 +38,7 @@ def solve_convex(convex: ConvexProgram, settings: SolverSettings, log: Log | Non
 
     log : called once per iteration of a cone program, as it goes
     """
-    started = time.perf_counter()
-    iterations: list[IterationRecord] = []
-
-    def record(iteration: IterationRecord) -> None:
-        iterations.append(iteration)
-        if log is not None:
-            log(iteration)
-
+    started, (iterations, record) = time.perf_counter(), recorded(log)
     solution = _solved(convex, settings, record)
     if settings.standing:
         solution = _with_standing(convex, solution, settings)
@@ -111,13 +104,14 @@ def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSe
     return replace(solution, standing=standing)
 
 
-def convex_mechanics(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> Mechanics:
+def convex_mechanics(convex: ConvexProgram, state: LawState, dilatancy: FloatArray) -> Mechanics:
     """Mechanics of the model from a state of the program.
 
     dilatancy : (n_points,) tangent of the dilatancy angle of the flow rule; a point is open where what torsion,
                 crushing and dilatancy leave of its motion opens it
     """
     program, scaling = convex.points, convex.points.scaling
+    assert state.motions is not None
     live_power = float(program.live_load @ state.velocities)
     velocities, motions = state.velocities / live_power, state.motions / live_power
     to_deck = scaling.live / scaling.force
@@ -137,7 +131,7 @@ def modes_of(convex: ConvexProgram, mechanics: Mechanics, dilatancy: FloatArray)
     """Modes of the contact points from forces and motions in the deck's units, as ``convex_mechanics`` has them."""
     program, scaling = convex.points, convex.points.scaling
     assert mechanics.interface_motions is not None
-    state = ConvexState(
+    state = LawState(
         forces=mechanics.contact_forces / scaling.force,
         velocities=program.velocities(mechanics.mechanism),
         motions=mechanics.interface_motions * (scaling.force / scaling.live),
@@ -147,7 +141,7 @@ def modes_of(convex: ConvexProgram, mechanics: Mechanics, dilatancy: FloatArray)
     return _modes(convex, state, dilatancy)
 
 
-def _mechanics(convex: ConvexProgram, state: ConvexState | None, dilatancy: FloatArray) -> Mechanics | None:
+def _mechanics(convex: ConvexProgram, state: LawState | None, dilatancy: FloatArray) -> Mechanics | None:
     return None if state is None else convex_mechanics(convex, state, dilatancy)
 
 
@@ -155,18 +149,19 @@ def _scaled(ends: tuple[float, float], factor: float) -> tuple[float, float]:
     return ends[0] * factor, ends[1] * factor
 
 
-def _status(associative: ConvexAssociative, sequence: ConvexSequence) -> Status:
+def _status(associative: ConvexAssociative, sequence: SequenceResult) -> Status:
     """Never better than that of an associative program with a load factor."""
     weak_start = associative.state is not None and sequence.status is Status.SOLVED
     return associative.status if weak_start else sequence.status
 
 
-def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> IntArray:
+def _modes(convex: ConvexProgram, state: LawState, dilatancy: FloatArray) -> IntArray:
     """Modes of the contact points: by their own motion, and sliding where their interface slips or twists.
 
     As for points, an interface slips where its speed, as a share of the largest, exceeds what torsion has in reserve.
     """
     program = convex.points
+    assert state.motions is not None
     moved = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, 3)
     by_torsion = (convex.resultants.T @ state.motions[:, 0].ravel()).reshape(-1, 3)
     by_crushing = (convex.resultants.T @ state.motions[:, 1].ravel()).reshape(-1, 3)
@@ -182,7 +177,7 @@ def _modes(convex: ConvexProgram, state: ConvexState, dilatancy: FloatArray) -> 
     return np.where(crushes & (by_crushing[:, 0] < 0.0), ContactMode.CRUSH, modes)
 
 
-def _crushes(convex: ConvexProgram, state: ConvexState, by_crushing: FloatArray, speed: float) -> BoolArray:
+def _crushes(convex: ConvexProgram, state: LawState, by_crushing: FloatArray, speed: float) -> BoolArray:
     """Interfaces that crush, (n_interfaces,): their speed by crushing, as a share of the largest, exceeds what is left.
 
     What an interface has left counts as a share of the largest normal force.

@@ -25,40 +25,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.program.resultants.shapes import InterfaceShapes
+from mbla.program.resultants.shapes import Fan, InterfaceShapes, corner_weights
 
 BISECTIONS = 48
 """Of an interval in which the line that ends full stress lies, or a direction."""
-
-
-@dataclass(frozen=True)
-class Fan:
-    """Outlines in triangles: interface of each, its corners (n_triangles, 3), its share of the area."""
-
-    interface: IntArray
-    corners: IntArray
-    share: FloatArray
-
-    @classmethod
-    def of(cls, shapes: InterfaceShapes) -> Fan:
-        """Fans from the first corner of each outline."""
-        counts = np.diff(shapes.start)
-        interface = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
-        first = shapes.start[interface]
-        place = np.arange(len(interface)) - np.concatenate([[0], np.cumsum(np.maximum(counts - 2, 0))])[interface]
-        corners = np.stack([first, first + place + 1, first + place + 2], axis=1)
-        x = shapes.corners[corners]
-        one, two = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
-        area = 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
-        return cls(interface, corners, area / np.bincount(interface, area, len(counts))[interface])
-
-    @classmethod
-    def of_some(cls, shapes: InterfaceShapes, rows: IntArray) -> Fan:
-        """Those of the interfaces ``rows``, (n,), which are numbered in that order."""
-        fan, place = cls.of(shapes), np.full(len(shapes.convex), -1)
-        place[rows] = np.arange(len(rows))
-        chosen = place[fan.interface] >= 0
-        return cls(place[fan.interface[chosen]], fan.corners[chosen], fan.share[chosen])
 
 
 @dataclass(frozen=True)
@@ -111,6 +81,10 @@ class StressFields:
         flat = np.stack([np.bincount(self.owner, part, n) for part in along.reshape(-1, 9).T], axis=1)
         return forces.astype(np.float64), flat.reshape(n, 3, 3).astype(np.float64)
 
+    def power(self, closing: FloatArray) -> FloatArray:
+        """Power of full stress where they close by q, (n, 3), the most that any field of stress has, (n,)."""
+        return np.asarray((self.carried(closing)[0] * closing).sum(axis=1))
+
     def elastic_slopes(self, forces: FloatArray) -> FloatArray:
         """Rotations that an elastic section would have under moments of (n, 3) forces, up to a factor, (n, 2)."""
         total = self.arms.sum(axis=1)[:, 1:]
@@ -132,17 +106,6 @@ class StressFields:
         return closing
 
 
-def second_moments(shapes: InterfaceShapes, rows: IntArray) -> FloatArray:
-    """Second moments of area of interfaces about their centroids, over the area, (n, 2, 2) [m²]."""
-    fan = Fan.of_some(shapes, rows)
-    x = shapes.corners[fan.corners]
-    total = x.sum(axis=1)
-    second = np.einsum("tci,tcj->tij", x, x) + total[:, :, None] * total[:, None, :]
-    moments = np.zeros((len(rows), 2, 2))
-    np.add.at(moments, fan.interface, fan.share[:, None, None] * second / 12.0)
-    return moments
-
-
 def _along_the_line(arms: FloatArray, closing: FloatArray) -> FloatArray:
     """∫ g gᵀ/‖∇c‖ over the line c = 0 through triangles, over their area, (n, 3, 3); nothing where it misses them.
 
@@ -162,36 +125,6 @@ def _along_the_line(arms: FloatArray, closing: FloatArray) -> FloatArray:
     weight = np.where(cut, 2.0 * np.abs(at) / np.abs(product), 0.0)
     sums = [np.einsum("ti,tj->tij", place, place) for place in (*ends, 0.5 * (ends[0] + ends[1]))]
     return np.asarray(weight[:, None, None] * (sums[0] + sums[1] + 4.0 * sums[2]) / 6.0)
-
-
-def mean_positive(values: FloatArray) -> FloatArray:
-    """Mean over a triangle of the positive part of a linear function with given values at the corners, (..., 3)."""
-    return np.asarray((corner_weights(values) * values).sum(axis=-1))
-
-
-def positive_share(values: FloatArray) -> FloatArray:
-    """Share of a triangle where a linear function is positive."""
-    return np.asarray(corner_weights(values).sum(axis=-1))
-
-
-def corner_weights(values: FloatArray) -> FloatArray:
-    """Mean over a triangle of the barycentric coordinates where a linear function is positive, (..., 3).
-
-    Where only corner i is positive the part is the triangle that ends at shares t_j = v_i/(v_i − v_j) of its edges,
-    with the area Π t_j and the coordinates t_j/3 of the other corners in its centroid; where only i is negative it is
-    what that part leaves.
-    """
-    alone = np.where((values > 0).sum(axis=-1, keepdims=True) == 1, values > 0, values <= 0)
-    single = alone & (alone.sum(axis=-1, keepdims=True) == 1)
-    apex = np.where(single, values, 0.0).sum(axis=-1, keepdims=True)
-    span = np.where(single, 1.0, apex - values)
-    t = np.where(single, 1.0, np.divide(apex, span, out=np.ones_like(values), where=span != 0.0))
-    size = t.prod(axis=-1, keepdims=True)
-    others = np.where(single, 0.0, t / 3.0)
-    part = size * np.where(single, 1.0 - others.sum(axis=-1, keepdims=True), others)
-    has_single = single.any(axis=-1, keepdims=True)
-    whole = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
-    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), whole * np.ones_like(values)))
 
 
 MOST_STEPS = 60

@@ -13,12 +13,9 @@ and R' ≤ R is the condition. A motion with slip η, rotation ω and opening δ
 
 provided that δ(x) ≥ μ ‖η‖ + μ (P − ‖η‖) w(x) everywhere, that is at the corners of w's graph.
 
-Crushing:
-
-Crushing of interfaces, written a second time for verification: from fields of stress, not from cones.
-
-A motion that closes the points of an interface by c(x) = −δ(x) dissipates f_c ∫ max(c, 0), summed up over triangles in
-closed form. Forces N' and m are those of some field of stress between 0 and f_c if, for every direction θ,
+*Crushing*, from fields of stress, not from cones. A motion that closes the points of an interface by c(x) = −δ(x)
+dissipates f_c ∫ max(c, 0), summed up over triangles in closed form. Forces N' and m are those of some field of stress
+between 0 and f_c if, for every direction θ,
 
     m·θ ≤ first moment along θ of full stress over the part of area N'/f_c that lies farthest along θ
 
@@ -36,11 +33,11 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.resultants.friction_curve import rectangle_curve
-from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes
-from mbla.solution.resultants.stress_fields import (
-    BISECTIONS,
+from mbla.program.resultants.shapes import (
     Fan,
+    InterfaceShapes,
     corner_weights,
+    interface_shapes,
     mean_positive,
     positive_share,
     second_moments,
@@ -191,6 +188,9 @@ def sliding_power(laws: InterfaceLaws, resultants: FloatArray, motions: FloatArr
 
 DIRECTIONS = 32
 """In the first round, around an outline whose radii of gyration are all one."""
+
+BISECTIONS = 48
+"""Of an interval in which the line that ends full stress lies, or a direction."""
 
 
 def crushing_power(laws: InterfaceLaws, motions: FloatArray) -> FloatArray:

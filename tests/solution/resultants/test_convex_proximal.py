@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
+from mbla.solution.nonassociative import gravity
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.resultants import convex_proximal
-from mbla.solution.resultants.convex_proximal import ConvexSequence, _finished, _Run, solve_convex_proximal
-from mbla.solution.resultants.convex_state import ConvexState
+from mbla.solution.resultants.convex_proximal import _finished, _Run, solve_convex_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.line import WALL, line_of
@@ -24,7 +25,7 @@ def wall() -> ConvexProgram:
     return assemble_convex(line.model, line.contacts, line.load_case, "convex")
 
 
-def sequence(convex: ConvexProgram, most: int) -> ConvexSequence:
+def sequence(convex: ConvexProgram, most: int) -> SequenceResult:
     return solve_convex_proximal(convex, (), most, SETTINGS, lambda record: None)
 
 
@@ -41,7 +42,9 @@ def test_a_program_without_a_solution_ends_the_scheme(
     after: int, said_to_be: Status, status: Status, wall: ConvexProgram, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first is that of the gravity state; what is said of the others is not said of the structure."""
-    monkeypatch.setattr(convex_proximal, "interior_point_solver", said(said_to_be, after))
+    solver = said(said_to_be, after)
+    for module in (gravity, convex_proximal):
+        monkeypatch.setattr(module, "interior_point_solver", solver)
     result = sequence(wall, 10)
     assert result.status is status
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
@@ -75,7 +78,7 @@ def test_a_state_is_judged_by_its_residual_and_what_was_asked_for(
     """The last two states have the same load factor; words come with all that miss the law by more than 1e-6."""
     state = sequence(wall, 1).state
     assert state is not None
-    made: list[ConvexState] = [replace(state, residual=0.9), *[replace(state, residual=residual)] * 2]
+    made: list[LawState] = [replace(state, residual=0.9), *[replace(state, residual=residual)] * 2]
     settings = replace(SETTINGS, residual=wanted)
     result = _finished(_Run(wall, settings, lambda record: None, [], made, [0.9, residual, residual]))
     assert result.status is status

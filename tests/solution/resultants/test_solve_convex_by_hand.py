@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
+from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.resultants import convex_associative, convex_law, convex_repair
 from mbla.solution.resultants import solve_convex as convex
 from mbla.solution.resultants.convex_associative import solve_convex_associative
 from mbla.solution.resultants.convex_law import exact_convex_step
-from mbla.solution.resultants.convex_proximal import ConvexSequence
 from mbla.solution.resultants.convex_repair import repaired_convex_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
@@ -107,7 +107,7 @@ def test_a_step_of_the_law_ends_with_its_factorisations(monkeypatch: pytest.Monk
 
 def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monkeypatch: pytest.MonkeyPatch) -> None:
     line = line_of((DECKS / "groove.yaml").read_text(encoding="utf-8"), "parameters.mu=2", "expected={}")
-    nothing = ConvexSequence(Status.APPROXIMATE, None, "did not come to rest", ())
+    nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
     monkeypatch.setattr(convex, "solve_convex_proximal", lambda *arguments: nothing)
     solution, _ = convex_of(line, "non_associative")
     assert solution.associative is None
