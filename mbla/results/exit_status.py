@@ -7,11 +7,9 @@ from collections.abc import Sequence
 
 from mbla.deck.sections.output import Expectation
 from mbla.errors import Notice
-from mbla.results.listing.answers import reaction_of
-from mbla.results.outcome import associative_of, result_of
+from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
-from mbla.results.tilt_angle import angle_of
 from mbla.solution.solution import Mechanics, Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
 

@@ -25,28 +25,6 @@ from mbla.solution.associative.proofs import PROVED_RESIDUAL
 from mbla.solution.solution import Status
 from mbla.solution.verification.statics import bodies_of_points, load_scale, load_sizes
 
-UNSETTLED = {
-    Status.APPROXIMATE: "approximate",
-    Status.NOT_VERIFIED: "not-verified",
-    Status.NO_EQUILIBRIUM: "no-equilibrium",
-    Status.UNBOUNDED: "unbounded",
-    Status.ITERATION_LIMIT: "iteration-limit",
-    Status.TIME_LIMIT: "time-limit",
-    Status.NUMERICAL_ERROR: "numerical-error",
-}
-"""Identifier of every status that is not simply a verified load factor."""
-
-WITHOUT_REASON = {
-    Status.APPROXIMATE: "verification confirms the load factor to 1e-2 at best",
-    Status.NOT_VERIFIED: "verification does not confirm the answer",
-    Status.NO_EQUILIBRIUM: "the dead load alone is not carried",
-    Status.UNBOUNDED: "no multiple of the live load brings the structure down",
-    Status.ITERATION_LIMIT: "the iterations ran out",
-    Status.TIME_LIMIT: "the time ran out",
-    Status.NUMERICAL_ERROR: "the solver failed numerically",
-}
-"""What is said of a status where the solver gives no reason."""
-
 BROKEN = {
     Status.ITERATION_LIMIT: "the iterations ran out",
     Status.TIME_LIMIT: "the time ran out",
@@ -54,6 +32,13 @@ BROKEN = {
 }
 """What befell a cone program that came to no answer."""
 
+WITHOUT_REASON = BROKEN | {
+    Status.APPROXIMATE: "verification confirms the load factor to 1e-2 at best",
+    Status.NOT_VERIFIED: "verification does not confirm the answer",
+    Status.NO_EQUILIBRIUM: "the dead load alone is not carried",
+    Status.UNBOUNDED: "no multiple of the live load brings the structure down",
+}
+"""What is said of every status that is not simply a verified load factor where the solver gives no reason."""
 
 REMARKS_THAT_WARN = frozenset(
     {
@@ -87,9 +72,9 @@ def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, 
         if notice not in notices:
             notices.append(notice)
 
-    if case.status in UNSETTLED:
+    if case.status in WITHOUT_REASON:
         reason = solution.reason or _reason_of(case)
-        add("notice" if harmless else "warning", UNSETTLED[case.status], reason)
+        add("notice" if harmless else "warning", case.status.value.replace("_", "-"), reason)
     for failure in case.checks.failures:
         if failure != solution.reason:
             add("warning", failure.identifier, failure)

@@ -7,16 +7,18 @@ brings it about. Everything that shows figures (listing, JSON, summary, pictures
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import Model
+from mbla.model.model import Model, Tilt
 from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
+from mbla.solution.tilt_circle import angle_above, line_of
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""
@@ -24,6 +26,16 @@ UNIQUE = 1e-6
 """ends of a range closer than this, relatively, are one figure: the accuracy to which both are found"""
 CLEAN_RESIDUAL = 1e-6
 """residual up to which a solved case without associative flow needs no warning"""
+RESIDUALS = {
+    "equilibrium_residual": "of the mean load of a block",
+    "yield_violation": "of the mean load of a block",
+    "tension_violation": "of the mean load of a block",
+    "penetration": "of the largest contact velocity",
+    "complementarity_residual": "of the power",
+    "slip_residual": "of the power",
+    "power_balance": "of the power",
+}
+"""what says how badly forces and velocities fit the joint law, and what each is relative to"""
 WORST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL)
 """verdicts that speak for the whole structure as soon as one case has them, the worst first"""
 
@@ -134,16 +146,7 @@ def factor_unique(model: Model, case: CaseResult) -> bool | None:
 
 def law_residual(checks: Checks) -> float:
     """The largest of the residuals that say how badly forces and velocities fit the joint law; nan without any."""
-    parts = [
-        checks.equilibrium_residual,
-        checks.yield_violation,
-        checks.tension_violation,
-        checks.penetration,
-        checks.complementarity_residual,
-        checks.slip_residual,
-        checks.power_balance,
-    ]
-    known = [value for value in parts if not np.isnan(value)]
+    known = [value for value in (getattr(checks, name) for name in RESIDUALS) if not np.isnan(value)]
     return max(known, default=float("nan"))
 
 
@@ -204,3 +207,45 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
 
 def _series(case: CaseResult) -> str | None:
     return None if case.load_case.travel is None else case.load_case.travel.series
+
+
+# --- What a load factor stands for: the reaction of a support that gives way, the angle of a tilting table ----------
+
+
+AT_COLLAPSE = 1e-6
+"""distance of a load factor from 1 within which it belongs to the angle of the table"""
+
+
+def reaction_of(case: CaseResult) -> float | None:
+    """Reaction at which the structure follows the support; None where that is no result, or no support gives way."""
+    mechanics, settlement = result_of(case), case.load_case.settlement
+    return None if mechanics is None or settlement is None else settlement.reaction(mechanics.load_factor)
+
+
+def angle_of(case: CaseResult) -> float:
+    """Angle of collapse in degrees; nan where there is none, or no table."""
+    tilt, found = case.load_case.tilt, result_of(case)
+    if tilt is None or found is None:
+        return math.nan
+    return math.degrees(math.atan(found.load_factor)) if tilt.tangent else tilt.angle
+
+
+def angle_at(tilt: Tilt, load_factor: float) -> float:
+    """Angle in degrees that a load factor stands for; nan where it stands for none."""
+    if tilt.tangent:
+        return math.degrees(math.atan(load_factor))
+    return tilt.angle if tilt.angle == 0.0 or abs(load_factor - 1.0) <= AT_COLLAPSE else math.nan
+
+
+def angle_bounds(case: CaseResult) -> tuple[float, float]:
+    """Angle that is certainly borne and angle that is certainly not, by associative flow; degrees, nan if not known."""
+    tilt, solution, checks = case.load_case.tilt, case.solution, case.checks
+    if tilt is None or solution.associative is None:
+        return math.nan, math.nan
+    if tilt.tangent:
+        return math.degrees(math.atan(checks.static_bound)), math.degrees(math.atan(checks.kinematic_bound))
+    if math.isnan(tilt.angle) or math.isnan(checks.kinematic_bound):
+        return math.nan, math.nan
+    highest = line_of(tilt, solution.associative, checks.kinematic_bound).first_crossing()
+    lowest = angle_above(tilt.upright, checks.static_bound, math.radians(tilt.angle))
+    return math.degrees(lowest), math.degrees(highest) if math.isfinite(highest) else math.nan

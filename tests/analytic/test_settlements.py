@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
-from mbla.results.listing.answers import reaction_of
+from mbla.results.outcome import reaction_of
 from mbla.results.results import CaseResult, Results
 from mbla.run import RunOptions, run
 from tests.analytic.thrust_line import springer_thrusts, voussoirs

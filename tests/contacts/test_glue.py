@@ -13,7 +13,7 @@ from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
 from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.polyhedra import take_polyhedra
-from mbla.results.listing.answers import reaction_of
+from mbla.results.outcome import reaction_of
 from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
 

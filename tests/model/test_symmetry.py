@@ -11,7 +11,7 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
-from mbla.results.listing.answers import reaction_of
+from mbla.results.outcome import reaction_of
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
 

@@ -16,7 +16,7 @@ from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES
 from mbla.results.explanations import FIGURES, explanations, find_explanations, sections
-from mbla.results.findings import REMARKS_THAT_WARN, UNSETTLED
+from mbla.results.findings import REMARKS_THAT_WARN, WITHOUT_REASON
 from mbla.results.listing.figures import residual_figures
 from mbla.solution.solution import Standing, Status
 from mbla.sweeps.command import FAILED_POINTS
@@ -70,7 +70,7 @@ OF_SOLUTIONS = {
     if isinstance(value, ast.Constant) and isinstance(value.value, str)
 }
 """identifiers of what solver and verification say"""
-FINDINGS = OF_SOLUTIONS | {*UNSETTLED.values()}
+FINDINGS = OF_SOLUTIONS | {status.value.replace("_", "-") for status in WITHOUT_REASON}
 
 
 def test_the_walk_finds_notices_of_every_stage() -> None:
@@ -106,7 +106,6 @@ def test_statuses_verdicts_and_modes() -> None:
     assert {entry.identifier for entry in sections()["Statuses of load cases"]} == {
         status.value.replace("_", "-") for status in Status
     }
-    assert {status.value.replace("_", "-") for status in UNSETTLED} == set(UNSETTLED.values())
     assert {mode.name.lower() for mode in InterfaceMode} == {e.identifier for e in sections()["Modes of joints"]}
     verdicts = {alias for entry in sections()["Standing under dead load"] for alias in entry.aliases}
     assert verdicts == {verdict.value for verdict in Standing}

@@ -19,11 +19,11 @@ from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import standing_words, worst_words
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
+from mbla.results.outcome import angle_bounds, angle_of
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, factor_of, series_of, told_cases
-from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status

@@ -25,10 +25,11 @@ fits its blocks best (Lloyd 1982, doi:10.1109/TIT.1982.1056489), until nothing c
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions
@@ -110,25 +111,32 @@ def _pair_speeds(model: Model, contacts: Contacts, parts: IntArray, motion: Floa
     return largest, found
 
 
+_BlockSums: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
+
+
+def _block_sums(model: Model, motion: FloatArray) -> _BlockSums:
+    """A, b and c of every block, (n_blocks, 6, 6), (n_blocks, 6) and (n_blocks,); lengths over the model's size."""
+    blocks = model.blocks
+    arms = blocks.centroids - np.average(blocks.centroids, axis=0, weights=blocks.volumes)
+    size = float(np.abs(arms).max(initial=0.0)) or 1.0  # lengths in it, so that A is well scaled
+    velocity, rotation = motion[:, :3], motion[:, 3:] * size
+    arms, inertia = arms / size, blocks.volumes * (blocks.sizes / size) ** 2 / 6.0  # of a cube
+    to_block = np.zeros((len(blocks), 3, 6))
+    to_block[:, :, :3] = np.eye(3)
+    to_block[:, :, 3:] = -_crosses(arms)
+    matrices = blocks.volumes[:, None, None] * np.einsum("bij,bik->bjk", to_block, to_block)
+    matrices[:, 3:, 3:] += inertia[:, None, None] * np.eye(3)
+    vectors = blocks.volumes[:, None] * np.einsum("bij,bi->bj", to_block, velocity)
+    vectors[:, 3:] += inertia[:, None] * rotation
+    return matrices, vectors, blocks.volumes * (velocity**2).sum(axis=1) + inertia * (rotation**2).sum(axis=1)
+
+
 class _Sums:
     """A, b, c and the volume of every cluster; cluster 0 is at rest and takes no sums."""
 
     def __init__(self, model: Model, parts: IntArray, motion: FloatArray, count: int) -> None:
-        blocks = model.blocks
-        arms = blocks.centroids - np.average(blocks.centroids, axis=0, weights=blocks.volumes)
-        size = float(np.abs(arms).max(initial=0.0)) or 1.0  # lengths in it, so that A is well scaled
-        velocity, rotation = motion[:, :3], motion[:, 3:] * size
-        arms, inertia = arms / size, blocks.volumes * (blocks.sizes / size) ** 2 / 6.0  # of a cube
-        to_block = np.zeros((len(blocks), 3, 6))
-        to_block[:, :, :3] = np.eye(3)
-        to_block[:, :, 3:] = -_crosses(arms)
-        matrices = blocks.volumes[:, None, None] * np.einsum("bij,bik->bjk", to_block, to_block)
-        matrices[:, 3:, 3:] += inertia[:, None, None] * np.eye(3)
-        vectors = blocks.volumes[:, None] * np.einsum("bij,bi->bj", to_block, velocity)
-        vectors[:, 3:] += inertia[:, None] * rotation
-        squares = blocks.volumes * (velocity**2).sum(axis=1) + inertia * (rotation**2).sum(axis=1)
-        self.matrices, self.vectors = _by_part(parts, matrices, count), _by_part(parts, vectors, count)
-        self.squares, self.volumes = _by_part(parts, squares, count), _by_part(parts, blocks.volumes, count)
+        of_blocks = (*_block_sums(model, motion), model.blocks.volumes)
+        self.matrices, self.vectors, self.squares, self.volumes = (_by_part(parts, each, count) for each in of_blocks)
         self.left = _left_of(self.matrices, self.vectors, self.squares)
 
     def apart(self, first: int, second: int) -> float:
@@ -212,12 +220,13 @@ def main_parts(model: Model, parts: IntArray, motions: tuple[PartMotion, ...], m
 
     parts, motions : of each block, 0 at rest, and of each part
     """
-    squares = _squares(model, motion)
+    sums = _block_sums(model, motion)
+    squares = sums[2]
     found, left = np.zeros(len(parts), dtype=np.int64), squares
     explained = 0.0
     for count in range(1, min(FEW + 1, len(motions))):
         worst = int(np.argmax(np.bincount(parts, weights=left)))  # what the last ones explain least begins the next
-        found, left = _nearest(model, motion, np.where(parts == worst, count, found))
+        found, left = _nearest(sums, np.where(parts == worst, count, found))
         explained = 1.0 - float(left.sum() / squares.sum())
         if explained >= ENOUGH:
             break
@@ -227,12 +236,12 @@ def main_parts(model: Model, parts: IntArray, motions: tuple[PartMotion, ...], m
     return MainParts(found, part_motions(model, found, motion), explained)
 
 
-def _nearest(model: Model, motion: FloatArray, label: IntArray) -> tuple[IntArray, FloatArray]:
+def _nearest(sums: _BlockSums, label: IntArray) -> tuple[IntArray, FloatArray]:
     """Main part of each block, beginning with those given, and what is left of its motion; (n_blocks,) each."""
-    squares, numbers = _squares(model, motion), range(1, int(label.max()) + 1)
+    squares, numbers = sums[2], range(1, int(label.max()) + 1)
     rests = squares
     for _ in range(MOST_DIVISIONS):
-        left = np.stack([squares, *(_left(model, motion, label == number) for number in numbers)])
+        left = np.stack([squares, *(_left(sums, label == number) for number in numbers)])
         nearest = np.argmin(left, axis=0)
         nearest[squares == 0.0] = 0
         rests = left[nearest, np.arange(len(label))]
@@ -242,30 +251,13 @@ def _nearest(model: Model, motion: FloatArray, label: IntArray) -> tuple[IntArra
     return label, rests
 
 
-def _squares(model: Model, motion: FloatArray) -> FloatArray:
-    """Squared velocity of each block over its volume, taken as that of a cube, (n_blocks,)."""
-    blocks = model.blocks
-    return np.asarray(
-        blocks.volumes * ((motion[:, :3] ** 2).sum(axis=1) + blocks.sizes**2 / 6 * (motion[:, 3:] ** 2).sum(axis=1))
-    )
-
-
-def _left(model: Model, motion: FloatArray, chosen: FloatArray) -> FloatArray:
+def _left(sums: _BlockSums, chosen: BoolArray) -> FloatArray:
     """What of the motion of every block differs from the rigid motion that fits the chosen ones best, (n_blocks,)."""
-    blocks = model.blocks
+    matrices, vectors, squares = sums
     if not chosen.any():
-        return np.full(len(blocks), np.inf)
-    origin = np.average(blocks.centroids[chosen], axis=0, weights=blocks.volumes[chosen])
-    arms = blocks.centroids - origin
-    weight, gyration = blocks.volumes[chosen], blocks.sizes[chosen] ** 2 / 6
-    own, turns = motion[chosen, :3], motion[chosen, 3:]
-    travel = np.average(own, axis=0, weights=weight)
-    r = arms[chosen]
-    inertia = np.einsum("b,bij->ij", weight, (r**2).sum(axis=1)[:, None, None] * np.eye(3) - r[:, :, None] * r[:, None])
-    inertia += (weight * gyration).sum() * np.eye(3)
-    spin = np.linalg.solve(inertia, weight @ (np.cross(r, own) + gyration[:, None] * turns))
-    fitted = np.hstack([travel + np.cross(spin, arms), np.tile(spin, (len(blocks), 1))])
-    return _squares(model, motion - fitted)
+        return np.full(len(squares), np.inf)
+    fit = np.linalg.solve(matrices[chosen].sum(axis=0), vectors[chosen].sum(axis=0))
+    return np.asarray(np.maximum(squares - 2.0 * vectors @ fit + (matrices @ fit) @ fit, 0.0))
 
 
 def _by_weight(model: Model, label: IntArray) -> IntArray:

@@ -40,12 +40,12 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.clusters import FEW, MainParts, clusters_of, main_parts
 from mbla.results.collapse.cracks import Crack, YieldLine, cracks, yield_lines
-from mbla.results.collapse.interface_modes import TOGETHER, InterfaceMotion, interface_motion
+from mbla.results.collapse.interface_modes import InterfaceMotion, interface_motion
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_joints, hinge_lines, sliding_planes
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
 from mbla.solution.mechanics import contact_modes
-from mbla.solution.solution import ContactMode, Mechanics
+from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import contact_velocities
 
 P = ParamSpec("P")
@@ -123,24 +123,6 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
         motions=part_motions(model, parts, certificate),
         work=Work(np.nan, np.nan, unknown, unknown, unknown, np.nan),
     ), mechanics
-
-
-# --- What interfaces do in the motion that shows a lack of equilibrium ----------------------------------------------
-
-
-def falling_motion(model: Model, contacts: Contacts, certificate: FloatArray) -> InterfaceMotion:
-    """Modes, relative motion and hinge axes of every interface from a motion of the blocks, (n_blocks, 6)."""
-    velocities = contact_velocities(model, contacts, certificate)
-    limit = TOGETHER * float(np.linalg.norm(velocities, axis=1).max(initial=0.0))
-    slip = np.hypot(velocities[:, 1], velocities[:, 2])
-    friction = np.array([model.joints[name].friction for name in contacts.joint_names], dtype=float)
-    lift = friction[contacts.joints[contacts.interface_of_point]] * slip
-    modes = np.full(len(velocities), ContactMode.STICK, dtype=np.int64)
-    modes[slip > limit] = ContactMode.SLIDE
-    modes[velocities[:, 0] - lift > limit] = ContactMode.OPEN
-    return interface_motion(
-        model, contacts, Mechanics(float("nan"), np.zeros_like(velocities), velocities, certificate, modes)
-    )
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,9 @@ from scipy.sparse.csgraph import connected_components
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.polygons import box_pairs
+from mbla.model.solids.ragged import items_of_rows
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_radii
-from mbla.results.collapse.joint_planes import ClusterJoints, points_of
+from mbla.results.collapse.joint_planes import ClusterJoints
 from mbla.solution.solution import Mechanics
 
 TOUCH = 0.01
@@ -148,7 +149,7 @@ def _crack(
     order = np.argsort(np.round(along / (np.abs(along).max() or 1.0), 6), kind="stable")
     first, last = (np.round(centroids[order[i]], 9)[[2, 0, 1]].tolist() for i in (0, -1))
     order = order[::-1] if last < first else order
-    points = points_of(contacts, interfaces)
+    points = items_of_rows(contacts.point_start, interfaces)
     opening = mechanics.contact_velocities[points, 0]
     widest = int(np.argmax(np.round(opening / speed, 9)))
     return Crack(
@@ -228,7 +229,7 @@ def _broken_line(contacts: Contacts, interfaces: IntArray) -> tuple[FloatArray, 
         tried = [_fitted(places, areas, distance, corners) for corners in combinations(inner, pieces - 1)]
         best = min((best, *tried), key=lambda fit: fit[1])
     points, off = best
-    corners = contacts.points[points_of(contacts, interfaces)]
+    corners = contacts.points[items_of_rows(contacts.point_start, interfaces)]
     points = np.clip(points, corners.min(axis=0), corners.max(axis=0))
     return np.asarray(points if points[0, 2] <= points[-1, 2] else points[::-1]), off
 

@@ -71,11 +71,6 @@ def runs(pairs: IntArray, chosen: IntArray) -> Iterator[IntArray]:
     yield from np.split(ordered, np.flatnonzero(new) + 1)
 
 
-def points_of(contacts: Contacts, interfaces: IntArray) -> IntArray:
-    """Contact points of some interfaces, one after the other."""
-    return np.concatenate([np.arange(contacts.point_start[i], contacts.point_start[i + 1]) for i in interfaces])
-
-
 # --- Hinge lines: hinges of interfaces between the same two clusters that lie on one line ---------------------------
 
 

@@ -19,7 +19,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.interface_modes import sum_by_interface
@@ -112,7 +111,7 @@ def loads_by_group(model: Model, load_case: LoadCase, mechanics: Mechanics) -> d
     return {str(name): (float(sums[0][i]), float(sums[1][i])) for i, name in enumerate(names)}
 
 
-# --- What forces say about whole interfaces and supports, and where a chain of blocks is curved ---------------------
+# --- What forces say about whole interfaces and supports ------------------------------------------------------------
 
 
 MOST_SINGLE_SUPPORTS = 12
@@ -129,47 +128,6 @@ def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> Floa
     forces = global_forces(contacts, contact_forces)
     arms = contacts.points - contacts.centroids[contacts.interface_of_point]
     return sum_by_interface(contacts, np.hstack([forces, np.cross(arms, forces)]))
-
-
-PARALLEL = 0.01
-"""sine of the angle between two joints next but one to each other up to which they are parallel: half a degree"""
-
-
-def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
-    """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
-
-    Of three joints that follow each other the middle one lies outside the line between the other two by the rise of the
-    curve there. (The centroids of thick voussoirs, which are wedges, lie outside the curve of the joints themselves.)
-    A pile that leans over has parallel joints and is no curve.
-    A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
-    """
-    solids = solids_of(model, contacts)
-    model, contacts = solids.model, solids.contacts
-    n_bodies = len(model.blocks) + len(model.grounds)
-    degree = np.bincount(contacts.bodies.ravel(), minlength=n_bodies)
-    in_chain = np.zeros(n_bodies, dtype=bool)
-    in_chain[: len(model.blocks)] = ~model.fixed
-    in_chain &= degree == 2
-    between = np.asarray(in_chain[contacts.bodies].all(axis=1))
-    inner = np.flatnonzero(between)
-    joints_of_body = np.zeros(n_bodies, dtype=np.int64)  # sum of both: less the one it is the other
-    np.add.at(joints_of_body, contacts.bodies, np.arange(len(contacts))[:, None])
-    first, last = (joints_of_body[contacts.bodies[inner]] - inner[:, None]).T
-    before, after = contacts.centroids[first], contacts.centroids[last]
-    chord, rise = after - before, contacts.centroids[inner] - (before + after) / 2
-    length = np.linalg.norm(chord, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        rise -= (np.einsum("ij,ij->i", rise, chord) / length**2)[:, None] * chord
-    turned = np.linalg.norm(np.cross(contacts.normals[first], contacts.normals[last]), axis=1)
-    curved = np.linalg.norm(rise, axis=1) > 1e-3 * length  # none where two blocks meet in two joints: no chord
-    curved &= turned > PARALLEL
-    outward = np.zeros((len(contacts), 3))
-    outward[inner[curved]] = rise[curved]
-    of_body = np.zeros((n_bodies, 3))
-    np.add.at(of_body, contacts.bodies[inner], outward[inner][:, None, :])
-    end, side = np.nonzero(in_chain[contacts.bodies] & ~between[:, None])
-    outward[end] = of_body[contacts.bodies[end, side]]
-    return outward
 
 
 @dataclass(frozen=True)

@@ -88,7 +88,7 @@ def thrust_of(model: Model, contacts: Contacts, contact_forces: FloatArray) -> T
         shear_forces=shear,
         torsions=np.einsum("ij,ij->i", moments, normals),
         eccentricity=_eccentricity(contacts, arms),
-        friction_use=shear_use(shear, friction_allowed(model, contacts, contact_forces)),
+        friction_use=shear_use(shear, sum_by_interface(contacts, allowed_at_points(model, contacts, contact_forces))),
     )
 
 
@@ -109,11 +109,6 @@ def point_friction_use(model: Model, contacts: Contacts, contact_forces: FloatAr
     """Shear over what friction and cohesion allow at each contact point, (n_points,); nan where none is allowed."""
     allowed = allowed_at_points(model, contacts, contact_forces)
     return shear_use(np.hypot(contact_forces[:, 1], contact_forces[:, 2]), allowed)
-
-
-def friction_allowed(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
-    """Shear that friction under the normal forces and cohesion allow each interface, (n_interfaces,) N."""
-    return sum_by_interface(contacts, allowed_at_points(model, contacts, contact_forces))
 
 
 def allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
@@ -239,3 +234,35 @@ def thrust_lines(model: Model, contacts: Contacts, thrust: Thrust) -> tuple[IntA
         cuts = np.flatnonzero(~thrust.carried[chain])
         lines += [piece[thrust.carried[piece]] for piece in np.split(chain, cuts)]
     return tuple(line for line in lines if len(line) > 1)
+
+
+PARALLEL = 0.01
+"""sine of the angle between two joints next but one to each other up to which they are parallel: half a degree"""
+
+
+def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
+    """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
+
+    Of three joints that follow each other the middle one lies outside the line between the other two by the rise of the
+    curve there. (The centroids of thick voussoirs, which are wedges, lie outside the curve of the joints themselves.)
+    A pile that leans over has parallel joints and is no curve.
+    A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
+    """
+    outward, centroids = np.zeros((len(contacts), 3)), contacts.centroids
+    for chain in interface_chains(model, contacts):
+        ring = chain[0] == chain[-1]
+        first, middle, last = chain[:-2], chain[1:-1], chain[2:]
+        if ring:
+            middle = chain[1:]
+            first, last = np.roll(middle, 1), np.roll(middle, -1)
+        chord, rise = centroids[last] - centroids[first], centroids[middle] - (centroids[first] + centroids[last]) / 2
+        length = np.linalg.norm(chord, axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rise -= (np.einsum("ij,ij->i", rise, chord) / length**2)[:, None] * chord
+        turned = np.linalg.norm(np.cross(contacts.normals[first], contacts.normals[last]), axis=1)
+        curved = np.linalg.norm(rise, axis=1) > 1e-3 * length  # none where two blocks meet in two joints: no chord
+        curved &= turned > PARALLEL
+        outward[middle[curved]] = rise[curved]
+        if not ring:
+            outward[chain[[0, -1]]] = outward[chain[[1, -2]]]
+    return outward

@@ -44,7 +44,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             raise ValueError(f"{name} of a load case")
     if not {get["solver"], *get["programs/solver"]} <= {"", "auto", *METHODS}:
         raise ValueError("name of a solver")
-    own = _held(Solution, "cases/*", get) | {
+    own = held(Solution, "cases/*", get) | {
         "status": Status(get["claimed_status"]),
         "stress_blocks": bool(get["stress_blocks"]),
         "remarks": _messages(get, "remarks"),
@@ -59,11 +59,11 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())
     lower, upper = get["range"].tolist()
-    checks = _held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
+    checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
 
 
-def _held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
+def held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
     """Fields of a dataclass by name, those that are there."""
     return {name: get[name] for name in stored(kind, place) if name in get}
 

@@ -17,6 +17,7 @@ from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.outcome import least_and_greatest
+from mbla.results.record.blocks import names_of, numbers_of, weights
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
@@ -131,26 +132,18 @@ def _notices(group: str, notices: Sequence[Notice]) -> Content:
     return {f"{group}/{name}": [getattr(notice, name) for notice in notices] for name in stored(Notice, "notices")}
 
 
-def _numbered(names: Sequence[str]) -> tuple[list[str], IntArray]:
-    """Names in alphabetical order, and the row of each item's name."""
-    listed = sorted(set(names))
-    row = {name: i for i, name in enumerate(listed)}
-    return listed, np.array([row[name] for name in names], dtype=np.int64)
-
-
 def _model(model: Model) -> Content:
     blocks, units, labels = model.blocks, model.units, model.blocks.labels
-    groups, members = _numbered(blocks.groups), _numbered(labels.members)
     start, flat = _ragged(np.zeros(0, dtype=np.int64) if g.blocks is None else g.blocks for g in model.grounds)
     content: Content = {
         **_held(blocks, Blocks, "model"),
         "title": model.title,
         "units": [units.length, units.force, units.mass],
         "load_cases": [case.name for case in model.load_cases],
-        "group_names": groups[0],
-        "groups": groups[1],
-        "member_names": members[0],
-        "members": members[1],
+        "group_names": names_of(blocks.groups),
+        "groups": numbers_of(blocks.groups),
+        "member_names": names_of(labels.members),
+        "members": numbers_of(labels.members),
         "position_names": list(POSITIONS),
         "positions": labels.positions,
         "weights": weights(model),
@@ -170,12 +163,6 @@ def _model(model: Model) -> Content:
         content |= {"guided_blocks": guides.blocks, "guided_bodies": guides.bodies}
         content |= {"guide_motions": guides.motions, "guide_words": guides.words}
     return _below("model", content) | _notices("model/notices", model.notices)
-
-
-def weights(model: Model) -> FloatArray:
-    """Of each block under standard gravity, added mass included, (n_blocks,) N."""
-    units = model.units
-    return np.asarray(model.blocks.masses * units.standard_gravity * units.force_per_mass_acceleration)
 
 
 def _points(rows: Sequence[FloatArray]) -> FloatArray:

@@ -22,7 +22,7 @@ from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
 from mbla.model.supports.guides import NO_GUIDES, Guides
-from mbla.results.hdf5.case_restore import case_from
+from mbla.results.hdf5.case_restore import case_from, held
 from mbla.results.hdf5.content import RECORD_NAMES
 from mbla.results.hdf5.layout import Content
 from mbla.results.record.quantity import stored
@@ -87,11 +87,6 @@ def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:
     return {path[len(prefix) :]: value for path, value in content.items() if path.startswith(prefix)}
 
 
-def _held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
-    """Fields of a dataclass by name, those that are there."""
-    return {name: get[name] for name in stored(kind, place) if name in get}
-
-
 def _notices(get: dict[str, Any]) -> tuple[Notice, ...]:
     if not set(get["severity"]) <= {"notice", "warning"}:
         raise ValueError("severity of a notice")
@@ -109,7 +104,7 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
     return Model(
         title=get["title"],
         units=Units(length, force, mass),
-        blocks=Blocks(**{**_held(Blocks, "model", get), "groups": groups, "labels": _labels(get)}),
+        blocks=Blocks(**{**held(Blocks, "model", get), "groups": groups, "labels": _labels(get)}),
         fixed=get["fixed"],
         grounds=_grounds(get),
         joints=_joints(get),
@@ -164,13 +159,13 @@ def _contacts(get: dict[str, Any]) -> Contacts:
     parts = len(get["report/unsupported_start"]) - 1
     unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
     report = ContactReport(
-        **_held(ContactReport, "contacts/report", _part(get, "report/")),
+        **held(ContactReport, "contacts/report", _part(get, "report/")),
         unsupported=tuple(unsupported),
         notices=_notices(_part(get, "notices/")),
     )
     if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
         raise ValueError("outline of an interface")
-    arrays = _held(Contacts, "contacts", get)
+    arrays = held(Contacts, "contacts", get)
     label = get.get("solid_of_block")
     if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
         raise ValueError("numbers of rigid bodies")
@@ -189,7 +184,7 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         raise ValueError(f"{name}: a travelling load without forces")
     settlement = None
     if "settlement/blocks" in get:
-        settlement = Settlement(**_held(Settlement, "cases/*/settlement", _part(get, "settlement/")))
+        settlement = Settlement(**held(Settlement, "cases/*/settlement", _part(get, "settlement/")))
         if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
             raise ValueError("settlement of a support")
     return LoadCase(

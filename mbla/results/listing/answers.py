@@ -16,18 +16,11 @@ import numpy as np
 from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
 from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
-from mbla.results.outcome import associative_of, extent_of, result_of
+from mbla.results.outcome import angle_at, angle_bounds, associative_of, extent_of, reaction_of, result_of
 from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
-from mbla.results.tilt_angle import angle_at, angle_bounds
 from mbla.solution.solution import Mechanics, Status
-
-
-def reaction_of(case: CaseResult) -> float | None:
-    """Reaction at which the structure follows the support; None where that is no result, or no support gives way."""
-    mechanics, settlement = result_of(case), case.load_case.settlement
-    return None if mechanics is None or settlement is None else settlement.reaction(mechanics.load_factor)
 
 
 def reaction_words(model: Model, settlement: Settlement, load_factor: float) -> str:

@@ -16,8 +16,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, Failure
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.joint_planes import HingeLine
-from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.places import (
     direction_words,
     extents_of,

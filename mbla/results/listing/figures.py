@@ -11,9 +11,18 @@ from mbla.model.model import Model
 from mbla.results.listing.answers import LEAST_AND_GREATEST, answer_head, extent_figures, settlement_lines, status_name
 from mbla.results.listing.text import MOST_ROWS, counted, entry, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
-from mbla.results.outcome import associative_of, best_iterate, extent_of, locked_in, range_of, result_of
+from mbla.results.outcome import (
+    RESIDUALS,
+    angle_bounds,
+    angle_of,
+    associative_of,
+    best_iterate,
+    extent_of,
+    locked_in,
+    range_of,
+    result_of,
+)
 from mbla.results.results import CaseResult
-from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.solution.solution import Checks, Mechanics, ModelSize, PathPoint, ProgramRecord, Solution, Status
 
 
@@ -105,15 +114,7 @@ def _beside(associative: Mechanics, own: Mechanics | None) -> str:
 
 def residual_figures(checks: Checks) -> tuple[tuple[str, float, str], ...]:
     """Name, value and what each residual is relative to."""
-    return (
-        ("equilibrium residual", checks.equilibrium_residual, "of the mean load of a block"),
-        ("yield violation", checks.yield_violation, "of the mean load of a block"),
-        ("tension violation", checks.tension_violation, "of the mean load of a block"),
-        ("penetration", checks.penetration, "of the largest contact velocity"),
-        ("complementarity residual", checks.complementarity_residual, "of the power"),
-        ("slip residual", checks.slip_residual, "of the power"),
-        ("power balance", checks.power_balance, "of the power"),
-    )
+    return tuple((name.replace("_", " "), getattr(checks, name), measure) for name, measure in RESIDUALS.items())
 
 
 def _standing(model: Model, case: CaseResult) -> list[str]:

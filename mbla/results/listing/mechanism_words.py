@@ -16,8 +16,8 @@ from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_o
 from mbla.results.collapse.cracks import Crack
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
-from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.rigid_parts import PartMotion
+from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.failure_words import as_parts, crack_kind, failure_sentences, hinge_side
 from mbla.results.listing.places import TABLE_DIGITS, block_names, direction_words, point_words
 from mbla.results.listing.text import MOST_ROWS, counted, number, percent, sentence, table

@@ -12,6 +12,7 @@ from mbla.results.findings import rounding_of
 from mbla.results.listing.answers import in_order, reaction_words, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
+    angle_at,
     associative_of,
     best_iterate,
     extent_of,
@@ -22,7 +23,6 @@ from mbla.results.outcome import (
     result_of,
 )
 from mbla.results.results import CaseResult
-from mbla.results.tilt_angle import tilt_words
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE, SOLVED_RESIDUAL
 
@@ -56,7 +56,10 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
     if load_case.settlement is not None:
         return reaction_words(model, load_case.settlement, load_factor)
     if load_case.tilt is not None:
-        return tilt_words(load_case, load_factor)
+        angle = angle_at(load_case.tilt, load_factor)
+        if np.isnan(angle):
+            return f"{number(load_factor)} times the change of the loads by the tilt"
+        return f"{number(angle)} degrees of tilt"
     size = live_load_in_g(model, load_case)
     if size is None:
         return f"{number(load_factor)} times the live load"

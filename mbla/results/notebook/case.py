@@ -10,13 +10,11 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
-from mbla.results.listing.answers import reaction_of
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import Picture, View, case_picture
-from mbla.results.outcome import associative_of, least_and_greatest, range_of, result_of
+from mbla.results.outcome import angle_of, associative_of, least_and_greatest, range_of, reaction_of, result_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.tilt_angle import angle_of
 from mbla.solution.solution import Mechanics, Status
 
 NAN = float("nan")

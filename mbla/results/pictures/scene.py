@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.clusters import clusters_of
-from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, falling_motion
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, fall_of
 from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
@@ -115,7 +115,7 @@ class Scene:
         if self.collapse is not None:
             return self.collapse.interfaces
         motion = self.case.solution.certificate
-        return None if motion is None else falling_motion(self.model, self.contacts, motion)
+        return None if motion is None else fall_of(self.model, self.contacts, motion)[0].interfaces
 
     @cached_property
     def dead_load(self) -> FloatArray:

@@ -10,11 +10,19 @@ import numpy as np
 
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.rigid_parts import moving_share
-from mbla.results.outcome import associative_of, best_iterate, factor_unique, least_and_greatest, range_of, result_of
+from mbla.results.outcome import (
+    angle_bounds,
+    angle_of,
+    associative_of,
+    best_iterate,
+    factor_unique,
+    least_and_greatest,
+    range_of,
+    result_of,
+)
 from mbla.results.record.quantity import Quantity, flag, real, text, whole
 from mbla.results.record.scene import FIGURES, FIGURES_TOLD, Column, Scene, Values, as_text, column
 from mbla.results.results import CaseResult
-from mbla.results.tilt_angle import angle_bounds, angle_of
 from mbla.solution.solution import Checks, Mechanics
 
 BOTH = "table json"

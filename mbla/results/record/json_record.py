@@ -20,6 +20,7 @@ from mbla.results.hdf5.content import as_told
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
 from mbla.results.outcome import (
+    RESIDUALS,
     associative_of,
     best_iterate,
     dimension_of,
@@ -178,14 +179,7 @@ def _value(column: Column, scene: Scene) -> Any:
 
 def residuals_json(checks: Checks) -> dict[str, float | None]:
     """The residuals of forces and mechanism in one object."""
-    return {
-        "equilibrium": number(checks.equilibrium_residual),
-        "yield": number(checks.yield_violation),
-        "tension": number(checks.tension_violation),
-        "penetration": number(checks.penetration),
-        "complementarity": number(checks.complementarity_residual),
-        "slip": number(checks.slip_residual),
-    }
+    return {name.split("_")[0]: number(getattr(checks, name)) for name in RESIDUALS if name != "power_balance"}
 
 
 def _best_iterate(case: CaseResult) -> dict[str, Any] | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from mbla.results.collapse.collapse import falling_motion, kept
+from mbla.results.collapse.collapse import fall_of, kept
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import Results
 from tests.results.synthetic import tower_results
@@ -70,7 +70,7 @@ def mode_between(results: Results, bodies: set[int], motion: np.ndarray) -> int:
     """Mode of the interface of two bodies."""
     contacts = results.contacts
     row = next(i for i, pair in enumerate(contacts.bodies.tolist()) if set(pair) == bodies)
-    return int(falling_motion(results.model, contacts, motion).modes[row])
+    return int(fall_of(results.model, contacts, motion)[0].interfaces.modes[row])
 
 
 @pytest.mark.parametrize(

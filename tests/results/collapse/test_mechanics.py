@@ -15,7 +15,6 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import Joint, Model
 from mbla.results.collapse.mechanics import (
-    curvature_sides,
     dissipated_by_joint,
     interface_resultants,
     live_load_in_g,
@@ -24,6 +23,7 @@ from mbla.results.collapse.mechanics import (
     support_reactions,
     work_of,
 )
+from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.forces import work_lines
 from mbla.results.record.mechanism_json import mechanism_json
 from mbla.solution.solution import Mechanics

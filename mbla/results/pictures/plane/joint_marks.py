@@ -6,8 +6,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
-from mbla.results.collapse.mechanics import curvature_sides
 from mbla.results.collapse.motion import moved_points
+from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.pictures.page import HINGE, INK, OPEN, SLIDE
 from mbla.results.pictures.plane.flat import Flat, flat_joints
 from mbla.results.pictures.plane.sheet import Sheet
