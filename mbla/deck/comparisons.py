@@ -55,10 +55,8 @@ def read_comparison(text: str) -> Comparison:
     """
     source = text.strip().removeprefix("=")
     if path := _KEY_PATH.search(source):
-        raise ExpressionError(
-            "wrong-comparison",
-            f"{path.group()} is no name of letters, digits and _: give that parameter one, with its key",
-        )
+        words = f"{path.group()} is no name of letters, digits and _: give that parameter one, with its key"
+        raise ExpressionError("wrong-comparison", words)
     if _ASSIGNMENT.search(source):
         raise ExpressionError("wrong-comparison", "= compares nothing: write == for equal numbers")
     node = parse_source(source)

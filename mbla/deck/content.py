@@ -86,13 +86,11 @@ def convex_outlines(deck: DeckContent) -> Iterator[Finding]:
 def given_interfaces_of_the_whole(deck: DeckContent) -> Iterator[Finding]:
     """Interfaces on the plane of symmetry are found among the images, which a table of the half does not know."""
     if deck.contacts.table is not None and deck.symmetry:
-        yield Finding(
-            "symmetry-broken",
+        words = (
             "does not go with symmetry, which has interfaces with images: give the whole structure, or leave "
-            "contacts to be found",
-            "contacts",
-            "table",
+            "contacts to be found"
         )
+        yield Finding("symmetry-broken", words, "contacts", "table")
 
 
 @rule(DeckContent)

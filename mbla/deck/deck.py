@@ -129,15 +129,8 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     if not reading.whole:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)
     if "mbla_sweep" in tree.data and "mbla" not in tree.data:
-        raise DeckError(
-            [
-                tree.fault(
-                    ("mbla_sweep",),
-                    Message("sweep-file-and-deck", "this is a sweep file, not a deck: mbla sweep runs it"),
-                    at_key=True,
-                )
-            ]
-        )
+        words = "this is a sweep file, not a deck: mbla sweep runs it"
+        raise DeckError([tree.fault(("mbla_sweep",), Message("sweep-file-and-deck", words), at_key=True)])
     if not expected:
         tree.data.pop("expected", None)
     units = _units(tree.data)

@@ -10,10 +10,12 @@ the names and nodes listed here is ever looked at, so that a deck from a strange
 from __future__ import annotations
 
 import ast
+import contextlib
 import math
 import operator
 import warnings
 from collections.abc import Callable, Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from mbla.deck.suggestions import unknown
@@ -71,9 +73,9 @@ def is_expression(value: object) -> bool:
 
 
 class Parameters:
-    """Values of the deck's parameters, each evaluated when first used.
+    """Values of the deck's parameters.
 
-    A parameter without a value is either to blame for it (``_failures``, with what is wrong) or depends on one that is.
+    A parameter without a value is either to blame for it (``failures``, with what is wrong) or depends on one that is.
     """
 
     def __init__(self, raw: Mapping[str, object]) -> None:
@@ -81,8 +83,17 @@ class Parameters:
         self._raw = raw
         self._values: dict[str, float] = {}
         self._failures: dict[str, Message] = {}
-        self._without_value: set[str] = set()
-        self.used: set[str] = set()
+        self._expressions: dict[str, ast.expr] = {}
+        for name, value in raw.items():
+            if isinstance(value, str) and is_expression(value):
+                try:
+                    self._expressions[name] = _parse(value)
+                except ExpressionError as error:
+                    self._failures[name] = error.message
+        self._needs = {name: self._parameters_in(expression) for name, expression in self._expressions.items()}
+        self.used = {name for needed in self._needs.values() for name in needed}
+        for name in self._in_order():
+            self._settle(name)
 
     def evaluate(self, text: str) -> float:
         """Value of an ``"=..."`` string.
@@ -93,9 +104,8 @@ class Parameters:
             with what is wrong; ParameterFaultError where a parameter is, rather than this expression
         """
         expression = _parse(text)
-        for name in self._parameters_in(expression):
-            self._resolve(name)
-        return evaluate(expression, self._value, 0)
+        self.used.update(self._parameters_in(expression))
+        return evaluate(expression, self.value, 0)
 
     def value(self, name: str) -> float:
         """Value of a name: of a parameter or a constant.
@@ -105,38 +115,6 @@ class Parameters:
         ExpressionError
             if there is none; ParameterFaultError where the parameter itself is at fault
         """
-        raw = self._raw.get(name)
-        if isinstance(raw, float):
-            return raw
-        if raw is not None:
-            self._resolve(name)
-        return self._value(name)
-
-    def dependencies(self, names: Iterable[str]) -> set[str]:
-        """Parameters that these depend on, themselves among them; names of no parameter are left out."""
-        found: set[str] = set()
-        waiting = [name for name in names if name in self._raw]
-        while waiting:
-            name = waiting.pop()
-            if name not in found:
-                found.add(name)
-                expression = self._parsed(name)
-                waiting += [] if expression is None else self._parameters_in(expression)
-        return found
-
-    def failures(self) -> list[tuple[str, Message]]:
-        """(name, message) of every parameter whose own expression is at fault."""
-        for name in self._raw:
-            self._resolve(name)
-        return list(self._failures.items())
-
-    def _parameters_in(self, expression: ast.expr) -> list[str]:
-        names = [node.id for node in ast.walk(expression) if isinstance(node, ast.Name) and node.id in self._raw]
-        self.used.update(names)
-        return names
-
-    def _value(self, name: str) -> float:
-        """Value of a name in an expression whose parameters are resolved."""
         if name in CONSTANTS:
             return CONSTANTS[name]
         if name in self._values:
@@ -147,54 +125,57 @@ class Parameters:
             raise ExpressionError("wrong-expression", f"{name} is a function: write {name}(...)")
         raise ExpressionError("unknown-name", unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
 
-    def _resolve(self, name: str) -> None:
-        """Evaluate a parameter after those it depends on, by a stack of its own: chains may be long."""
-        active: dict[str, ast.expr | None] = {}
-        stack = [name]
-        while stack:
-            top = stack[-1]
-            if top in self._values or top in self._without_value:
-                stack.pop()
-                continue
-            if top not in active:
-                active[top] = self._parsed(top)
-            expression = active[top]
-            waiting = [] if expression is None else [d for d in self._parameters_in(expression) if not self._known(d)]
-            if not waiting:
-                self._settle(top, expression)
-            elif waiting[0] in active:
-                self._blame_cycle(stack[stack.index(waiting[0]) :])
-            else:
-                stack.append(waiting[0])
+    def dependencies(self, names: Iterable[str]) -> set[str]:
+        """Parameters that these depend on, themselves among them; names of no parameter are left out."""
+        found: set[str] = set()
+        waiting = [name for name in names if name in self._raw]
+        while waiting:
+            name = waiting.pop()
+            if name not in found:
+                found.add(name)
+                waiting += self._needs.get(name, [])
+        return found
 
-    def _known(self, name: str) -> bool:
-        return name in self._values or name in self._without_value
+    def failures(self) -> list[tuple[str, Message]]:
+        """(name, message) of every parameter whose own expression is at fault."""
+        return list(self._failures.items())
 
-    def _parsed(self, name: str) -> ast.expr | None:
-        """Expression of a parameter; None for numbers, and for what cannot be read."""
-        raw = self._raw[name]
-        if isinstance(raw, str) and is_expression(raw):
-            try:
-                return _parse(raw)
-            except ExpressionError as error:
-                self._failures[name] = error.message
-        return None
+    def _parameters_in(self, expression: ast.expr) -> list[str]:
+        return [node.id for node in ast.walk(expression) if isinstance(node, ast.Name) and node.id in self._raw]
 
-    def _settle(self, name: str, expression: ast.expr | None) -> None:
-        """Give a parameter its value, or put it among those without."""
+    def _in_order(self) -> list[str]:
+        """Parameters, each after those that it depends on; cycles, and what depends on them, are left out."""
+        sorter = TopologicalSorter({name: self._needs.get(name, ()) for name in self._raw})
+        with contextlib.suppress(CycleError):  # what is not in one is given all the same
+            sorter.prepare()
+        order: list[str] = []
+        while ready := sorter.get_ready():
+            order += ready
+            sorter.done(*ready)
+        left = self._raw.keys() - set(order)
+        seen: set[str] = set()
+        for name in (name for name in self._raw if name in left):
+            path: list[str] = []
+            while name not in seen:
+                seen.add(name)
+                path.append(name)
+                name = next(needed for needed in self._needs[name] if needed in left)
+            if name in path:
+                self._blame_cycle(path[path.index(name) :])
+        return order
+
+    def _settle(self, name: str) -> None:
+        """Give a parameter its value, or say why it has none; one that needs another without value has none either."""
         raw = self._raw[name]
         try:
-            if expression is not None:
-                self._values[name] = evaluate(expression, self._value, 0)
-                return
-            if isinstance(raw, (int, float)) and not isinstance(raw, bool):
+            if name in self._expressions:
+                self._values[name] = evaluate(self._expressions[name], self.value, 0)
+            elif isinstance(raw, (int, float)) and not isinstance(raw, bool):
                 self._values[name] = float(raw)
-                return
         except ParameterFaultError:
             pass  # reported under the name of the other parameter
         except ExpressionError as error:
             self._failures[name] = error.message
-        self._without_value.add(name)
 
     def _blame_cycle(self, names: list[str]) -> None:
         """Report a cycle once, from the member that stands first in the deck."""
@@ -203,7 +184,6 @@ class Parameters:
         cycle = [*names[first:], *names[:first], names[first]]
         shown = cycle if len(cycle) <= _LONGEST_CYCLE else [*cycle[: _LONGEST_CYCLE - 2], "...", cycle[-1]]
         self._failures[cycle[0]] = Message("wrong-expression", f"refers to itself: {' -> '.join(shown)}")
-        self._without_value.update(names)
 
 
 def _parse(text: str) -> ast.expr:

@@ -34,11 +34,8 @@ def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]
         size = math.hypot(*load.gravity) * METRES[units.length]
         if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:
             fault = tree.fault((*path, "gravity"), Message("gravity-unusual", f"is {size:.4g} m/s^2, not 9.81"))
-            yield Notice(
-                "warning",
-                "gravity-unusual",
-                f"{fault}: its numbers are in {units.unit('acceleration')}",
-            )
+            words = f"{fault}: its numbers are in {units.unit('acceleration')}"
+            yield Notice("warning", "gravity-unusual", words)
 
 
 def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:

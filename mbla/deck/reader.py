@@ -156,11 +156,8 @@ class _Builder:
     def start_document(self, event: Any, mark: int) -> None:
         self.documents += 1
         if self.documents == 2:
-            self.fault(
-                mark,
-                Message("yaml-not-allowed", f"a second document begins here: a {self.kind.name} is one document"),
-                path=(),
-            )
+            words = f"a second document begins here: a {self.kind.name} is one document"
+            self.fault(mark, Message("yaml-not-allowed", words), path=())
             raise _StopError
         if event.version == (1, 1) or event.tags:
             self.fault(mark, Message("yaml-not-allowed", "directives other than %YAML 1.2 are not allowed"), path=())
@@ -206,21 +203,13 @@ class _Builder:
             self.fault(mark, Message("yaml-not-allowed", f"merge keys (<<) are not allowed: {self.kind.merge}"))
         elif not isinstance(value, str):
             self.leave_out()
-            self.fault(
-                mark,
-                Message(
-                    "key-not-text",
-                    f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing",
-                ),
-            )
+            words = f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing"
+            self.fault(mark, Message("key-not-text", words))
         elif value in self.data:
             self.key = _DROPPED
             first = self.place(self.marks.keys[value])
-            self.fault(
-                mark,
-                Message("duplicate-key", f"is given twice, first in line {first.line}"),
-                path=(*self.path(), value),
-            )
+            words = f"is given twice, first in line {first.line}"
+            self.fault(mark, Message("duplicate-key", words), path=(*self.path(), value))
         else:
             if len(self.data) == MOST_KEYS:
                 self.refuse_entry(mark, KEY_TOO_MANY, (*self.path(), value))

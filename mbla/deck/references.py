@@ -89,12 +89,8 @@ def check_references(tree: Tree) -> Iterator[Fault]:
             yield tree.fault(("joints", law), Message("reserved-name", message), at_key=True)
     for path, group in find(data, ["blocks", "#", "*", "group"]):
         if group == GROUND:
-            yield tree.fault(
-                path,
-                Message(
-                    "reserved-name", f"{GROUND} stands for ground planes in contacts.overrides: choose another name"
-                ),
-            )
+            words = f"{GROUND} stands for ground planes in contacts.overrides: choose another name"
+            yield tree.fault(path, Message("reserved-name", words))
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:

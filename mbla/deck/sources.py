@@ -127,13 +127,8 @@ def source_of_text(text: str, path: Path, label: str) -> SourceText:
 def check_characters(source: SourceText, kind: FileKind = DECK) -> None:
     """DeckError at the first control character."""
     if match := _CONTROL.search(source.text):
-        raise _refusal(
-            source,
-            match.start(),
-            Message(
-                "control-character", f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
-            ),
-        )
+        words = f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
+        raise _refusal(source, match.start(), Message("control-character", words))
 
 
 def has_control_character(text: str) -> bool:
@@ -156,11 +151,8 @@ def _decode(content: bytes, label: str, kind: FileKind) -> str:
         # `errors="replace"` keeps every line break in front of the bad byte, so line and column are right.
         before = content[: error.start].decode("utf-8-sig", "replace")
         byte = content[error.start]
-        raise _refusal(
-            SourceText(label, before),
-            len(before),
-            Message("not-utf-8", f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"),
-        ) from None
+        words = f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"
+        raise _refusal(SourceText(label, before), len(before), Message("not-utf-8", words)) from None
     check_characters(SourceText(label, text), kind)
     return text
 

@@ -89,14 +89,8 @@ def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: S
     for load_case in load_cases:
         if not site.roster.faults and does_nothing(load_case.live_load, supports):
             where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
-            site.refuse(
-                Finding(
-                    "live-load-without-effect",
-                    f"the supports take every live load{where}, for they act on guided blocks across what these may do",
-                    *path,
-                    "live",
-                )
-            )
+            words = f"the supports take every live load{where}, for they act on guided blocks across what these may do"
+            site.refuse(Finding("live-load-without-effect", words, *path, "live"))
     return load_cases
 
 

@@ -107,11 +107,8 @@ def arch_shape(arch: ArchItem) -> Iterator[Finding]:
     if arch.joint is not None and arch.springers != "ground":
         yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")
     if arch.piers is not None and arch.springers != "none":
-        yield Finding(
-            "key-of-another-choice",
-            f"the springings have piers or springers: leave out one of them (springers: {arch.springers})",
-            "piers",
-        )
+        words = f"the springings have piers or springers: leave out one of them (springers: {arch.springers})"
+        yield Finding("key-of-another-choice", words, "piers")
 
 
 @rule(ArchItem)
@@ -141,11 +138,8 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
             elif key not in OPTIONAL and key != "embrace" and not given(section, (key,)):
                 yield Finding("missing-key", f"needs {key} for shape: {shape}")
         elif given(section, (key,)):
-            yield Finding(
-                "key-of-another-choice",
-                f"applies to shape: {listed(shapes)} only: leave it out, or change shape ({shape} given)",
-                key,
-            )
+            words = f"applies to shape: {listed(shapes)} only: leave it out, or change shape ({shape} given)"
+            yield Finding("key-of-another-choice", words, key)
 
 
 def range_of_rise(
@@ -167,8 +161,5 @@ def range_of_rise(
             yield Finding("out-of-bounds", f"must be <= {span / 2:g}, half the span, for a basket arch", *path)
         elif rise <= least * (1 + ROUNDING):
             degrees = math.degrees(angle)
-            yield Finding(
-                "out-of-bounds",
-                f"must be > {least:g} for side arcs of {degrees:g} degrees: a larger side_angle allows a lower one",
-                *path,
-            )
+            words = f"must be > {least:g} for side arcs of {degrees:g} degrees: a larger side_angle allows a lower one"
+            yield Finding("out-of-bounds", words, *path)

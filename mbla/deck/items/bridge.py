@@ -101,19 +101,13 @@ def bridge_arches(bridge: BridgeItem) -> Iterator[Finding]:
     for key in ("rise", "voussoirs"):
         value = getattr(bridge, key)
         if isinstance(value, list) and len(value) != len(bridge.spans):
-            yield Finding(
-                "arch-shape",
-                f"has {len(value)} values for {len(bridge.spans)} spans: give one for all or one for each",
-                key,
-            )
+            words = f"has {len(value)} values for {len(bridge.spans)} spans: give one for all or one for each"
+            yield Finding("arch-shape", words, key)
             return
     if bridge.shape == "semicircular":
         if bridge.rise is not None:
-            yield Finding(
-                "key-of-another-choice",
-                "is half the span for shape: semicircular: leave it out, or change shape",
-                "rise",
-            )
+            words = "is half the span for shape: semicircular: leave it out, or change shape"
+            yield Finding("key-of-another-choice", words, "rise")
     elif bridge.rise is None:
         yield Finding("missing-key", f"needs rise for shape: {bridge.shape}")
     else:
@@ -123,17 +117,11 @@ def bridge_arches(bridge: BridgeItem) -> Iterator[Finding]:
             path = ("rise", number) if each else ("rise",)
             yield from range_of_rise(bridge.shape, span, rise, bridge.side_angle, path)
             if bridge.shape == "segmental" and rise > span / 2 * (1 + ROUNDING):
-                yield Finding(
-                    "out-of-bounds",
-                    f"must be <= {span / 2:g}, half the span: the extrados may not lean back over the piers",
-                    *path,
-                )
+                words = f"must be <= {span / 2:g}, half the span: the extrados may not lean back over the piers"
+                yield Finding("out-of-bounds", words, *path)
     if bridge.side_angle is not None and bridge.shape != "basket":
-        yield Finding(
-            "key-of-another-choice",
-            f"applies to shape: basket only: leave it out, or change shape ({bridge.shape} given)",
-            "side_angle",
-        )
+        words = f"applies to shape: basket only: leave it out, or change shape ({bridge.shape} given)"
+        yield Finding("key-of-another-choice", words, "side_angle")
 
 
 @rule(BridgeItem)
@@ -147,11 +135,8 @@ def bridge_parts(bridge: BridgeItem) -> Iterator[Finding]:
         yield Finding("missing-key", "needs both height and courses, or none of them", "abutments")
     if bridge.spandrels == "none":
         for key in given(bridge, (*OF_SPANDRELS, *OF_EDGES, "parapets")):
-            yield Finding(
-                "key-of-another-choice",
-                "applies to a bridge with spandrels: leave it out, or write spandrels: full or edges",
-                key,
-            )
+            words = "applies to a bridge with spandrels: leave it out, or write spandrels: full or edges"
+            yield Finding("key-of-another-choice", words, key)
         return
     for key in OF_SPANDRELS:
         if not given(bridge, (key,)):

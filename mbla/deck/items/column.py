@@ -70,8 +70,5 @@ def column_profile(column: ColumnItem) -> Iterator[Finding]:
     """An entasis shows at joints between the ends only."""
     count = column.drums if column.drum_heights is None else len(column.drum_heights)
     if column.entasis > 0 and count == 1:
-        yield Finding(
-            "key-of-another-choice",
-            "has no effect on a single drum: it is the swelling of the joints between drums",
-            "entasis",
-        )
+        words = "has no effect on a single drum: it is the swelling of the joints between drums"
+        yield Finding("key-of-another-choice", words, "entasis")

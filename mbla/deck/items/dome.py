@@ -86,22 +86,16 @@ def dome_shape(dome: DomeItem) -> Iterator[Finding]:
 def dome_bond(dome: DomeItem) -> Iterator[Finding]:
     """Half a block is a whole number of facets."""
     if dome.bond == "running" and dome.facets is not None and dome.facets % 2:
-        yield Finding(
-            "out-of-bounds",
-            "must be even in running bond: rings are turned by half a block; or write bond: stack",
-            "facets",
-        )
+        words = "must be even in running bond: rings are turned by half a block; or write bond: stack"
+        yield Finding("out-of-bounds", words, "facets")
 
 
 @rule(DomeItem)
 def dome_springers(dome: DomeItem) -> Iterator[Finding]:
     """Ground is one plane."""
     if dome.springers == "ground" and dome.shape == "segmental" and dome.drum is None:
-        yield Finding(
-            "vault-shape",
-            "a springing on ground is level, that of a segmental dome is a cone: write blocks, or add a drum",
-            "springers",
-        )
+        words = "a springing on ground is level, that of a segmental dome is a cone: write blocks, or add a drum"
+        yield Finding("vault-shape", words, "springers")
     if dome.springers == "blocks" and dome.drum is not None:
         yield Finding("key-of-another-choice", "a drum carries the dome: write ground or none", "springers")
     if dome.joint is not None and dome.springers != "ground":

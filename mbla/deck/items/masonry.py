@@ -146,18 +146,11 @@ def check_bond(wall: Masonry) -> Iterator[Finding]:
                 "out-of-bounds", f"must be >= 2 in {wall.bond} bond, whose headers lie across the leaves", "leaves"
             )
         elif abs(length - across) > ROUNDING * across:
-            yield Finding(
-                "out-of-bounds",
-                f"must be {across:g} in {wall.bond} bond: a unit laid across goes through all leaves",
-                "unit",
-                0,
-            )
+            words = f"must be {across:g} in {wall.bond} bond: a unit laid across goes through all leaves"
+            yield Finding("out-of-bounds", words, "unit", 0)
         if wall.headers is not None:
-            yield Finding(
-                "key-of-another-choice",
-                f"applies to running and stack bond: {wall.bond} bond has headers of its own",
-                "headers",
-            )
+            words = f"applies to running and stack bond: {wall.bond} bond has headers of its own"
+            yield Finding("key-of-another-choice", words, "headers")
     elif wall.headers is not None and wall.leaves == 1:
         yield Finding("missing-key", "needs leaves >= 2 that they tie", "headers")
     if wall.irregular is not None:
@@ -183,11 +176,8 @@ def check_opening(wall: Masonry, opening: Opening, length: float) -> Iterator[Fi
         path = ("arch", "rise")
         room, half = opening.arch.courses * height, (opening.to[0] - opening.from_[0]) / 2
         if opening.arch.rise >= min(room, half):
-            yield Finding(
-                "out-of-bounds",
-                f"must be < {min(room, half):g}: half the opening, and the height of the arch in courses",
-                *path,
-            )
+            words = f"must be < {min(room, half):g}: half the opening, and the height of the arch in courses"
+            yield Finding("out-of-bounds", words, *path)
         elif not opening.arch.rise / half:
             yield Finding("out-of-bounds", f"is lost beside half the opening, {half:g}: make it larger", *path)
 
@@ -212,11 +202,8 @@ def check_buttress(wall: Masonry, buttress: Buttress, length: float) -> Iterator
     elif buttress.courses is None and round(sloped) >= wall.courses:
         yield Finding("wall-shape", "must leave a level part: it is as high as the wall", "slope")
     elif buttress.courses is not None and buttress.courses + round(sloped) > wall.courses:
-        yield Finding(
-            "out-of-bounds",
-            f"must be <= {wall.courses - round(sloped)}: with its slope it ends at the top of the wall",
-            "courses",
-        )
+        words = f"must be <= {wall.courses - round(sloped)}: with its slope it ends at the top of the wall"
+        yield Finding("out-of-bounds", words, "courses")
 
 
 @rule(Opening)
@@ -232,10 +219,7 @@ def arch_of_opening(arch: OpeningArch) -> Iterator[Finding]:
     if arch.embrace is None:
         return
     if arch.rise > 0:
-        yield Finding(
-            "key-of-another-choice",
-            "applies to flat arches: that of a segment of a circle follows from its rise",
-            "embrace",
-        )
+        words = "applies to flat arches: that of a segment of a circle follows from its rise"
+        yield Finding("key-of-another-choice", words, "embrace")
     elif arch.embrace >= 180:
         yield Finding("out-of-bounds", "must be < 180: the end joints of a flat arch meet below it", "embrace")

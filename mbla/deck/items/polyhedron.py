@@ -29,13 +29,8 @@ def polyhedron_faces(polyhedron: PolyhedronItem) -> Iterator[Finding]:
     for number, face in enumerate(polyhedron.faces):
         if max(face) >= n_vertices:
             position = next(i for i, corner in enumerate(face) if corner >= n_vertices)
-            yield Finding(
-                "out-of-bounds",
-                f"must be <= {n_vertices - 1}: there are {n_vertices} vertices, from 0",
-                "faces",
-                number,
-                position,
-            )
+            words = f"must be <= {n_vertices - 1}: there are {n_vertices} vertices, from 0"
+            yield Finding("out-of-bounds", words, "faces", number, position)
         elif len(set(face)) < len(face):
             position = next(i for i, corner in enumerate(face) if corner in face[:i])
             yield Finding("duplicate-key", "is a corner of this face already", "faces", number, position)

@@ -31,9 +31,5 @@ class TrilithonItem(Item):
 def trilithon_lintel(trilithon: TrilithonItem) -> Iterator[Finding]:
     """The lintel rests on both uprights."""
     if trilithon.lintel[0] <= trilithon.opening:
-        yield Finding(
-            "out-of-bounds",
-            f"must be > {trilithon.opening:g}, the opening: the lintel rests on both uprights",
-            "lintel",
-            0,
-        )
+        words = f"must be > {trilithon.opening:g}, the opening: the lintel rests on both uprights"
+        yield Finding("out-of-bounds", words, "lintel", 0)

@@ -96,11 +96,8 @@ def vault_curve(vault: VaultItem) -> Iterator[Finding]:
         yield from one_of(vault, ("rise", "embrace"), " for a segmental vault")
         return
     if vault.embrace is not None:
-        yield Finding(
-            "key-of-another-choice",
-            f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)",
-            "embrace",
-        )
+        words = f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)"
+        yield Finding("key-of-another-choice", words, "embrace")
     if vault.shape == "semicircular" and vault.rise is not None:
         yield Finding(
             "key-of-another-choice", "does not apply to shape: semicircular: leave it out, or change shape", "rise"
@@ -134,22 +131,16 @@ def at_most_semicircular(vault: CrossVaultItem | PavilionVaultItem) -> Iterator[
         yield Finding("out-of-bounds", "must be <= 180: two barrels meet in it", "embrace")
     half = vault.bay[0] / 2
     if vault.shape == "segmental" and vault.rise is not None and vault.rise > half * (1 + ROUNDING):
-        yield Finding(
-            "out-of-bounds",
-            f"must be <= {half:g}, half the span, for a segmental vault: two barrels meet in it",
-            "rise",
-        )
+        words = f"must be <= {half:g}, half the span, for a segmental vault: two barrels meet in it"
+        yield Finding("out-of-bounds", words, "rise")
 
 
 @rule(CrossVaultItem, PavilionVaultItem)
 def level_springers(vault: VaultItem) -> Iterator[Finding]:
     """Where two webs meet at a springing, ground is one plane if it is level."""
     if vault.springers == "ground" and vault.shape not in LEVEL:
-        yield Finding(
-            "vault-shape",
-            f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks",
-            "springers",
-        )
+        words = f"springings on ground are level, those of a {vault.shape} vault slope in each web: write blocks"
+        yield Finding("vault-shape", words, "springers")
 
 
 @rule(PavilionVaultItem)
@@ -158,8 +149,5 @@ def pavilion_keystone(vault: PavilionVaultItem) -> Iterator[Finding]:
     if vault.courses % 2 == 0:
         yield Finding("out-of-bounds", "must be odd: a keystone closes the crown", "courses")
     if vault.shape == "pointed":
-        yield Finding(
-            "vault-shape",
-            "must not be pointed: a keystone closes the crown, and the apex would be a kink in it",
-            "shape",
-        )
+        words = "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"
+        yield Finding("vault-shape", words, "shape")

@@ -123,12 +123,11 @@ def _check_lines(
         if long == 0:
             yield Finding("wall-shape", "is the point before it", *path)
         elif short > SQUARE * long:
-            yield Finding(
-                "wall-shape",
+            words = (
                 "must lie along x or along y from the point before it, since only right angles can be bonded here; "
-                "a plan in another direction is turned by transform",
-                *path,
+                "a plan in another direction is turned by transform"
             )
+            yield Finding("wall-shape", words, *path)
 
 
 def _check_turns(item: WallsItem) -> Iterator[Finding]:

@@ -164,17 +164,11 @@ def linear_programs(analysis: AnalysisSection) -> Iterator[Finding]:
         if value != special:
             continue
         if not normality:
-            yield Finding(
-                "key-of-another-choice",
-                f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}",
-                key,
-            )
+            words = f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}"
+            yield Finding("key-of-another-choice", words, key)
         elif analysis.contact_model != "concave":
-            yield Finding(
-                "key-of-another-choice",
-                f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}",
-                key,
-            )
+            words = f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}"
+            yield Finding("key-of-another-choice", words, key)
 
 
 CONVEX_FLOW_RULES = ("associative", "non_associative")
@@ -187,23 +181,14 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
         return
     if analysis.flow_rule not in CONVEX_FLOW_RULES:
         allowed = listed(CONVEX_FLOW_RULES)
-        yield Finding(
-            "key-of-another-choice",
-            f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)",
-            "flow_rule",
-        )
+        words = f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"
+        yield Finding("key-of-another-choice", words, "flow_rule")
     if analysis.flow_rule == "non_associative" and analysis.scheme not in ("auto", "proximal"):
-        yield Finding(
-            "key-of-another-choice",
-            f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)",
-            "scheme",
-        )
+        words = f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)"
+        yield Finding("key-of-another-choice", words, "scheme")
     if analysis.solver == "mbla":
-        yield Finding(
-            "key-of-another-choice",
-            "applies to contact_model: concave only, whose cones have three dimensions: use auto",
-            "solver",
-        )
+        words = "applies to contact_model: concave only, whose cones have three dimensions: use auto"
+        yield Finding("key-of-another-choice", words, "solver")
     if analysis.force_ranges:
         yield Finding("key-of-another-choice", "applies to contact_model: concave only: use false", "force_ranges")
 

@@ -54,13 +54,8 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
             yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
     special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
     for number, kind in special[1:]:
-        yield Finding(
-            "one-of-several",
-            f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case",
-            "live",
-            number,
-            kind,
-        )
+        words = f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"
+        yield Finding("one-of-several", words, "live", number, kind)
     if len(special) == 1 and special[0][1] == "tilt" and len(case.live or []) > 1:
         other = next(number for number in range(len(case.live or [])) if number != special[0][0])
         yield Finding(

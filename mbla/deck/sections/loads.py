@@ -239,11 +239,8 @@ def load_keys(load: Load) -> Iterator[Finding]:
     if load.on is not None and kind in ON_ALL_BLOCKS:
         yield Finding("key-of-another-choice", f"does not apply to {kind}, which {ON_ALL_BLOCKS[kind]}", "on")
     if load.on is not None and kind == "loads":
-        yield Finding(
-            "key-of-another-choice",
-            "does not apply to named loads: each of them says itself on which blocks it acts",
-            "on",
-        )
+        words = "does not apply to named loads: each of them says itself on which blocks it acts"
+        yield Finding("key-of-another-choice", words, "on")
     if load.on is not None and load.table is not None:
         yield Finding("key-of-another-choice", "does not apply to a table, whose rows name their blocks", "on")
     if load.pattern is not None and kind != "acceleration":

@@ -69,9 +69,8 @@ def joint_strengths(joint: JointLaw) -> Iterator[Finding]:
         return
     friction = math.tan(math.radians(joint.friction_angle or 0.0)) if joint.friction is None else joint.friction
     if joint.cohesion < friction * joint.tensile_strength * (1 - ROUNDING):
-        yield Finding(
-            "out-of-bounds",
+        words = (
             f"must be <= {joint.cohesion / friction:.6g}, cohesion / friction, where the friction cone ends: "
-            f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}",
-            "tensile_strength",
+            f"lower it, or raise cohesion to {friction * joint.tensile_strength:.6g}"
         )
+        yield Finding("out-of-bounds", words, "tensile_strength")

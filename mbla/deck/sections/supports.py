@@ -94,32 +94,20 @@ def support(item: Support) -> Iterator[Finding]:
     if item.ground is None and item.blocks is None:
         yield Finding("missing-key", "needs one of ground or blocks")
     elif item.joint is not None and item.ground is None:
-        yield Finding(
-            "key-of-another-choice",
-            "applies with ground only: blocks that do not move have the joints of their contacts",
-            "joint",
-        )
+        words = "applies with ground only: blocks that do not move have the joints of their contacts"
+        yield Finding("key-of-another-choice", words, "joint")
     ways = given(item, ("fixed", "slide", "turn"))
     if item.ground is not None:
         for key in (*ways, *given(item, ("together",))):
-            yield Finding(
-                "key-of-another-choice",
-                "does not apply to ground, which does not move: say it of blocks in an item of their own",
-                key,
-            )
+            words = "does not apply to ground, which does not move: say it of blocks in an item of their own"
+            yield Finding("key-of-another-choice", words, key)
         return
     if item.fixed is not None and len(ways) > 1:
-        yield Finding(
-            "one-of-several",
-            "only one of fixed, and slide or turn, may be given: what may slide or turn is held otherwise",
-            ways[1],
-        )
+        words = "only one of fixed, and slide or turn, may be given: what may slide or turn is held otherwise"
+        yield Finding("one-of-several", words, ways[1])
     if item.together and not ways:
-        yield Finding(
-            "key-of-another-choice",
-            "applies with fixed, slide or turn only: blocks that do not move do so together anyway",
-            "together",
-        )
+        words = "applies with fixed, slide or turn only: blocks that do not move do so together anyway"
+        yield Finding("key-of-another-choice", words, "together")
 
 
 @rule(Support)

@@ -28,8 +28,8 @@ KINDS = {
     "trilithon": "cuboids",
     "dome": "dome",
     "barrel_vault": "barrel_vault",
-    "cross_vault": "cross_vault",
-    "pavilion_vault": "pavilion_vault",
+    "cross_vault": "mitred_vaults",
+    "pavilion_vault": "mitred_vaults",
     "spiral_stair": "spiral_stair",
 }
 """keys of the items in the deck, and the file with the generator of each"""

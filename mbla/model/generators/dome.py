@@ -144,11 +144,8 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
             if outside - foot[1, 0] > FLUSH * dome.thickness:
                 profile = np.insert(profile, 2, foot[1], axis=0)
             if foot[1, 1] <= low:
-                raise ItemRefused(
-                    Finding(
-                        "vault-shape", "too many: the springing joint cuts through the last course", "drum", "courses"
-                    )
-                )
+                words = "too many: the springing joint cuts through the last course"
+                raise ItemRefused(Finding("vault-shape", words, "drum", "courses"))
         yield dome.ring(profile, course - drum.courses)
 
 

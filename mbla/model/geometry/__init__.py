@@ -61,10 +61,8 @@ def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geome
     except OSError as error:
         raise _unreadable(error) from error
     except MemoryError as error:
-        raise GeometryFileError(
-            "geometry-too-large",
-            f"needs far more memory than its {size} bytes can hold blocks for: damaged or packed; export it anew",
-        ) from error
+        words = f"needs far more memory than its {size} bytes can hold blocks for: damaged or packed; export it anew"
+        raise GeometryFileError("geometry-too-large", words) from error
 
 
 def read_geometry(path: Path) -> Geometry:

@@ -70,10 +70,8 @@ def read_compas_json(path: Path) -> Geometry:
         raise malformed("COMPAS JSON", reason) from error
     if found.others and not found.surfaces:
         kinds = ", ".join(sorted(found.others))
-        raise GeometryFileError(
-            "geometry-without-blocks",
-            f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)",
-        )
+        words = f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)"
+        raise GeometryFileError("geometry-without-blocks", words)
     names = tuple(found.names) if any(found.names) else ()
     return Geometry(join_polyhedra(found.surfaces), _notices(found), names)
 

@@ -130,10 +130,8 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
         return
     closed, points = _flattened(entity, f"a {kind} on layer {layer}")
     if not closed and kind in ("POLYLINE", "LWPOLYLINE") and entity.is_closed:
-        raise GeometryFileError(
-            "geometry-file",
-            f"a {kind} on layer {layer} has no area: it is closed, and its corners lie at one place or on one line",
-        )
+        words = f"a {kind} on layer {layer} has no area: it is closed, and its corners lie at one place or on one line"
+        raise GeometryFileError("geometry-file", words)
     if len(points) < 2:
         return
     extent = float(np.ptp(points, axis=0).max())

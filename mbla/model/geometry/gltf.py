@@ -81,10 +81,8 @@ def _check_version(document: dict[str, Any]) -> None:
         raise ValueError(f"its version is {version}, not 2.0: export it as glTF 2.0")
     unknown = [name for name in document.get("extensionsRequired", []) if not name.startswith(KNOWN_EXTENSIONS)]
     if unknown:
-        raise GeometryFileError(
-            "geometry-not-read",
-            f"needs {', '.join(map(str, unknown))}: export it without compression and without that extension",
-        )
+        words = f"needs {', '.join(map(str, unknown))}: export it without compression and without that extension"
+        raise GeometryFileError("geometry-not-read", words)
 
 
 def _geometry(document: dict[str, Any], buffers: Buffers) -> Geometry:

@@ -126,10 +126,8 @@ def _refuse_misspelt(card: _Card) -> None:
     if card.keyword not in (*READ, *ALIKE):
         near = get_close_matches(card.keyword, READ, n=1, cutoff=0.8)
         if near:
-            raise GeometryFileError(
-                "geometry-file",
-                f"line {card.line} cannot be read: *{card.keyword} is no card; did you mean *{near[0]}?",
-            )
+            words = f"line {card.line} cannot be read: *{card.keyword} is no card; did you mean *{near[0]}?"
+            raise GeometryFileError("geometry-file", words)
 
 
 def _read_nodes(content: _Content, card: _Card) -> None:

@@ -180,14 +180,8 @@ def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
     if live:
-        site.refuse(
-            Finding(
-                "live-load-without-effect",
-                "every block it acts on is fixed: the live load has no effect",
-                *entry.path,
-                key,
-            )
-        )
+        words = "every block it acts on is fixed: the live load has no effect"
+        site.refuse(Finding("live-load-without-effect", words, *entry.path, key))
     elif kind not in ("gravity", "acceleration"):
         name = named(blocks, site.blocks.name)
         moves = "does not move" if len(blocks) == 1 else "do not move"

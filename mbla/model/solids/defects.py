@@ -118,11 +118,8 @@ def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
     for one, other in _coincident_vertices(polyhedra, extents):
         block = int(polyhedra.block_of_vertex[one])
         first = int(polyhedra.vertex_start[block])
-        defects.append(
-            Defect(
-                block, Message("bad-polyhedron", f"vertices {one - first} and {other - first} lie at the same place")
-            )
-        )
+        words = f"vertices {one - first} and {other - first} lie at the same place"
+        defects.append(Defect(block, Message("bad-polyhedron", words)))
     return defects
 
 
@@ -161,14 +158,8 @@ def edge_defects(polyhedra: Polyhedra, edges: Edges) -> list[Defect]:
             message = f"faces {twice[0]} and {twice[1]} have the same corners: each face is listed once"
             defects.append(Defect(block, Message("bad-polyhedron", message), twice[1]))
         elif len(crowded):
-            defects.append(
-                Defect(
-                    block,
-                    Message(
-                        "bad-polyhedron", f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"
-                    ),
-                )
-            )
+            words = f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"
+            defects.append(Defect(block, Message("bad-polyhedron", words)))
         else:
             face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
             words = _edges_in_words(polyhedra, edges, block, lone)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.vaults import CrossVaultItem
-from mbla.model.generators.cross_vault import generate_cross_vault
 from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.mitred_vaults import generate_cross_vault
 from tests.model.generators.assembly import assemble
 from tests.model.generators.vault_sections import areas_and_centroids, joints_of_circle
 from tests.model.shapes import build_raw

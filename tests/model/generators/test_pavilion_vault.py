@@ -8,7 +8,7 @@ import pytest
 
 from mbla.deck.items.vaults import PavilionVaultItem
 from mbla.model.generators.generator import Generated, Site
-from mbla.model.generators.pavilion_vault import generate_pavilion_vault
+from mbla.model.generators.mitred_vaults import generate_pavilion_vault
 from tests.model.generators.assembly import assemble
 from tests.model.generators.vault_sections import areas_and_centroids, joints_of_circle
 from tests.model.shapes import build_raw

@@ -76,12 +76,8 @@ def check_buttresses(
                 yield Finding("wall-shape", message, "buttresses", each.number)
         for other in placed[: placed.index(each)]:
             if other.buttress.bonded and other.start < each.end - room and other.end > each.start + room:
-                yield Finding(
-                    "wall-shape",
-                    f"runs through the wall where buttresses[{other.number}] does",
-                    "buttresses",
-                    each.number,
-                )
+                words = f"runs through the wall where buttresses[{other.number}] does"
+                yield Finding("wall-shape", words, "buttresses", each.number)
 
 
 def buttress_leg(host: Leg, placed: PlacedButtress) -> Leg:

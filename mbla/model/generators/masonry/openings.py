@@ -63,12 +63,8 @@ def check_opening(item: Masonry, opening: Opening, tolerance: float) -> Iterator
     for key, value in (("from", opening.from_[1]), ("to", opening.to[1])):
         if abs(value - round(value / height) * height) > tolerance * height:
             below = int(value // height)
-            yield Finding(
-                "wall-shape",
-                f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}",
-                key,
-                1,
-            )
+            words = f"must lie on a bed joint; the nearest are {below * height:g} and {(below + 1) * height:g}"
+            yield Finding("wall-shape", words, key, 1)
     if round(opening.to[1] / height) == round(opening.from_[1] / height):
         yield Finding("out-of-bounds", "must be at least a course above from", "to", 1)
     if opening.to[0] - opening.from_[0] <= NO_UNIT * item.unit[0]:
