@@ -1,4 +1,4 @@
-"""From the deck to the model: items, blocks, supports, joints, loads, images, in this order.
+"""From the deck to the model: items, blocks, supports, masses, joints, loads, images, in this order.
 
 The structure (blocks, supports, prescribed interfaces) depends on no load, joint law or setting of the analysis: decks
 that differ in these only share it.
@@ -10,25 +10,30 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from mbla.arrays import BoolArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.sections.output import OutputSection
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.added_masses import with_added_masses
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
-from mbla.model.selectors import Roster, check_overrides, unplaced
+from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
+from mbla.model.solids.blocks import Blocks, distance_outside
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_fault, far_notices
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports.build import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
+from mbla.model.wording import named, vector
 from mbla.process.sharing import once
 
 
@@ -202,3 +207,39 @@ def joint_notices(deck: Deck) -> list[Notice]:
         for name, law in deck.content.joints.items()
         if (law.friction or 0.0) > UNLIMITED or (law.friction_angle or 0.0) > steepest
     ]
+
+
+def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) -> Blocks:
+    """The blocks with the masses of the deck, shared in proportion to the volumes of the blocks selected.
+
+    Each share is at the centroid of its block; that of a mass on one block is where the deck says. Refuses points
+    for several blocks, and remarks on masses that do nothing or lie far off.
+
+    fixed : (n_blocks,) blocks that do not move
+    """
+    blocks = roster.blocks
+    total, moment = np.zeros(len(blocks)), np.zeros((len(blocks), 3))
+    for number, added in enumerate(masses):
+        path: KeyPath = ("masses", number)
+        chosen = select_blocks(added.on, (*path, "on"), roster)
+        if chosen is None:
+            continue
+        if added.at is not None and len(chosen) != 1:
+            message = f"applies to a mass on one block, {len(chosen)} are selected: give an index, or one mass for each"
+            roster.refuse(Finding("one-block-only", message, *path, "at"))
+            continue
+        shares = added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0)
+        arms = np.zeros((len(chosen), 3)) if added.at is None else np.array([added.at]) - blocks.centroids[chosen]
+        total[chosen] += shares
+        moment[chosen] += shares[:, None] * arms
+        if added.at is not None:
+            off = distance_outside(np.array(added.at), int(chosen[0]), blocks)
+            name = blocks.name(int(chosen[0]))
+            words = f"the mass at {vector(added.at)} on {name} lies {off:.4g} outside that block, with which it moves"
+            if off:
+                roster.remark(Notice("notice", "mass-outside-block", words))
+        if fixed[chosen].all() and not fixed.all():
+            words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
+            roster.remark(Notice("warning", "mass-on-support", words))
+    arms = moment / np.where(total > 0.0, total, 1.0)[:, None]
+    return replace(blocks, added_masses=total, added_mass_points=blocks.centroids + arms)

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from mbla.deck.fields import section_keys
-from mbla.deck.key_reference import key_reference
+from mbla.deck.schema import key_reference
 from mbla.deck.section import Section
 
 

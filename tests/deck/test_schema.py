@@ -9,9 +9,16 @@ import jsonschema
 import pytest
 
 from mbla.deck import read_deck
-from mbla.deck.key_reference import key_reference
 from mbla.deck.reader import read_yaml
-from mbla.deck.schema import REPOSITORY, deck_schema, deck_schema_text, main, with_key_reference, write_schema
+from mbla.deck.schema import (
+    REPOSITORY,
+    deck_schema,
+    deck_schema_text,
+    key_reference,
+    main,
+    with_key_reference,
+    write_schema,
+)
 from mbla.deck.sources import SourceText
 from mbla.errors import DeckError
 from tests.deck.decks import BLOCK, changed, write

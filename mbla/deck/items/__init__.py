@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from mbla.deck.items.arch import ArchItem
-from mbla.deck.items.box import BoxItem
 from mbla.deck.items.bridge import BridgeItem
 from mbla.deck.items.column import ColumnItem
+from mbla.deck.items.cuboids import BoxItem, PolyhedronItem, StackItem, TrilithonItem
 from mbla.deck.items.dome import DomeItem
-from mbla.deck.items.mesh import MeshItem
-from mbla.deck.items.polyhedron import PolyhedronItem
+from mbla.deck.items.files import MeshItem, TableItem
 from mbla.deck.items.spiral_stair import SpiralStairItem
-from mbla.deck.items.stack import StackItem
-from mbla.deck.items.table import TableItem
-from mbla.deck.items.trilithon import TrilithonItem
 from mbla.deck.items.vaults import BarrelVaultItem, CrossVaultItem, PavilionVaultItem
 from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.deck.section import Section, exactly_one_of

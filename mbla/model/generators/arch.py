@@ -29,8 +29,7 @@ from mbla.model.generators.arch_sections import (
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.spline import through
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
-from mbla.model.solids.chains import prisms
-from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, prisms
 
 
 def amount_arch(item: ArchItem) -> Amount:

@@ -16,7 +16,7 @@ from mbla.deck.items.vaults import VaultItem
 from mbla.errors import Finding
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.generator import GroundPart, ItemRefused
-from mbla.model.solids.chains import in_space
+from mbla.model.solids.polyhedra import in_space
 
 
 @dataclass(frozen=True)

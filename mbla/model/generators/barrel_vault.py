@@ -13,7 +13,7 @@ from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import springer_polygons, springing_grounds, vault_section, voussoir_polygons
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.solids.chains import prisms
+from mbla.model.solids.polyhedra import prisms
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""

@@ -40,7 +40,7 @@ from mbla.model.generators.spandrels import (
     build_outline,
     course_pieces,
 )
-from mbla.model.solids.chains import prisms
+from mbla.model.solids.polyhedra import prisms
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.column import ColumnEnd, ColumnItem
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
-from mbla.model.solids.chains import chains
+from mbla.model.solids.polyhedra import chains
 
 PolygonKind = Literal["inscribed", "circumscribed", "equal_area"]
 

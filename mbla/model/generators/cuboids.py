@@ -9,10 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.box import BoxItem
-from mbla.deck.items.polyhedron import PolyhedronItem
-from mbla.deck.items.stack import StackItem
-from mbla.deck.items.trilithon import TrilithonItem
+from mbla.deck.items.cuboids import BoxItem, PolyhedronItem, StackItem, TrilithonItem
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import cuboids, polyhedra_from_lists

@@ -32,8 +32,7 @@ from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.curves import Symmetric, named_curve, radius_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
-from mbla.model.solids.chains import chains
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
 FLUSH = 1e-9
 """relative to the thickness: lengths and heights that differ by no more are the same"""

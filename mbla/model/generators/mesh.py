@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.mesh import MeshItem
+from mbla.deck.items.files import MeshItem
 from mbla.deck.suggestions import unknown
 from mbla.deck.units import METRES
 from mbla.errors import Finding, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
-from mbla.model.geometry.cells import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, member_name
 from mbla.model.geometry.repair import repair
+from mbla.model.geometry.surfaces import join_cells
 from mbla.model.solids.polyhedra import take_polyhedra
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

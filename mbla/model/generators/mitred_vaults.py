@@ -26,8 +26,7 @@ from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import vault_section
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
-from mbla.model.solids.chains import chains
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
 CORNERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 """signs of x and y in the four corners of the bay, counter-clockwise"""

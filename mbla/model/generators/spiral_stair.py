@@ -17,8 +17,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
-from mbla.model.solids.chains import chains
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
+from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra, polyhedra_from_cells
 
 
 def amount_spiral_stair(item: SpiralStairItem) -> Amount:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.deck.items.table import TableItem
+from mbla.deck.items.files import TableItem
 from mbla.errors import Finding, Message
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry.geometry import member_name

@@ -17,9 +17,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed
-from mbla.model.solids.chains import prisms
 from mbla.model.solids.defects import LARGEST_COORDINATE
 from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.polyhedra import prisms
 from mbla.model.wording import counted, was
 
 CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})

@@ -17,8 +17,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
-from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed, refuse_long_line, unused_points
+from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
 

@@ -20,7 +20,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
-from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, unused_points
 from mbla.model.geometry.meshio_guards import (
     CELLS,
@@ -32,6 +31,7 @@ from mbla.model.geometry.meshio_guards import (
     refuse_other_faces,
     refuse_other_sections,
 )
+from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import own_vertices, surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 

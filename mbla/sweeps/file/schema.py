@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.key_reference import section_tables
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
-from mbla.deck.schema import REPOSITORY, between, tidy, write_generated
+from mbla.deck.schema import REPOSITORY, between, section_tables, tidy, write_generated
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.file.rules import EXACTLY_ONE
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.stack import StackItem
-from mbla.deck.items.trilithon import TrilithonItem
+from mbla.deck.items.cuboids import StackItem, TrilithonItem
 from mbla.model.generators.cuboids import generate_stack, generate_trilithon
 from mbla.model.generators.generator import Site
 

@@ -6,9 +6,8 @@ from typing import Any
 import pytest
 
 from mbla.deck.items import BlockItem
-from mbla.deck.items.box import BoxItem
-from mbla.deck.items.mesh import MeshItem
-from mbla.deck.items.polyhedron import PolyhedronItem
+from mbla.deck.items.cuboids import BoxItem, PolyhedronItem
+from mbla.deck.items.files import MeshItem
 from mbla.model.generators import KINDS, generator_of
 from mbla.model.generators.generator import ItemRefused, Part, Site
 from mbla.model.generators.mesh import generate_mesh

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck.items.table import TableItem
+from mbla.deck.items.files import TableItem
 from mbla.model.generators.generator import ItemRefused, Part, Site
 from mbla.model.generators.table import generate_table
 from tests.model.shapes import box, build_raw

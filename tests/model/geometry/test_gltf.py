@@ -14,8 +14,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.gltf import read_gltf
-from mbla.model.geometry.gltf_accessors import Buffers
+from mbla.model.geometry.gltf import Buffers, read_gltf
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
 

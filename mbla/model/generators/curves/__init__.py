@@ -8,10 +8,9 @@ import numpy as np
 
 from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
 from mbla.model.generators.curves.curve import Curve as Curve
-from mbla.model.generators.curves.pointed import Pointed
-from mbla.model.generators.curves.symmetric import Symmetric as Symmetric
-from mbla.model.generators.curves.symmetric import basket, catenary, circle, ellipse, segmental
-from mbla.model.generators.curves.symmetric import radius_of as radius_of
+from mbla.model.generators.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
+from mbla.model.generators.curves.shapes import Symmetric as Symmetric
+from mbla.model.generators.curves.shapes import radius_of as radius_of
 
 WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
     "segmental": segmental,

@@ -8,9 +8,8 @@ from scipy.integrate import quad
 
 from mbla.arrays import FloatArray
 from mbla.model.generators.curves import Curve, named_curve
-from mbla.model.generators.curves.pointed import Pointed
+from mbla.model.generators.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
 from mbla.model.generators.curves.spline import Spline
-from mbla.model.generators.curves.symmetric import basket, catenary, circle, ellipse, segmental
 
 SPAN = 4.0
 CURVES: dict[str, Curve] = {

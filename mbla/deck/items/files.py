@@ -1,4 +1,4 @@
-"""Item `mesh`."""
+"""Items `mesh` and `table`: blocks from files."""
 
 from __future__ import annotations
 
@@ -49,4 +49,23 @@ class MeshItem(Item):
         None,
         description="distance within which corners of one object are made one; unless given "
         "contacts.tolerance x the shortest edge at a corner, and only where a surface is not closed",
+    )
+
+
+class TableItem(Item):
+    """Blocks from two tables of text (CSV), lengths in the deck's unit.
+
+    The first line of each names the columns. Lines that begin with `#` are comments; semicolons may separate columns,
+    numbers then with decimal commas. The names of the blocks are `member` in selectors, as with `mesh`.
+    """
+
+    vertices: str = Field(
+        min_length=1,
+        description="CSV file with the columns block,vertex,x,y,z: one row for each corner of each block; blocks and "
+        "vertices go by any names or numbers, those of vertices within their block",
+    )
+    faces: str = Field(
+        min_length=1,
+        description="CSV file with the columns block,face,v1,v2,v3,...: one row for each face of each block, its "
+        "corners in order by the names of vertices, as many as it has; any orientation",
     )
