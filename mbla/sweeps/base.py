@@ -16,8 +16,8 @@ from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
 from mbla.sweeps.base_rules import base_faults
-from mbla.sweeps.design.design import Point
-from mbla.sweeps.file.parts import DIRECTIONS, key_paths, way_of
+from mbla.sweeps.design.design import Point, Sources, Vector
+from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.identity import deck_fingerprint, effective_tree, file_hashes, key_hash
@@ -54,17 +54,17 @@ class Base:
         return {name: self._unit(name) for name in self.paths}
 
     @cached_property
-    def vectors(self) -> Mapping[str, tuple[float, float, float]]:
+    def vectors(self) -> Mapping[str, Vector]:
         """Vector of the base deck that each parameter with directions turns, by its name."""
         parameters = self.sweep.content.parameters
         turning = [name for name in self.paths if way_of(parameters[name]) in DIRECTIONS]
         return {name: vector for name in turning if (vector := vector_at(self.deck, self.paths[name][0])) is not None}
 
     @property
-    def known(self) -> Mapping[str, object]:
-        """The deck's own parameters as written, for constraints: numbers and ``"=..."`` texts."""
-        parameters: Mapping[str, object] = self.tree.data.get("parameters", {})
-        return parameters
+    def sources(self) -> Sources:
+        """What the design is made from."""
+        known: Mapping[str, object] = self.tree.data.get("parameters", {})
+        return Sources(self.sweep.content, self.vectors, self.units, known, self.sweep.fault_at)
 
     def key_of(self, settings: Mapping[str, Plain]) -> str:
         """Key of a point: hash of the base and of the values set in it, with the content of files among them."""

@@ -13,15 +13,14 @@ from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
 from mbla.deck.overrides import LABEL, RefusedError
-from mbla.deck.suggestions import listed
+from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.tree import KeyPath, key_text, shorten
-from mbla.errors import DeckError, Fault, Message, Notice, Place
+from mbla.errors import DeckError, Fault, Finding, Message, Notice, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
-from mbla.sweeps.file.content import Parameter
-from mbla.sweeps.file.parts import DIRECTIONS, way_of
-from mbla.sweeps.file.rules import key_places, parameter_columns
+from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
+from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts
-from mbla.sweeps.results import result_faults, result_places
+from mbla.sweeps.results import FACTORS, OWN_COLUMNS, STATUS, result_columns, result_fault, result_places
 
 if TYPE_CHECKING:
     from mbla.sweeps.base import Base
@@ -36,69 +35,73 @@ Given = tuple[KeyPath, Any]
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
     checks = (_nested_keys, _idle_values, _without_effect, _directions, _units, _results, _columns, _fragility)
-    faults = [fault for check in checks for fault in check(base)]
+    findings = [finding for check in checks for finding in check(base)]
+    faults = [*_idle_overrides(base), *(base.sweep.fault_at(*finding) for finding in findings)]
     return faults or list(_values(base))
 
 
-def _nested_keys(base: Base) -> Iterator[Fault]:
+def _nested_keys(base: Base) -> Iterator[Finding]:
     """No parameter sets what another one sets as a part of its own value."""
     seen: list[tuple[str, str, KeyPath]] = []
+    for name, place, key, path in _places(base):
+        for other, other_key, outer in seen:
+            short, long = sorted((outer, path), key=len)
+            if long[: len(short)] == short:
+                both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
+                yield Finding("sweep-without-effect", f"{both}: one of them holds the other", *place)
+        seen.append((name, key, path))
+
+
+def _places(base: Base) -> Iterator[tuple[str, KeyPath, str, KeyPath]]:
+    """Of each key of a parameter: the parameter, place in the sweep file, the key, path in the deck."""
     for name, parameter in base.sweep.content.parameters.items():
         for (place, key), path in zip(key_places(name, parameter), base.paths[name], strict=True):
-            for other, other_key, outer in seen:
-                short, long = sorted((outer, path), key=len)
-                if long[: len(short)] == short:
-                    both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
-                    message = f"{both}: one of them holds the other"
-                    yield base.sweep.fault_at(place, Message("sweep-without-effect", message))
-            seen.append((name, key, path))
+            yield name, place, key, path
 
 
-def _idle_values(base: Base) -> Iterator[Fault]:
-    """No fixed value that a parameter replaces in every point."""
-    owners = [(name, path) for name, paths in base.paths.items() for path in paths]
-    keys = [text.partition("=")[0].strip() for text in base.fixed]
-    for number, key in enumerate(keys):
-        try:
-            fixed = path_of_key(base.tree.data, key)
-        except RefusedError:  # a whole section, which holds more than parameters replace
-            continue
-        for name, path in owners:
-            if fixed[: len(path)] == path:
-                message = f"has no effect: parameter {name} of the sweep sets it in every point"
-                index = number - len(base.sweep.content.set)
-                if index < 0:
-                    yield base.sweep.fault_at(
-                        ("set", list(base.sweep.content.set)[number]), Message("sweep-without-effect", message)
-                    )
-                else:
-                    yield Fault(Place(LABEL, index + 1, 1), key, Message("sweep-without-effect", message))
+def _idle_values(base: Base) -> Iterator[Finding]:
+    """No value of `set` that a parameter replaces in every point."""
+    for key in base.sweep.content.set:
+        for name in _replacing(base, key):
+            yield Finding("sweep-without-effect", NO_EFFECT.format(name), "set", key)
 
 
-def _without_effect(base: Base) -> Iterator[Fault]:
+def _idle_overrides(base: Base) -> Iterator[Fault]:
+    """No value of the command line either."""
+    for number, text in enumerate(base.sweep.overrides, start=1):
+        key = text.partition("=")[0].strip()
+        for name in _replacing(base, key):
+            yield Fault(Place(LABEL, number, 1), key, Message("sweep-without-effect", NO_EFFECT.format(name)))
+
+
+NO_EFFECT = "has no effect: parameter {} of the sweep sets it in every point"
+
+
+def _replacing(base: Base, key: str) -> list[str]:
+    """Parameters that set a key of the deck, or what holds it, for each of their own keys."""
+    try:
+        fixed = path_of_key(base.tree.data, key.strip())
+    except RefusedError:  # a whole section, which holds more than parameters replace
+        return []
+    return [name for name, _, _, path in _places(base) if fixed[: len(path)] == path]
+
+
+def _without_effect(base: Base) -> Iterator[Finding]:
     """No parameter changes what nothing in the deck uses: every point would be the same."""
-    content = base.sweep.content
     idle = unused(_notices(base))
-    texts = [value for each in content.parameters.values() for value in each.values or () if isinstance(value, str)]
-    for name, parameter in content.parameters.items():
-        for (place, _), path in zip(key_places(name, parameter), base.paths[name], strict=True):
-            if len(path) < 2:
-                continue
-            section, thing = str(path[0]), str(path[1])
-            if section == "load_cases" and thing not in base.cases:
-                yield base.sweep.fault_at(
-                    place,
-                    Message(
-                        "sweep-without-effect",
-                        f"has no effect: load case {shorten(thing)} is not among the cases to solve",
-                    ),
-                )
-            named = any(thing in text for text in texts)  # another parameter may bring it into use
-            if (section, thing) in idle and not named:
-                yield base.sweep.fault_at(
-                    place,
-                    Message("sweep-without-effect", f"has no effect: the deck does not use {section}.{shorten(thing)}"),
-                )
+    parameters = base.sweep.content.parameters.values()
+    texts = [value for each in parameters for value in each.values or () if isinstance(value, str)]
+    for _, place, _, path in _places(base):
+        if len(path) < 2:
+            continue
+        section, thing = str(path[0]), str(path[1])
+        if section == "load_cases" and thing not in base.cases:
+            message = f"has no effect: load case {shorten(thing)} is not among the cases to solve"
+            yield Finding("sweep-without-effect", message, *place)
+        named = any(thing in text for text in texts)  # another parameter may bring it into use
+        if (section, thing) in idle and not named:
+            message = f"has no effect: the deck does not use {section}.{shorten(thing)}"
+            yield Finding("sweep-without-effect", message, *place)
 
 
 def _notices(base: Base) -> tuple[Notice, ...]:
@@ -114,37 +117,30 @@ def unused(notices: Iterable[Notice]) -> set[tuple[str, str]]:
     return {(match[1], match[2]) for match in found if match}
 
 
-def _directions(base: Base) -> Iterator[Fault]:
+def _directions(base: Base) -> Iterator[Finding]:
     """Directions turn vectors that have one."""
     for name, parameter in base.sweep.content.parameters.items():
         way = way_of(parameter)
         if way not in DIRECTIONS:
             continue
-        vectors = [vector_at(base.deck, path) for path in base.paths[name]]
-        place = ("parameters", name, way)
-        for path, vector in zip(base.paths[name], vectors, strict=True):
-            if vector is None:
-                found = "nothing" if value_at(base.deck, path) is None else "something else"
-                message = f"turns a vector of three numbers; the deck has {found} at {key_text(path)}"
-                yield base.sweep.fault_at(place, Message("sweep-directions", message))
-        if None in vectors:
+        vectors = {path: vector_at(base.deck, path) for path in base.paths[name]}
+        for path in (path for path, vector in vectors.items() if vector is None):
+            found = "nothing" if value_at(base.deck, path) is None else "something else"
+            message = f"turns a vector of three numbers; the deck has {found} at {key_text(path)}"
+            yield Finding("sweep-directions", message, "parameters", name, way)
+        if None in vectors.values():
             continue
-        if len(set(vectors)) > 1:
-            yield base.sweep.fault_at(
-                place,
-                Message("sweep-directions", "turns vectors that differ in the deck: give each a parameter, in a zip"),
-            )
-            continue
-        x, y, z = vectors[0] or (0.0, 0.0, 0.0)
-        if getattr(parameter, way).size is None and not (x or y or (z and way == "sphere")):
+        x, y, z = vectors[base.paths[name][0]] or (0.0, 0.0, 0.0)
+        if len(set(vectors.values())) > 1:
+            message = "turns vectors that differ in the deck: give each a parameter, in a zip"
+            yield Finding("sweep-directions", message, "parameters", name, way)
+        elif getattr(parameter, way).size is None and not (x or y or (z and way == "sphere")):
             part = "length" if way == "sphere" else "horizontal part"
-            yield base.sweep.fault_at(
-                place,
-                Message("sweep-directions", f"needs size: the vector in the deck has no {part} that it could keep"),
-            )
+            message = f"needs size: the vector in the deck has no {part} that it could keep"
+            yield Finding("sweep-directions", message, "parameters", name, way)
 
 
-def _units(base: Base) -> Iterator[Fault]:
+def _units(base: Base) -> Iterator[Finding]:
     """A unit in the sweep file names a column; it does not convert."""
     for name, parameter in base.sweep.content.parameters.items():
         if not parameter.unit or any(isinstance(value, str) for value in parameter.values or ()):
@@ -153,38 +149,53 @@ def _units(base: Base) -> Iterator[Fault]:
         own = units.pop() if len(units) == 1 else ""
         if own and own != parameter.unit:
             message = f"the deck takes this in {own}, and values here are not converted: write them in {own}"
-            yield base.sweep.fault_at(("parameters", name, "unit"), Message("sweep-unit", message))
+            yield Finding("sweep-unit", message, "parameters", name, "unit")
 
 
-def _results(base: Base) -> Iterator[Fault]:
+def _results(base: Base) -> Iterator[Finding]:
     """Every result is one that a run has."""
-    for index, message in result_faults(base.sweep.content.results, base.cases):
-        yield base.sweep.fault_at(("results", index), Message("sweep-result", message))
+    for index, path in enumerate(base.sweep.content.results):
+        if message := result_fault(path, base.cases):
+            yield Finding("sweep-result", message, "results", index)
 
 
-def _columns(base: Base) -> Iterator[Fault]:
-    """No parameter is named as the result of a load case."""
+def _columns(base: Base) -> Iterator[Finding]:
+    """Every column of the table has a name of its own."""
     content = base.sweep.content
-    results = {place.name for place in result_places(content.results, base.cases)} - set(content.results)
+    owners = dict.fromkeys(OWN_COLUMNS, "a column of every sweep")
+    places = result_places(content.results, base.cases)
+    owners |= dict.fromkeys([*content.results, *(place.name for place in places)], "a result")
     for name, parameter in content.parameters.items():
-        for column in parameter_columns(name, parameter):
-            if column in results:
+        for column in (f"{name}_azimuth", f"{name}_elevation") if parameter.sphere is not None else (name,):
+            if column in owners:
                 message = (
-                    f"column {column} of the table is a result: choose another name, and give the key path with key"
+                    f"column {column} of the table would be there twice, it is {owners[column]}: "
+                    "choose another name, and give the key path with key"
                 )
-                yield base.sweep.fault_at(("parameters", name), Message("sweep-columns", message))
+                yield Finding("sweep-columns", message, "parameters", name)
+            owners.setdefault(column, f"that of parameter {name}")
 
 
-def _fragility(base: Base) -> Iterator[Fault]:
-    """The result is a column, or one in each load case."""
-    content = base.sweep.content
-    if content.fragility is None:
+def _fragility(base: Base) -> Iterator[Finding]:
+    """The result is a column of numbers, or one in each load case, and what has no load factor can be told apart."""
+    results, asked = base.sweep.content.results, base.sweep.content.fragility
+    if asked is None or any(result_fault(path, base.cases) for path in results):
         return
-    wanted = content.fragility.result
-    columns = [place.name for place in result_places(content.results, base.cases)]
-    if wanted not in columns and wanted not in content.results:
-        message = f"there is no column {shorten(wanted)}: the columns are {listed(columns, 'and')}"
-        yield base.sweep.fault_at(("fragility", "result"), Message("sweep-fragility", message))
+    columns = result_columns(results, base.cases, base.deck.units)
+    chosen = [column for column in columns if asked.result in (column.name, column.path)]
+    if not chosen:
+        hint = did_you_mean(asked.result, [*(column.name for column in columns), *results]) or ":"
+        cases = f" of {listed(base.cases, 'and')}" if len(base.cases) > 1 else ""
+        message = f"there is no column {shorten(asked.result)}{hint} the results are {listed(results, 'and')}{cases}"
+        yield Finding("sweep-fragility", message, "fragility", "result")
+    elif any(column.kind not in ("float", "int") for column in chosen):
+        yield Finding("sweep-fragility", f"{asked.result} is no number", "fragility", "result")
+    elif any(column.path in FACTORS for column in chosen) and STATUS not in results:
+        message = (
+            f"must have {STATUS} too: for the probability of {shorten(asked.result)} it tells what does not stand from "
+            "what no load brings down"
+        )
+        yield Finding("sweep-fragility", message, "results")
 
 
 # --- values -------------------------------------------------------------------------------------------------------
@@ -192,19 +203,16 @@ def _fragility(base: Base) -> Iterator[Fault]:
 
 def _values(base: Base) -> Iterator[Fault]:
     """Values, and the ends of ranges, that the deck does not take there, in the words of ``--set``."""
-    numbers = Parameters(base.known)
+    numbers = Parameters(base.sources.known)
 
     def convert(text: str, dimension: str) -> float:
         return numbers.evaluate(text) if is_expression(text) else base.deck.units.convert(text, dimension)
 
-    for name, parameter in base.sweep.content.parameters.items():
-        given = list(_given(name, parameter))
-        for (_, key), path in zip(key_places(name, parameter), base.paths[name], strict=True):
-            annotation: Any = annotations_at(DeckContent, path)
-            adapters = [TypeAdapter[Any](each) for each in annotation]
-            for place, value in given:
-                if not any(_fits(adapter, value, convert) for adapter in adapters):
-                    yield from _in_words(base, place, key, value)
+    for name, _, key, path in _places(base):
+        adapters = [TypeAdapter[Any](each) for each in annotations_at(DeckContent, path)]
+        for place, value in _given(name, base.sweep.content.parameters[name]):
+            if not any(_fits(adapter, value, convert) for adapter in adapters):
+                yield from _in_words(base, place, key, value)
 
 
 def _given(name: str, parameter: Parameter) -> Iterator[Given]:

@@ -101,7 +101,7 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     """
     base = read_base(sweep)
     content = sweep.content
-    design = design_of(content, base.vectors, base.units, base.known, sweep.fault_at)
+    design = design_of(base.sources)
     check_points(base, design.points)
     keys = tuple(base.key_of(point.settings) for point in design.points)
     first: dict[str, Task] = {}

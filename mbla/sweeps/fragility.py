@@ -25,16 +25,14 @@ import numpy as np
 from scipy.special import betaincinv
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.suggestions import listed
-from mbla.errors import UsageError
 from mbla.results.listing.text import sentence, table
 from mbla.results.record.json_values import number, numbers
 from mbla.results.record.keys import Key
 from mbla.results.tables.formats import csv_text
 from mbla.sweeps.answers import Answers, answers_of
+from mbla.sweeps.design.design import SweepColumn, header_of
 from mbla.sweeps.plan import Plain
-from mbla.sweeps.results import FACTORS, STATUS
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, as_text, column_values, header_of
+from mbla.sweeps.tables.sweep_table import SweepTable, as_text, column_values
 
 SAME = 1e-6
 """relative distance below a demand up to which a value still bears it: load factors are found to that accuracy, and one
@@ -84,21 +82,11 @@ class Fragility:
 def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confidence: float) -> tuple[Fragility, ...]:
     """For each column of a result and each combination of what is not sampled, in the order of the table.
 
-    result  : name of a column, or key path, which is one in each load case
+    result  : name of a column of numbers, or key path, which is one in each load case
     demands : in the unit of the result
-
-    Raises
-    ------
-    UsageError
-        the design has no random sample, or there is no such column of numbers
     """
-    if not table.samples:
-        raise UsageError(
-            "sweep-fragility", "fragility needs a random design: the points of this sweep are no random sample"
-        )
     found = []
-    for column in _columns(table, result):
-        _refuse_without_status(table, column)
+    for column in (column for column in table.of_role("result") if result in (column.name, column.path)):
         answers = answers_of(table, column)
         for at, rows in _combinations(table):
             found.append(_fragility(table, answers, at, rows, np.array(demands, dtype=np.float64), confidence))
@@ -150,26 +138,6 @@ def _fragility(
 
 def _sample_size(table: SweepTable) -> int:
     return next(dimension.size for dimension in table.dimensions if dimension.name == table.samples)
-
-
-def _columns(table: SweepTable, result: str) -> tuple[SweepColumn, ...]:
-    columns = table.of_role("result")
-    chosen = [column for column in columns if column.name == result]
-    chosen = chosen or [column for column in columns if column.path == result]
-    if not chosen:
-        raise UsageError(
-            "sweep-fragility", f"fragility: no result {result}; the table has {listed(c.name for c in columns)}"
-        )
-    if any(column.kind not in ("float", "int") for column in chosen):
-        raise UsageError("sweep-fragility", f"fragility: {result} is no number")
-    return tuple(chosen)
-
-
-def _refuse_without_status(table: SweepTable, column: SweepColumn) -> None:
-    """Without it nobody knows of a missing load factor whether it lies below every demand or above."""
-    statuses = [each.case for each in table.of_role("result") if each.path == STATUS]
-    if column.path in FACTORS and column.case not in statuses:
-        raise UsageError("sweep-fragility", f"fragility: {column.name} needs {STATUS} among the results")
 
 
 def _combinations(table: SweepTable) -> Iterator[tuple[dict[str, Plain], IntArray]]:

@@ -130,7 +130,7 @@ OWNERS = ("cases[].", "series[].")
 def result_columns(results: Sequence[str], cases: Sequence[str], units: Units) -> tuple[SweepColumn, ...]:
     """The columns of results in their order, as ``result_places`` names them, in a deck's units.
 
-    The paths must have passed ``result_faults``.
+    The paths must have passed ``result_fault``.
     """
     columns = []
     for place in result_places(results, cases):
@@ -153,17 +153,10 @@ def result_columns(results: Sequence[str], cases: Sequence[str], units: Units) -
     return tuple(columns)
 
 
-def result_faults(results: Sequence[str], cases: Sequence[str] = ()) -> tuple[tuple[int, str], ...]:
-    """Row and fault, in words, of every path that cannot be a column; cases: names of the load cases, if known."""
-    faults = []
-    for row, path in enumerate(results):
-        words = "stands twice" if path in results[:row] else _fault(path, cases)
-        if words:
-            faults.append((row, words))
-    return tuple(faults)
-
-
-def _fault(path: str, cases: Sequence[str]) -> str:
+def result_fault(path: str, cases: Sequence[str] = ()) -> str:
+    """What is wrong with a path that cannot be a column, empty where it can; cases: names of the load cases."""
+    if not path.strip():
+        return "must not be empty: write a key path such as load_factor"
     parts = tuple(path.split("."))
     key = _key_at(parts)
     if key is None:

@@ -22,7 +22,7 @@ from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.provenance import collect_provenance
 from mbla.results.record.scene import Values
 from mbla.results.results import now
-from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
+from mbla.sweeps.design.design import Design, Dimension, Point
 from mbla.sweeps.engine.engine import Engine
 from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
 from mbla.sweeps.plan import Outcome, Plain, Plan, Task, shown_folders
@@ -113,7 +113,7 @@ def solved(
 
 
 def study_table(
-    of: About, parameter: DesignColumn, values: Sequence[Plain], plan: Plan, outcomes: Mapping[int, Outcome]
+    of: About, parameter: SweepColumn, values: Sequence[Plain], plan: Plan, outcomes: Mapping[int, Outcome]
 ) -> SweepTable:
     """The table of a study, a row for each value of its one parameter; rows not solved have no values."""
     points = tuple(Point(n, (n - 1,), (value,), {}) for n, value in enumerate(values, 1))

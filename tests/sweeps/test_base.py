@@ -41,7 +41,7 @@ def test_paths_units_vectors(base: Base) -> None:
         "law": "",
     }
     assert base.vectors == {"d": (1.0, 0.0, 0.0), "g": (0.0, 0.0, -1.0)}
-    assert base.known == {"mu": 0.65, "radius": 1.0, "t": 0.15, "spare": 1}
+    assert base.sources.known == {"mu": 0.65, "radius": 1.0, "t": 0.15, "spare": 1}
     assert base.cases == ("down", "push_x")
     assert base.fixed == ("blocks.0.arch.width=0.4", 'analysis.accuracy="draft"')
     assert base.deck.content.blocks[0].arch is not None
@@ -108,7 +108,7 @@ parameters:
 
 
 def points_of(base: Base) -> tuple[Point, ...]:
-    return design_of(base.sweep.content, base.vectors, base.units, base.known, base.sweep.fault_at).points
+    return design_of(base.sources).points
 
 
 def test_a_sweep_of_which_no_point_can_be_read_is_refused(tmp_path: Path) -> None:

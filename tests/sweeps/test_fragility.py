@@ -11,9 +11,8 @@ from scipy.stats import binomtest, lognorm, norm
 
 from mbla.arrays import FloatArray
 from mbla.deck.units import Units
-from mbla.errors import UsageError
 from mbla.results.record.json_values import json_line
-from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
+from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
 from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of, interval
 from mbla.sweeps.plan import DONE, FAILED, Outcome
 from mbla.sweeps.results import result_columns
@@ -32,8 +31,8 @@ def table_of(
 ) -> SweepTable:
     """A table of samples, one row of points for each thickness, or for none."""
     thick = list(thickness) or [0.0]
-    outside = [DesignColumn("t", "m", "thickness", "float", "parameter", "t")] if thickness else []
-    columns = (*outside, DesignColumn("mu", "", "friction", "float", "parameter", "sample", random=True))
+    outside = [SweepColumn("t", "m", "thickness", "float", "parameter", "t")] if thickness else []
+    columns = (*outside, SweepColumn("mu", "", "friction", "float", "parameter", "sample", random=True))
     dimensions = (*([Dimension("t", len(thick))] if thickness else []), Dimension("sample", len(points[0])))
     design: list[Point] = []
     outcomes: dict[str, Outcome] = {}
@@ -109,11 +108,9 @@ MIXED: list[Found] = [
 ]
 
 
-def test_without_status_nobody_knows_on_which_side_a_missing_load_factor_is() -> None:
-    with pytest.raises(UsageError, match="load_factor needs status among the results"):
-        fragility_of(table_of([MIXED], asked=RESULTS[1:]), "load_factor", (0.3,), 0.95)
+def test_a_share_has_no_side_for_what_does_not_stand() -> None:
     (found,) = fragility_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
-    assert (found.below[0], found.unknown) == (1, 3)  # a share has no side for what does not stand
+    assert (found.below[0], found.unknown) == (1, 3)
 
 
 def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
@@ -162,15 +159,3 @@ def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
     table = table_of([solved([0.3 * (1 - 1e-9), 0.3 * (1 - 1e-5)])])
     (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
     assert found.below.tolist() == [1]
-
-
-@pytest.mark.parametrize(
-    ("result", "words"),
-    [
-        ("load", "no result load; the table has status, load_factor"),
-        ("mechanism.class", "mechanism.class is no number"),
-    ],
-)
-def test_a_result_that_is_none_is_refused(result: str, words: str) -> None:
-    with pytest.raises(UsageError, match=words):
-        fragility_of(table_of([solved([0.1])]), result, (0.1,), 0.95)

@@ -10,7 +10,7 @@ import pytest
 import mbla
 from mbla.deck.units import Units
 from mbla.results.record.json_record import results_json
-from mbla.sweeps.results import reason_of, result_columns, result_faults, result_places, values_of
+from mbla.sweeps.results import reason_of, result_columns, result_fault, result_places, values_of
 from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import tower_results
 
@@ -45,7 +45,7 @@ def values(record: dict[str, Any], *paths: str, cases: tuple[str, ...] = ("push_
     ],
 )
 def test_paths_have_kind_and_unit(path: str, kind: str, unit: str) -> None:
-    assert result_faults([path]) == ()
+    assert result_fault(path) == ""
     (column,) = result_columns([path], ["push"], Units("mm", "kN", "t"))
     assert (column.name, column.kind, column.unit, column.role, column.path) == (path, kind, unit, "result", path)
     assert column.case == ("" if path.split(".")[0] in ("model", "settings", "time") else "push")
@@ -64,12 +64,11 @@ def test_paths_have_kind_and_unit(path: str, kind: str, unit: str) -> None:
         ("model.slivers", "is no result"),  # of mbla check alone
         ("exit_code", "is no result"),  # a column anyway
         ("push.load_factor", "stands without its load case, as load_factor"),
-        ("", "is no result"),
+        ("", "must not be empty"),
     ],
 )
 def test_paths_that_are_none_are_told_with_what_is_meant(path: str, words: str) -> None:
-    ((row, fault),) = result_faults(["status", path], ["push"])
-    assert row == 1
+    fault = result_fault(path, ["push"])
     assert fault.startswith(words)
     assert re.fullmatch(r"[^\n]+", fault)
 

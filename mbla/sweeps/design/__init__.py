@@ -1,7 +1,6 @@
 """From a checked sweep file to the points of its design::
 
     content ──> axes ──────────> constraints ──> points
-                axis.py          constraints.py  build.py
                 ways.py (values of a parameter)
                 sampling.py (quantiles)
 

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
-from typing import TypeAlias
 
 import numpy as np
 
+from mbla.arrays import BoolArray
 from mbla.deck.comparisons import Comparison, read_comparison
 from mbla.deck.expressions import (
     CONSTANTS,
@@ -23,46 +22,25 @@ from mbla.deck.expressions import (
 )
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
-from mbla.sweeps.design.axis import Axis, FaultAt
+from mbla.sweeps.design.design import Axis, FaultAt
 
-BoolArray: TypeAlias = "np.typing.NDArray[np.bool_]"
 OF_DECK = "parameters."
 """begins the key paths of the deck's own parameters"""
 NO_VALUES: list[dict[str, object]] = [{}]
 """of an axis that does not matter: one position for all"""
 
 
-@dataclass(frozen=True)
-class Constrained:
-    """Which points stay.
-
-    keep     : (size of each dimension, ...) True where no constraint is broken
-    breaches : constraints with how many points break each
-    """
-
-    keep: BoolArray
-    breaches: tuple[tuple[str, int], ...]
-
-
-def read_constraints(texts: Sequence[str], fault_at: FaultAt) -> tuple[dict[int, Comparison], list[Fault]]:
-    """Comparisons by their number in the file, and what is wrong with those that cannot be read."""
-    comparisons: dict[int, Comparison] = {}
-    faults: list[Fault] = []
-    for number, text in enumerate(texts):
-        try:
-            comparisons[number] = read_comparison(text)
-        except ExpressionError as error:
-            faults.append(fault_at(("constraints", number), error.message))
-    return comparisons, faults
-
-
 def constrained(
-    comparisons: Mapping[int, Comparison], axes: Sequence[Axis], known: Mapping[str, object], fault_at: FaultAt
-) -> Constrained:
-    """Work out every constraint at every point.
+    constraints: Sequence[str], axes: Sequence[Axis], known: Mapping[str, object], fault_at: FaultAt
+) -> tuple[BoolArray, tuple[tuple[str, int], ...]]:
+    """Which points stay, and every constraint with how many points break it.
 
-    comparisons : by their number in the file
-    known       : the deck's own parameters by name, as they are written
+    known : the deck's own parameters by name, as they are written
+
+    Returns
+    -------
+    tuple
+        (size of each dimension, ...) True where no constraint is broken; the constraints as they are shown
 
     Raises
     ------
@@ -72,7 +50,7 @@ def constrained(
     keep = np.ones([axis.dimension.size for axis in axes], dtype=bool)
     breaches: list[tuple[str, int]] = []
     faults: list[Fault] = []
-    for number, comparison in comparisons.items():
+    for number, comparison in enumerate(map(read_comparison, constraints)):
         try:
             holds = np.broadcast_to(_holds(comparison, axes, known), keep.shape)
         except ExpressionError as error:
@@ -82,7 +60,7 @@ def constrained(
         keep &= holds
     if faults:
         raise DeckError(faults)
-    return Constrained(keep, tuple(breaches))
+    return keep, tuple(breaches)
 
 
 def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, object]) -> BoolArray:

@@ -2,24 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
+from mbla.deck.tree import KeyPath
+from mbla.errors import Fault, Message
+from mbla.sweeps.file.content import Part, SweepContent
 from mbla.sweeps.plan import Plain
+
+FaultAt: TypeAlias = Callable[[KeyPath, Message], Fault]
+"""fault for a place in the sweep file and a message"""
+
+
+Vector: TypeAlias = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class DesignColumn:
-    """One column of the table that the design fills: a parameter, or an angle of a direction.
+class Sources:
+    """What a design is made from.
 
-    name      : of the parameter, with ``_azimuth`` and ``_elevation`` for the angles of directions over a sphere
+    vectors  : by name of a parameter, the vector of the base deck that its directions turn
+    units    : by name of a parameter, the unit of its column
+    known    : the base deck's own parameters by name, as they are written: numbers and ``"=..."`` strings
+    fault_at : key path of the sweep file and message -> fault
+    """
+
+    content: SweepContent
+    vectors: Mapping[str, Vector]
+    units: Mapping[str, str]
+    known: Mapping[str, object]
+    fault_at: FaultAt
+
+
+@dataclass(frozen=True)
+class SweepColumn:
+    """One column of the table of a sweep.
+
+    name      : of a parameter, with ``_azimuth`` and ``_elevation`` for the angles of directions over a sphere
     unit      : of the deck, or ``degree``; empty for plain numbers and for text
     words     : what it is
     kind      : ``float``, ``int``, ``bool`` or ``text``
-    role      : ``parameter``, ``azimuth`` or ``elevation``
-    dimension : the axis of the design along which it changes
-    random    : it follows a distribution, not only a range
+    role      : ``number`` of the point; ``parameter``, ``azimuth``, ``elevation`` of the design; ``state``,
+                ``exit_code``, ``reason``, ``tries``, ``seconds``; ``result``
+    dimension : the axis of the design along which a parameter changes, empty for others
+    random    : of a parameter: it follows a distribution, not only a range
+    case      : load case of a result, empty for others
+    path      : key path of a result in the JSON object of its case or run, empty for others
     """
 
     name: str
@@ -27,8 +56,20 @@ class DesignColumn:
     words: str
     kind: str
     role: str
-    dimension: str
+    dimension: str = ""
     random: bool = False
+    case: str = ""
+    path: str = ""
+
+    @property
+    def header(self) -> str:
+        """``thickness [m]``; the name alone where there is no unit."""
+        return header_of(self.name, self.unit)
+
+
+def header_of(name: str, unit: str) -> str:
+    """A name with its unit, as headers of tables have it."""
+    return f"{name} [{unit}]" if unit else name
 
 
 @dataclass(frozen=True)
@@ -44,19 +85,20 @@ class Dimension:
 
 
 @dataclass(frozen=True)
-class Part:
-    """A part of the design; every point of it is combined with every point of the others.
+class Axis:
+    """An axis with what the design has at each position along it.
 
-    kind       : ``grid``, ``zip``, ``random``, ``latin_hypercube`` or ``sobol``
-    parameters : their names
-    dimensions : names of the axes that it makes: one for each parameter of a grid, one of any other part
-    seed       : of a part that is drawn
+    columns  : those that change along it
+    values   : one for each position and column
+    settings : values by key path of the deck, one mapping for each position
+    sampling : kind of design whose points are a random sample of distributions; empty otherwise
     """
 
-    kind: str
-    parameters: tuple[str, ...]
-    dimensions: tuple[str, ...]
-    seed: int | None = None
+    dimension: Dimension
+    columns: tuple[SweepColumn, ...]
+    values: tuple[tuple[Plain, ...], ...]
+    settings: tuple[Mapping[str, Plain], ...]
+    sampling: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,19 +125,20 @@ class Design:
     left_out : points that broke a constraint
     samples  : name of the dimension whose points are a random sample of distributions; empty where there is none
     sampling : ``random``, ``latin_hypercube`` or ``sobol`` for that; empty where there is none
-    parts    : what it is made of, slowest first
+    parts    : what it is made of, slowest first, each with the names of the axes that it makes: one for each parameter
+               of a grid, one of any other part
     breaches : constraints with how many points break each; a point may break several
     remarks  : what is worth knowing of it, in sentences
     """
 
-    columns: tuple[DesignColumn, ...]
+    columns: tuple[SweepColumn, ...]
     dimensions: tuple[Dimension, ...]
     points: tuple[Point, ...]
     levels: tuple[tuple[Plain, ...], ...]
     left_out: int = 0
     samples: str = ""
     sampling: str = ""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[tuple[Part, tuple[str, ...]], ...] = ()
     breaches: tuple[tuple[str, int], ...] = ()
     remarks: tuple[str, ...] = ()
 
@@ -106,7 +149,10 @@ def design_json(design: Design, points: bool = True) -> dict[str, Any]:
     Keys are those of ``Design``, with ``points`` a list of number, position, values by column and settings by key path.
     """
     record: dict[str, Any] = {
-        "parts": [asdict(part) for part in design.parts],
+        "parts": [
+            {"kind": part.kind, "parameters": part.parameters, "dimensions": dimensions, "seed": part.seed}
+            for part, dimensions in design.parts
+        ],
         "dimensions": [asdict(dimension) for dimension in design.dimensions],
         "columns": [asdict(column) for column in design.columns],
         "n_points": len(design.points),

@@ -19,17 +19,17 @@ import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import ValueRefused
+from mbla.sweeps.design.design import Vector
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal, sine_cosine, spatial
 from mbla.sweeps.file import content as types
 from mbla.sweeps.plan import Plain
 
-Vector: TypeAlias = tuple[float, float, float]
 DIGITS = 12
 """significant digits that are kept"""
 EXACT_DIGITS = 15
@@ -72,35 +72,21 @@ class Filled:
 class Way:
     """One way of saying values; ``section`` is what the sweep file holds under its key.
 
-    levels : (section, vector) -> values at the positions of a grid, in order; raises WayError where there are none
+    levels : (section, vector) -> values at the positions of a grid, in order; None for distributions
     at     : (section, u, vector) -> values at quantiles u (n, n_quantiles), each in the open interval (0, 1)
-    random : drawn values follow a distribution, so that a share of points is a probability
     forms  : section -> the columns, each of which takes one quantile where values are drawn
 
     ``vector`` is that of the base deck which a direction turns; None for everything else.
     """
 
-    levels: Callable[[Any, Vector | None], Filled]
+    levels: Callable[[Any, Vector | None], Filled] | None
     at: Callable[[Any, FloatArray, Vector | None], Filled]
-    random: bool
     forms: Callable[[Any], tuple[Form, ...]] = lambda section: (Form(),)
 
 
 def _plain(values: Sequence[Plain]) -> Filled:
     """Values that fill their one column as they go into the deck."""
     return Filled((values,), values)
-
-
-def _no_levels(section: Any, vector: Vector | None) -> Filled:
-    raise WayError(
-        "sweep-ranges", "is a distribution, which has no levels: draw it in a part random, latin_hypercube or sobol"
-    )
-
-
-def _points_of(section: Any) -> int:
-    if section.points is None:
-        raise WayError("sweep-ranges", "needs points: how many values there are")
-    return int(section.points)
 
 
 # --- rounding ---------------------------------------------------------------------------------------------------------
@@ -156,7 +142,7 @@ def _between(start: float, end: float, u: FloatArray) -> list[float]:
 
 
 def _linear_levels(section: types.LinearRange, vector: Vector | None) -> Filled:
-    points = _points_of(section)
+    points = section.points or 0
     return _plain(_steps(float(section.start), float(section.end), points, points - 1))
 
 
@@ -172,7 +158,7 @@ def _log_between(section: types.LogRange, u: FloatArray) -> list[float]:
 
 
 def _log_levels(section: types.LogRange, vector: Vector | None) -> Filled:
-    points = _points_of(section)
+    points = section.points or 0
     values = _log_between(section, np.arange(points) / (points - 1))
     values[0], values[-1] = float(section.start), float(section.end)
     return _plain(_all_different(values))
@@ -280,7 +266,7 @@ def _turned(azimuths: Sequence[float], section: types.Horizon, vector: Vector | 
 
 def _horizon_levels(section: types.Horizon, vector: Vector | None) -> Filled:
     """Equal angles; the last of a full circle, which is the first once more, is left out."""
-    points, turn = _points_of(section), section.end - section.start
+    points, turn = section.points or 0, section.end - section.start
     if points == 1:
         return _turned([float(section.start)], section, vector)
     steps = points if turn == FULL_CIRCLE else points - 1
@@ -303,7 +289,7 @@ def _pointed(section: types.Sphere, around: FloatArray, up: FloatArray, vector: 
 
 
 def _sphere_levels(section: types.Sphere, vector: Vector | None) -> Filled:
-    points = _points_of(section)
+    points = section.points or 0
     order = np.arange(points)
     return _pointed(section, np.mod(order * GOLDEN_ANGLE, 1.0), (order + 0.5) / points, vector)
 
@@ -316,15 +302,15 @@ _AZIMUTH = (Form(role="azimuth"),)
 _BOTH_ANGLES = (Form(role="azimuth", suffix="_azimuth"), Form(role="elevation", suffix="_elevation"))
 
 WAYS: dict[str, Way] = {
-    "values": Way(_list_levels, _list_at, random=False, forms=lambda section: (Form(_kind_of(section)),)),
-    "linear": Way(_linear_levels, _linear_at, random=False),
-    "log": Way(_log_levels, _log_at, random=False),
-    "whole": Way(_whole_levels, _whole_at, random=True, forms=lambda section: (Form("int"),)),
-    "normal": Way(_no_levels, _normal_at, random=True),
-    "lognormal": Way(_no_levels, _lognormal_at, random=True),
-    "uniform": Way(_no_levels, _linear_at, random=True),
-    "triangular": Way(_no_levels, _triangular_at, random=True),
-    "horizon": Way(_horizon_levels, _horizon_at, random=True, forms=lambda section: _AZIMUTH),
-    "sphere": Way(_sphere_levels, _sphere_at, random=True, forms=lambda section: _BOTH_ANGLES),
+    "values": Way(_list_levels, _list_at, forms=lambda section: (Form(_kind_of(section)),)),
+    "linear": Way(_linear_levels, _linear_at),
+    "log": Way(_log_levels, _log_at),
+    "whole": Way(_whole_levels, _whole_at, forms=lambda section: (Form("int"),)),
+    "normal": Way(None, _normal_at),
+    "lognormal": Way(None, _lognormal_at),
+    "uniform": Way(None, _linear_at),
+    "triangular": Way(None, _triangular_at),
+    "horizon": Way(_horizon_levels, _horizon_at, forms=lambda section: _AZIMUTH),
+    "sphere": Way(_sphere_levels, _sphere_at, forms=lambda section: _BOTH_ANGLES),
 }
 """by the key of a parameter in the sweep file"""

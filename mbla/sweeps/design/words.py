@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from mbla.deck.suggestions import listed
 from mbla.results.listing.text import INDENT, WIDTH, counted, entry, heading, sentence, shortened
-from mbla.sweeps.design.design import Design, DesignColumn, Part
+from mbla.sweeps.design.design import Design, SweepColumn
+from mbla.sweeps.file.content import Part
 from mbla.sweeps.plan import Plain
 
 DIGITS = (6, 9, 12)
@@ -27,13 +28,13 @@ def design_lines(design: Design) -> list[str]:
 def part_lines(design: Design) -> list[str]:
     """``sobol  unit_weight and cohesion: 128 points, seed 1``, one for each part."""
     sizes = {dimension.name: dimension.size for dimension in design.dimensions}
-    return [line for part in design.parts for line in entry(part.kind, _part_words(part, sizes))]
+    return [line for part, names in design.parts for line in entry(part.kind, _part_words(part, names, sizes))]
 
 
-def _part_words(part: Part, sizes: dict[str, int]) -> str:
+def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) -> str:
     if part.kind == "grid":
-        return " × ".join(f"{name} ({sizes[name]})" for name in part.dimensions)
-    together = f"{listed(part.parameters, 'and')}: {counted(sizes[part.dimensions[0]], 'point')}"
+        return " × ".join(f"{name} ({sizes[name]})" for name in dimensions)
+    together = f"{listed(part.parameters, 'and')}: {counted(sizes[dimensions[0]], 'point')}"
     return together if part.seed is None else f"{together}, seed {part.seed}"
 
 
@@ -64,7 +65,7 @@ def point_lines(design: Design) -> list[str]:
     return lines
 
 
-def _cells(column: DesignColumn, values: Sequence[Plain]) -> list[str]:
+def _cells(column: SweepColumn, values: Sequence[Plain]) -> list[str]:
     """Values of a column as text."""
     if column.kind == "text":
         return [shortened(str(value), LONGEST) for value in values]

@@ -18,8 +18,7 @@ from mbla.deck.validation import validate
 from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults
 from mbla.process.collector import no_collection
 from mbla.sweeps.file import rules as rules
-from mbla.sweeps.file.content import SweepContent
-from mbla.sweeps.file.parts import KINDS
+from mbla.sweeps.file.content import KINDS, SweepContent
 
 
 @dataclass(frozen=True)

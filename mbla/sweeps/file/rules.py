@@ -8,21 +8,25 @@ from collections.abc import Iterator
 from math import prod
 from typing import Any
 
-from mbla.deck.section import Section, one_of, rule
-from mbla.deck.suggestions import did_you_mean, listed
+from mbla.deck.comparisons import read_comparison
+from mbla.deck.expressions import ExpressionError
+from mbla.deck.section import one_of, rule
+from mbla.deck.suggestions import listed
 from mbla.deck.tree import shorten
 from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
-from mbla.sweeps.file.content import MAX_POINTS, Parameter, SweepContent
-from mbla.sweeps.file.parts import (
+from mbla.sweeps.file.content import (
     DISTRIBUTIONS,
     KINDS,
+    MAX_POINTS,
     RANDOM,
     SAMPLED,
     WAYS,
     WITH_POINTS,
+    Parameter,
     Part,
+    SweepContent,
     design_parts,
     is_random,
     key_paths,
@@ -30,23 +34,15 @@ from mbla.sweeps.file.parts import (
     spelt,
     way_of,
 )
-from mbla.sweeps.results import FACTORS, OWN_COLUMNS, STATUS
-
-EXACTLY_ONE: dict[type[Section], tuple[str, ...]] = {types.Parameter: WAYS, types.DesignPart: KINDS}
-"""Keys of which a section has exactly one; the schema says so too."""
 
 FARTHEST = 40
 """deviations: no sample lies so far from the mean in double precision"""
 
 
-def _register_exactly_one(section: type[Section], keys: tuple[str, ...]) -> None:
-    @rule(section)
-    def one_key(item: Section) -> Iterator[Finding]:
-        yield from one_of(item, keys)
-
-
-for _section, _keys in EXACTLY_ONE.items():
-    _register_exactly_one(_section, _keys)
+@rule(types.Parameter, types.DesignPart)
+def one_key(item: types.Parameter | types.DesignPart) -> Iterator[Finding]:
+    """One way of saying values, one kind of part."""
+    yield from one_of(item, WAYS if isinstance(item, types.Parameter) else KINDS)
 
 
 @rule(types.Parameter)
@@ -81,15 +77,11 @@ def linear_range(item: types.LinearRange) -> Iterator[Finding]:
         yield Finding("out-of-bounds", "must differ from the value of from", "to")
 
 
-def _upwards(section: type[Section]) -> None:
-    @rule(section)
-    def upwards(item: Any) -> Iterator[Finding]:
-        if not item.start < item.end:
-            yield Finding("out-of-bounds", f"must be > {item.start:g}, the value of from", "to")
-
-
-for _section in (types.LogRange, types.WholeRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere):
-    _upwards(_section)
+@rule(types.LogRange, types.WholeRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere)
+def upwards(item: Any) -> Iterator[Finding]:
+    """From the least to the greatest."""
+    if not item.start < item.end:
+        yield Finding("out-of-bounds", f"must be > {item.start:g}, the value of from", "to")
 
 
 @rule(types.Horizon)
@@ -108,45 +100,18 @@ def triangular(item: types.Triangular) -> Iterator[Finding]:
         )
 
 
-def _cut_around_the_mean(section: type[Section]) -> None:
-    @rule(section)
-    def cut(item: Any) -> Iterator[Finding]:
-        if not math.isfinite(abs(item.mean) + FARTHEST * item.deviation):
-            yield Finding("out-of-bounds", f"must be so small that {FARTHEST} of them are a number", "deviation")
-        if item.least is not None and not item.least < item.mean:
-            yield Finding("out-of-bounds", f"must be < {item.mean:g}, the mean", "min")
-        if item.greatest is not None and not item.greatest > item.mean:
-            yield Finding("out-of-bounds", f"must be > {item.mean:g}, the mean", "max")
-
-
-_cut_around_the_mean(types.Normal)
-_cut_around_the_mean(types.Lognormal)
+@rule(types.Normal, types.Lognormal)
+def cut_around_the_mean(item: Any) -> Iterator[Finding]:
+    """What is cut off leaves the mean."""
+    if not math.isfinite(abs(item.mean) + FARTHEST * item.deviation):
+        yield Finding("out-of-bounds", f"must be so small that {FARTHEST} of them are a number", "deviation")
+    if item.least is not None and not item.least < item.mean:
+        yield Finding("out-of-bounds", f"must be < {item.mean:g}, the mean", "min")
+    if item.greatest is not None and not item.greatest > item.mean:
+        yield Finding("out-of-bounds", f"must be > {item.mean:g}, the mean", "max")
 
 
 # --- parameters ---------------------------------------------------------------------------------------------------
-
-
-@rule(SweepContent)
-def column_names(sweep: SweepContent) -> Iterator[Finding]:
-    """Every column of the table has a name of its own."""
-    owners = dict.fromkeys(OWN_COLUMNS, "a column of every sweep")
-    owners |= dict.fromkeys(sweep.results, "a result")
-    for name, parameter in sweep.parameters.items():
-        for column in parameter_columns(name, parameter):
-            if column in owners:
-                yield Finding(
-                    "sweep-columns",
-                    f"column {column} of the table would be there twice, it is {owners[column]}: "
-                    "choose another name, and give the key path with key",
-                    "parameters",
-                    name,
-                )
-            owners.setdefault(column, f"that of parameter {name}")
-
-
-def parameter_columns(name: str, parameter: Parameter) -> tuple[str, ...]:
-    """Names of the columns that a parameter has in the table."""
-    return (f"{name}_azimuth", f"{name}_elevation") if parameter.sphere is not None else (name,)
 
 
 @rule(SweepContent)
@@ -196,7 +161,7 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
             *part.path,
         )
     for part in open_parts[:1]:
-        if not part.names:
+        if not part.parameters:
             yield Finding("sweep-parts", "has no parameters: the other parts name them all", *part.path)
     owners: dict[str, int] = {}
     for number, part in enumerate(parts):
@@ -227,7 +192,7 @@ def _names_given(sweep: SweepContent, part: Part) -> list[str] | None:
 def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
     """Levels where values are combined one by one, distributions and whole ranges where they are sampled."""
     for part in design_parts(sweep):
-        for name in dict.fromkeys(part.names):
+        for name in dict.fromkeys(part.parameters):
             parameter = sweep.parameters[name]
             way = way_of(parameter)
             path = ("parameters", name, way)
@@ -258,7 +223,7 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
 def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
     """No point of a grid twice; in a zip a value may come again beside others, and in a sample it has more weight."""
     for part in design_parts(sweep):
-        for name in part.names if part.kind == "grid" else ():
+        for name in part.parameters if part.kind == "grid" else ():
             values = sweep.parameters[name].values or []
             written = [json.dumps(value) if isinstance(value, bool | str | list) else value for value in values]
             for index, value in enumerate(written):
@@ -275,7 +240,7 @@ def _samples() -> str:
 def zipped_lists(sweep: SweepContent) -> Iterator[Finding]:
     """First with first, second with second: none may be left over."""
     for part in design_parts(sweep):
-        counts = {name: level_count(sweep.parameters[name]) for name in part.names}
+        counts = {name: level_count(sweep.parameters[name]) for name in part.parameters}
         if part.kind != "zip" or None in counts.values() or len(set(counts.values())) < 2:
             continue
         shown = listed((f"{name} {count}" for name, count in counts.items()), "and")
@@ -302,11 +267,21 @@ def _size(sweep: SweepContent, part: Part) -> int | None:
     """Points of a part; None where that is at fault."""
     if part.kind in SAMPLED:
         return part.points
-    counts = [level_count(sweep.parameters[name]) for name in part.names]
+    counts = [level_count(sweep.parameters[name]) for name in part.parameters]
     known = [count for count in counts if count is not None]
     if len(known) < len(counts):
         return None
     return prod(known) if part.kind == "grid" else max(known, default=0)
+
+
+@rule(SweepContent)
+def constraints(sweep: SweepContent) -> Iterator[Finding]:
+    """Comparisons that can be read; what they name is seen with the base deck."""
+    for number, text in enumerate(sweep.constraints):
+        try:
+            read_comparison(text)
+        except ExpressionError as error:
+            yield Finding(error.message.identifier, error.message.words, "constraints", number)
 
 
 # --- results ------------------------------------------------------------------------------------------------------
@@ -327,32 +302,13 @@ def results_once(sweep: SweepContent) -> Iterator[Finding]:
     for index, name in enumerate(sweep.results):
         if name in sweep.results[:index]:
             yield Finding("duplicate-key", "is given twice", "results", index)
-        elif not name.strip():
-            yield Finding("sweep-result", "must not be empty: write a key path such as load_factor", "results", index)
 
 
 @rule(SweepContent)
 def fragility(sweep: SweepContent) -> Iterator[Finding]:
-    """A probability needs a column, and points that are a random sample."""
+    """A probability needs points that are a random sample."""
     if sweep.fragility is None:
         return
-    wanted = sweep.fragility.result
-    # With several load cases the name of one may stand before it; whether there is one is seen with the base deck.
-    if not any(wanted == name or wanted.endswith(f".{name}") for name in sweep.results):
-        hint = did_you_mean(wanted, sweep.results) or ";"
-        yield Finding(
-            "sweep-fragility",
-            f"{shorten(wanted)} is not among results{hint} these are {listed(sweep.results, 'and')}",
-            "fragility",
-            "result",
-        )
-    elif any(wanted == name or wanted.endswith(f".{name}") for name in FACTORS) and STATUS not in sweep.results:
-        yield Finding(
-            "sweep-fragility",
-            f"must have {STATUS} too: for the probability of {shorten(wanted)} it tells what does not stand from "
-            "what no load brings down",
-            "results",
-        )
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
     if not random:
         yield Finding(

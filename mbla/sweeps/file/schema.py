@@ -14,8 +14,7 @@ from typing import Any
 
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
 from mbla.deck.schema import REPOSITORY, between, section_tables, tidy, write_generated
-from mbla.sweeps.file.content import SweepContent
-from mbla.sweeps.file.rules import EXACTLY_ONE
+from mbla.sweeps.file.content import KINDS, WAYS, SweepContent
 
 MARKERS = ("<!-- sweep keys:begin -->", "<!-- sweep keys:end -->")
 VALUE_TYPES = ["number", "string", "boolean", "array"]
@@ -26,8 +25,8 @@ def sweep_schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a whole sweep file."""
     schema = SweepContent.model_json_schema(by_alias=True)
     definitions = {name: _without_expressions(tidy(each)) for name, each in schema.pop("$defs").items()}
-    for section, keys in EXACTLY_ONE.items():
-        definitions[section.__name__]["oneOf"] = [{"required": [key]} for key in keys]
+    for section, keys in (("Parameter", WAYS), ("DesignPart", KINDS)):
+        definitions[section]["oneOf"] = [{"required": [key]} for key in keys]
     definitions["Parameter"]["properties"]["values"]["items"] = {"type": VALUE_TYPES}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -20,7 +20,6 @@ from mbla.results.failures import SIGNALS
 from mbla.results.files import OutputFolder
 from mbla.results.record.json_values import number
 from mbla.results.record.keys import Key
-from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.engine.engine import Engine, EngineOptions, engine_for
 from mbla.sweeps.interaction.domain import (
@@ -200,7 +199,7 @@ def study_points(
     of = about(deck, overrides)
     name = "azimuth" if question.kind == DIRECTION else "angle"
     words = "from +x towards +y" if question.kind == DIRECTION else "of two loads: A times cosine, B times sine"
-    angle = DesignColumn(name, "degree", words, "float", "azimuth", name)
+    angle = SweepColumn(name, "degree", words, "float", "azimuth", name)
     return Study(
         about=of,
         question=question,

@@ -10,40 +10,9 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.results.record.scene import Values
-from mbla.sweeps.design.design import Design, DesignColumn, Dimension
+from mbla.sweeps.design.design import Design, Dimension
+from mbla.sweeps.design.design import SweepColumn as SweepColumn
 from mbla.sweeps.plan import Outcome, Plain
-
-
-@dataclass(frozen=True)
-class SweepColumn:
-    """One column.
-
-    kind : ``float``, ``int``, ``bool`` or ``text``
-    role : ``number`` of the point; ``parameter``, ``azimuth``, ``elevation`` of the design; ``state``, ``exit_code``,
-           ``reason``, ``tries``, ``seconds``; ``result``
-    case : load case of a result, empty for others
-    path : key path of a result in the JSON object of its case or run, empty for others
-    """
-
-    name: str
-    unit: str
-    words: str
-    kind: str
-    role: str
-    dimension: str = ""
-    random: bool = False
-    case: str = ""
-    path: str = ""
-
-    @property
-    def header(self) -> str:
-        """``thickness [m]``; the name alone where there is no unit."""
-        return header_of(self.name, self.unit)
-
-
-def header_of(name: str, unit: str) -> str:
-    """A name with its unit, as headers of tables have it."""
-    return f"{name} [{unit}]" if unit else name
 
 
 @dataclass(frozen=True)
@@ -115,7 +84,7 @@ def sweep_table(
     parts: list[tuple[SweepColumn, Values]] = [
         (POINT, column_values("int", [point.number for point in design.points])),
         *(
-            (_of_design(column), column_values(column.kind, [point.values[row] for point in design.points]))
+            (column, column_values(column.kind, [point.values[row] for point in design.points]))
             for row, column in enumerate(design.columns)
         ),
         (STATE, _own("state", "text", found)),
@@ -184,9 +153,3 @@ def as_text(value: Plain) -> str:
 
 def _own(name: str, kind: str, found: Sequence[Outcome | None]) -> Values:
     return column_values(kind, [None if outcome is None else getattr(outcome, name) for outcome in found])
-
-
-def _of_design(column: DesignColumn) -> SweepColumn:
-    return SweepColumn(
-        column.name, column.unit, column.words, column.kind, column.role, column.dimension, column.random
-    )

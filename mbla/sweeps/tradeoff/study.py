@@ -23,7 +23,6 @@ from mbla.results.listing.answers import reaction_unit
 from mbla.results.record.json_values import number
 from mbla.results.record.scene import Values
 from mbla.solution.solution import Status
-from mbla.sweeps.design.design import DesignColumn
 from mbla.sweeps.engine.engine import NOT_BEGUN, SerialEngine
 from mbla.sweeps.engine.supervised import STOPPED
 from mbla.sweeps.plan import DONE, Outcome, Plan
@@ -64,7 +63,7 @@ RESULTS = (
 PLANAR = "friction has two directions in a planar structure: any polyhedron is exact"
 REPEATS, SHORT = 3, 1.0
 """runs at most of a setting that takes fewer seconds than that, of which the shortest counts"""
-SETTING = DesignColumn("setting", "", "name of the setting", "text", "parameter", "setting")
+SETTING = SweepColumn("setting", "", "name of the setting", "text", "parameter", "setting")
 Report = Callable[[int, int], None]
 """called with the settings that are done, and all of them"""
 

@@ -8,8 +8,7 @@ from typing import Any
 from mbla.deck.tree import KeyPath, key_text
 from mbla.errors import Fault, Message, Place
 from mbla.sweeps.design.build import design_of
-from mbla.sweeps.design.design import Design
-from mbla.sweeps.design.ways import Vector
+from mbla.sweeps.design.design import Design, Sources, Vector
 from mbla.sweeps.file import rules
 from mbla.sweeps.file.content import SweepContent
 
@@ -35,7 +34,7 @@ def design(
     **keys: Any,
 ) -> Design:
     """The design of such a sweep over a deck with these vectors, units and parameters."""
-    return design_of(content_of(parameters, **keys), vectors or {}, units or {}, known or {}, fault_at)
+    return design_of(Sources(content_of(parameters, **keys), vectors or {}, units or {}, known or {}, fault_at))
 
 
 def column(design: Design, name: str) -> list[Any]:

@@ -31,7 +31,7 @@ def test_parts_are_combined_and_the_rest_goes_to_the_part_that_names_none() -> N
     parameters = {"mu": MU, "g": {"key": "g", "uniform": {"from": 1, "to": 2}}, "t": T}
     found = design(parameters, design=[{"random": {"of": ["g"], "points": 3, "seed": 7}}, {"grid": {}}])
     assert [(dimension.name, dimension.size) for dimension in found.dimensions] == [("random", 3), ("mu", 3), ("t", 2)]
-    assert [(part.kind, part.parameters, part.dimensions, part.seed) for part in found.parts] == [
+    assert [(part.kind, part.parameters, names, part.seed) for part, names in found.parts] == [
         ("random", ("g",), ("random",), 7),
         ("grid", ("mu", "t"), ("mu", "t"), None),
     ]

@@ -16,8 +16,7 @@ from scipy import stats
 
 from mbla.arrays import FloatArray
 from mbla.sweeps.design.ways import WAYS, cut_normal
-from mbla.sweeps.file.content import Parameter
-from mbla.sweeps.file.parts import way_of
+from mbla.sweeps.file.content import Parameter, way_of
 from tests.sweeps.design.hand_made import column, drawn
 
 U = np.array([1e-12, 1e-6, 0.01, 0.2, 0.5, 0.8, 0.99, 1 - 1e-6])

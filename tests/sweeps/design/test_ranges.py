@@ -8,10 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mbla.deck.section import Section
-from mbla.sweeps.design.ways import WAYS, WayError
-from mbla.sweeps.file import parts
-from mbla.sweeps.file.content import LinearRange, LogRange, Normal, Parameter
+from mbla.sweeps.design.ways import WAYS
+from mbla.sweeps.file import content
+from mbla.sweeps.file.content import Parameter
 from tests.sweeps.design.hand_made import column, design, drawn
 
 
@@ -20,8 +19,7 @@ def levels(parameter: dict[str, Any]) -> list[Any]:
 
 
 def test_every_way_of_the_sweep_file_is_registered() -> None:
-    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(parts.WAYS)
-    assert {key for key, way in WAYS.items() if way.random} == set(parts.RANDOM)
+    assert set(WAYS) == set(Parameter.model_fields) - {"key", "unit"} == set(content.WAYS)
 
 
 def test_a_linear_range_is_as_a_person_would_write_it() -> None:
@@ -50,23 +48,6 @@ def test_logarithmic_ranges_have_exact_ends_and_equal_ratios(start: float, ratio
     found = levels({"log": {"from": start, "to": end, "points": points}})
     assert (found[0], found[-1]) == (start, end)
     assert np.diff(np.log(found)) == pytest.approx(np.full(points - 1, math.log(ratio) / (points - 1)), abs=2e-11)
-
-
-ENDS = {"from": 1, "to": 2}
-
-
-@pytest.mark.parametrize(
-    ("way", "section", "message"),
-    [
-        ("linear", LinearRange.model_validate(ENDS), "needs points"),
-        ("log", LogRange.model_validate(ENDS), "needs points"),
-        ("normal", Normal(mean=1, deviation=1), "draw it in a part random, latin_hypercube or sobol"),
-    ],
-)
-def test_what_has_no_levels_gives_none(way: str, section: Section, message: str) -> None:
-    """Sweep files with these are refused when they are read; nothing is made up here either."""
-    with pytest.raises(WayError, match=message):
-        WAYS[way].levels(section, None)
 
 
 def test_whole_numbers_are_each_of_them() -> None:

@@ -73,7 +73,7 @@ def is_refused(folder: Path, number: int) -> bool:
     path = write(folder, json.dumps(mutated(number)), "sweep.yaml")
     try:
         base = read_base(read_sweep(path))
-        design = design_of(base.sweep.content, base.vectors, base.units, base.known, base.sweep.fault_at)
+        design = design_of(base.sources)
     except DeckError as error:
         lines = [str(fault) for fault in error.faults]
         assert lines

@@ -9,8 +9,7 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError, Message
-from mbla.sweeps.file.content import MAX_POINTS
-from mbla.sweeps.file.parts import WAYS, design_parts, is_random, key_paths, level_count, spelt, way_of
+from mbla.sweeps.file.content import MAX_POINTS, WAYS, design_parts, is_random, key_paths, level_count, spelt, way_of
 from mbla.sweeps.file.read import Sweep, read_sweep
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
@@ -55,13 +54,13 @@ def test_values_keep_their_kinds(tmp_path: Path) -> None:
 def test_parts_of_the_design(tmp_path: Path) -> None:
     content = sweep_of(tmp_path, ALL_WAYS).content
     parts = design_parts(content)
-    assert [(part.kind, part.names, part.points, part.seed) for part in parts] == [
-        ("grid", ("mu", "law"), 0, 0),
-        ("zip", ("t", "n"), 0, 0),
+    assert [(part.kind, part.parameters, part.points, part.seed) for part in parts] == [
+        ("grid", ("mu", "law"), 0, None),
+        ("zip", ("t", "n"), 0, None),
         ("random", ("joints.dry.cohesion",), 4, 7),
         ("latin_hypercube", ("tension", "g"), 4, 1),
         ("sobol", ("density", "radius"), 4, 1),
-        ("grid", ("d",), 0, 0),
+        ("grid", ("d",), 0, None),
     ]
     assert [is_random(part, content) for part in parts] == [False, False, True, True, True, False]
 

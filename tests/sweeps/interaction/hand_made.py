@@ -10,7 +10,7 @@ from typing import Any
 from mbla.deck import read_deck
 from mbla.deck.units import Units
 from mbla.model import build_model
-from mbla.sweeps.design.design import DesignColumn
+from mbla.sweeps.design.design import SweepColumn
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.interaction.domain import Point, domain_of
@@ -132,7 +132,7 @@ def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "asso
     assert kind in (DIRECTION, TWO_LOADS)
     domain = domain_of(points, pair, closed=closed)
     of = About("block.yaml", "Block", (), Units("m", "N", "kg"), flow_rule, {"mbla": "0"})
-    angle = DesignColumn("azimuth", "degree", "", "float", "azimuth", "azimuth")
+    angle = SweepColumn("azimuth", "degree", "", "float", "azimuth", "azimuth")
     plan = Plan("", "", (), ("push",), ("load_factor",), "none", "", None, None, "")
     outcomes = {n: Outcome(str(n), DONE, 0, "", {}, 1, 0.1) for n in range(1, len(points) + 1)}
     table = study_table(of, angle, asked.angles, plan, outcomes)

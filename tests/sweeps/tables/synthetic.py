@@ -1,7 +1,7 @@
 """A sweep made by hand: friction in a grid with a sample of thickness and a seed, one point of it left out."""
 
 from mbla.deck.units import Units
-from mbla.sweeps.design.design import Design, DesignColumn, Dimension, Point
+from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun
@@ -15,9 +15,9 @@ LEFT_OUT = (1, 2)
 
 def design() -> Design:
     columns = (
-        DesignColumn("mu", "", "friction", "float", "parameter", "mu"),
-        DesignColumn("t", "m", "thickness", "float", "parameter", "sobol", random=True),
-        DesignColumn("seed", "", "seed of the bond", "int", "parameter", "sobol"),
+        SweepColumn("mu", "", "friction", "float", "parameter", "mu"),
+        SweepColumn("t", "m", "thickness", "float", "parameter", "sobol", random=True),
+        SweepColumn("seed", "", "seed of the bond", "int", "parameter", "sobol"),
     )
     places = [(i, j) for i in range(2) for j in range(3) if (i, j) != LEFT_OUT]
     points = tuple(
