@@ -123,7 +123,7 @@ def _block_sums(model: Model, motion: FloatArray) -> _BlockSums:
     arms, inertia = arms / size, blocks.volumes * (blocks.sizes / size) ** 2 / 6.0  # of a cube
     to_block = np.zeros((len(blocks), 3, 6))
     to_block[:, :, :3] = np.eye(3)
-    to_block[:, :, 3:] = -_crosses(arms)
+    to_block[:, :, 3:] = np.cross(np.eye(3), arms[:, None, :]).transpose(0, 2, 1)  # −x ×
     matrices = blocks.volumes[:, None, None] * np.einsum("bij,bik->bjk", to_block, to_block)
     matrices[:, 3:, 3:] += inertia[:, None, None] * np.eye(3)
     vectors = blocks.volumes[:, None] * np.einsum("bij,bi->bj", to_block, velocity)
@@ -167,13 +167,6 @@ def _left_of(matrices: FloatArray, vectors: FloatArray, squares: FloatArray) -> 
     motions = np.linalg.solve(matrices[filled], vectors[filled, :, None])[:, :, 0]
     left[filled] = np.maximum(squares[filled] - (vectors[filled] * motions).sum(axis=1), 0.0)
     return left
-
-
-def _crosses(vectors: FloatArray) -> FloatArray:
-    """Matrices of v × …, (n, 3, 3)."""
-    x, y, z = vectors.T
-    zero = np.zeros_like(x)
-    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
 
 
 def _by_part(parts: IntArray, values: FloatArray, count: int) -> FloatArray:

@@ -19,7 +19,6 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.motion import (
-    displacements_at,
     drawn_motion,
     movable_size,
     moved_vertices,
@@ -29,6 +28,7 @@ from mbla.results.collapse.motion import (
 )
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.results import CaseResult
+from mbla.solution.verification.statics import contact_velocities
 
 AT_REST = 1e-3
 """contact velocity over the largest up to which two parts do not move against each other at a point"""
@@ -129,17 +129,12 @@ def _leads(model: Model, motion: FloatArray, parts: IntArray, led: IntArray) -> 
 def _joints(model: Model, contacts: Contacts, motion: FloatArray, parts: IntArray) -> _Joints:
     bodies = contacts.bodies[contacts.interface_of_point]
     of_bodies = np.append(parts, np.zeros(len(model.grounds), dtype=np.int64))[bodies]
-    velocities = np.zeros((2, len(contacts.points), 3))
-    for side in (0, 1):
-        own = bodies[:, side] < len(model.blocks)
-        velocities[side, own] = displacements_at(model.blocks, motion, bodies[own, side], contacts.points[own])
-    relative = velocities[1] - velocities[0]
-    normals = contacts.frames[:, 0]
-    speed = np.linalg.norm(relative, axis=1)
-    still = speed <= AT_REST * speed.max(initial=0.0)
-    closed = np.einsum("ni,ni->n", relative, normals) <= AT_REST * speed.max(initial=0.0)
+    velocities = contact_velocities(model, contacts, motion)
+    speed = np.linalg.norm(velocities, axis=1)
+    slow = AT_REST * speed.max(initial=0.0)
+    still, closed = speed <= slow, velocities[:, 0] <= slow
     chosen = (of_bodies[:, 0] != of_bodies[:, 1]) & (still | closed)
-    return _Joints(of_bodies[chosen], contacts.points[chosen], normals[chosen], ~still[chosen])
+    return _Joints(of_bodies[chosen], contacts.points[chosen], contacts.frames[chosen, 0], ~still[chosen])
 
 
 def _pose(model: Model, motion: FloatArray, parts: IntArray, count: int) -> _Pose:

@@ -6,7 +6,7 @@ were merged up to a share of the motion, their hinges may differ by as much and 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,14 +61,18 @@ def cluster_joints(model: Model, contacts: Contacts, clusters: IntArray, mechani
     )
 
 
-def runs(pairs: IntArray, chosen: IntArray) -> Iterator[IntArray]:
-    """Chosen interfaces by the clusters that meet in them, each run in its order."""
-    if not len(chosen):
-        return
-    order = np.lexsort((chosen, pairs[chosen, 1], pairs[chosen, 0]))
-    ordered = chosen[order]
-    new = np.any(np.diff(pairs[ordered], axis=0) != 0, axis=1)
-    yield from np.split(ordered, np.flatnonzero(new) + 1)
+def groups(pairs: IntArray, chosen: IntArray, same: Callable[[int, IntArray], BoolArray]) -> Iterator[IntArray]:
+    """Chosen interfaces by the clusters that meet in them, then by what is the same as for the first of them.
+
+    same : whether interfaces belong to a first one, (n,)
+    """
+    for pair in np.unique(pairs[chosen], axis=0):
+        rest = chosen[(pairs[chosen] == pair).all(axis=1)]
+        while len(rest):
+            own = same(int(rest[0]), rest)
+            own[0] = True  # one that does not travel has no way to compare
+            yield rest[own]
+            rest = rest[~own]
 
 
 # --- Hinge lines: hinges of interfaces between the same two clusters that lie on one line ---------------------------
@@ -120,18 +124,15 @@ def hinge_lines(
     hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
     directions = joints.signs[:, None] * motion.hinge_directions
     size, parallel = interface_radii(contacts), loosened(SAME_DIRECTION, merged)
-    lines = []
-    for run in runs(joints.pairs, hinges):
-        rest = run
-        while len(rest):
-            seed = rest[0]
-            arms = motion.hinge_points[rest] - motion.hinge_points[seed]
-            off = np.linalg.norm(np.cross(arms, directions[seed]), axis=1)
-            same = (directions[rest] @ directions[seed] >= parallel) & (
-                off <= (SAME_LINE + merged) * np.maximum(size[rest], size[seed])
-            )
-            lines.append(_line(motion, joints, work, rest[same], directions[seed]))
-            rest = rest[~same]
+
+    def on_one_line(seed: int, rest: IntArray) -> BoolArray:
+        arms = motion.hinge_points[rest] - motion.hinge_points[seed]
+        off = np.linalg.norm(np.cross(arms, directions[seed]), axis=1)
+        near = off <= (SAME_LINE + merged) * np.maximum(size[rest], size[seed])
+        return np.asarray(near & (directions[rest] @ directions[seed] >= parallel))
+
+    found = groups(joints.pairs, hinges, on_one_line)
+    lines = [_line(motion, joints, work, interfaces, directions[interfaces[0]]) for interfaces in found]
     return tuple(sorted(lines, key=lambda line: (-round(line.share, 6), line.interfaces[0])))
 
 
@@ -216,18 +217,16 @@ def sliding_planes(
     speeds = np.linalg.norm(travel, axis=1)
     ways = travel / np.where(speeds > 0, speeds, 1.0)[:, None]
     size, one_way = interface_radii(contacts), loosened(SAME_WAY, merged)
-    planes = []
-    for run in runs(joints.pairs, sliding):
-        rest = run
-        while len(rest):
-            seed = rest[0]
-            off = np.abs((contacts.centroids[rest] - contacts.centroids[seed]) @ normals[seed])
-            same = normals[rest] @ normals[seed] >= SAME_NORMAL
-            same &= off <= SAME_PLANE * np.maximum(size[rest], size[seed])
-            same &= (motion.modes[rest] == motion.modes[seed]) & (ways[rest] @ ways[seed] >= one_way)
-            same[0] = True  # one that does not travel has no way to compare
-            planes.append(_plane(contacts, motion, joints, work, rest[same], normals, travel))
-            rest = rest[~same]
+
+    def in_one_plane(seed: int, rest: IntArray) -> BoolArray:
+        off = np.abs((contacts.centroids[rest] - contacts.centroids[seed]) @ normals[seed])
+        same = normals[rest] @ normals[seed] >= SAME_NORMAL
+        same &= off <= SAME_PLANE * np.maximum(size[rest], size[seed])
+        same &= (motion.modes[rest] == motion.modes[seed]) & (ways[rest] @ ways[seed] >= one_way)
+        return np.asarray(same)
+
+    found = groups(joints.pairs, sliding, in_one_plane)
+    planes = [_plane(contacts, motion, joints, work, interfaces, normals, travel) for interfaces in found]
     return tuple(
         sorted(
             planes, key=lambda p: (-round(np.nan_to_num(p.shear_power_share), 6), -round(p.share, 6), p.interfaces[0])

@@ -115,45 +115,23 @@ def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def rotation_vectors(rotations: FloatArray) -> FloatArray:
-    """Rotation vectors, (n, 3) rad up to π long, of rotation matrices, (n, 3, 3): the way back from ``screw_matrices``.
+    """Rotation vectors, (n, 3) rad up to π long, of rotation matrices, (n, 3, 3): back from ``screw_matrices``."""
+    from scipy.spatial.transform import Rotation
 
-    By the unit quaternion (w, v), from the largest of its four components: 2 atan2(‖v‖, w) v/‖v‖.
-    """
-    trace = np.trace(rotations, axis1=1, axis2=2)
-    squares = np.column_stack([trace, *rotations.diagonal(axis1=1, axis2=2).T])  # 4 q² = 1 + 2 square − trace
-    squares[:, 1:] = 2.0 * squares[:, 1:] - trace[:, None]
-    products = np.empty((len(rotations), 4, 4))  # 4 q_i q_j
-    for first, second, third in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        one, other = rotations[:, third, second], rotations[:, second, third]
-        products[:, 0, first + 1] = products[:, first + 1, 0] = one - other
-        products[:, second + 1, third + 1] = products[:, third + 1, second + 1] = one + other
-    products[:, range(4), range(4)] = 1.0 + squares
-    quaternion = products[np.arange(len(rotations)), squares.argmax(axis=1)]
-    quaternion /= np.linalg.norm(quaternion, axis=1)[:, None]
-    quaternion *= np.where(quaternion[:, :1] < 0.0, -1.0, 1.0)
-    size = np.linalg.norm(quaternion[:, 1:], axis=1)
-    angle = 2.0 * np.arctan2(size, quaternion[:, 0])
-    share = np.divide(angle, size, out=np.full(len(size), 2.0), where=size > 0.0)
-    return np.asarray(share[:, None] * quaternion[:, 1:])
+    return np.asarray(Rotation.from_matrix(rotations).as_rotvec())
 
 
 def screw_matrices(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
     """R and V of rotation vectors, (n, 3, 3) each.
 
-    With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K²,
-    V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
+    With the angle θ and K of the unit axis: V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
     """
+    from scipy.spatial.transform import Rotation
+
     angles = np.linalg.norm(vectors, axis=1)
     axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
-    cross = np.zeros((len(vectors), 3, 3))
-    x, y, z = axes.T
-    cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
-    cross -= cross.transpose(0, 2, 1)
-    square = cross @ cross
-    angle = angles[:, None, None]
-    half = angle / 2
+    cross = np.cross(axes[:, None, :], np.eye(3)).transpose(0, 2, 1)
+    half = angles[:, None, None] / 2
     # (1 − cos θ)/θ and sin θ/θ without loss of digits near zero
-    lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(angle / np.pi)
-    rotation = np.eye(3) + np.sin(angle) * cross + 2 * np.sin(half) ** 2 * square
-    path = np.eye(3) + lag * cross + (1 - share) * square
-    return rotation, path
+    lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(2 * half / np.pi)
+    return np.asarray(Rotation.from_rotvec(vectors).as_matrix()), np.eye(3) + lag * cross + (1 - share) * cross @ cross

@@ -23,16 +23,6 @@ from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Mechanics, Status
 
 
-def reaction_words(model: Model, settlement: Settlement, load_factor: float) -> str:
-    """``a reaction of 5232 N``, or ``a reaction of 120 N m``."""
-    return f"a reaction of {reaction_figure(settlement, load_factor)} {reaction_unit(model, settlement)}"
-
-
-def reaction_figure(settlement: Settlement, load_factor: float) -> str:
-    """The reaction of a load factor in digits, without its unit."""
-    return _figure(settlement.reaction(load_factor), settlement)
-
-
 def reaction_json(case: CaseResult) -> dict[str, Any] | None:
     """The reaction with its bounds (those of associative flow) and what the load factor is counted from and in."""
     settlement = case.load_case.settlement
@@ -57,10 +47,10 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     value, unit = reaction_of(case), reaction_unit(model, settlement)
     lines = []
     if value is not None:
-        share = _figure(value / settlement.unit, settlement, 1.0)
-        words = f"{_figure(value, settlement)} {unit}   ({share} of {_of(settlement)})"
+        value = _or_nothing(settlement, value)
+        words = f"{number(value)} {unit}   ({number(value / settlement.unit)} of {_of(settlement)})"
         lines += entry("reaction of the support", words)
-        if value < -NOTHING * settlement.unit:
+        if value < 0.0:
             pushed = "turned" if settlement.turns else "pushed"
             lines += entry("", f"negative: the structure withstands; the support must be {pushed} the way it gives")
     if np.isfinite(checks.kinematic_bound) and np.isfinite(checks.static_bound):
@@ -74,9 +64,9 @@ NOTHING = 1e-9
 """share of its unit below which a reaction is written as zero: rounding of the load factor"""
 
 
-def _figure(value: float, settlement: Settlement, unit: float | None = None) -> str:
-    """A reaction in digits, zero where it is one."""
-    return number(0.0 if abs(value) <= NOTHING * (unit or settlement.unit) else value)
+def _or_nothing(settlement: Settlement, reaction: float) -> float:
+    """A reaction, zero where it is one but for rounding."""
+    return 0.0 if abs(reaction) <= NOTHING * settlement.unit else reaction
 
 
 def _of(settlement: Settlement) -> str:
@@ -100,15 +90,16 @@ def answer_head(model: Model, load_case: LoadCase) -> str:
     return "load factor" if load_case.tilt is None else "angle [degree]"
 
 
+def answer_value(load_case: LoadCase, load_factor: float) -> float:
+    """The answer that a load factor stands for; nan where it stands for none."""
+    if load_case.settlement is not None:
+        return _or_nothing(load_case.settlement, load_case.settlement.reaction(load_factor))
+    return load_factor if load_case.tilt is None else angle_at(load_case.tilt, load_factor)
+
+
 def answer_figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
     """The answer of forces and mechanism in six digits; ``-`` where there are none."""
-    if mechanics is None:
-        return "-"
-    if load_case.settlement is not None:
-        return reaction_figure(load_case.settlement, mechanics.load_factor)
-    if load_case.tilt is None:
-        return number(mechanics.load_factor)
-    return number(angle_at(load_case.tilt, mechanics.load_factor))
+    return "-" if mechanics is None else number(answer_value(load_case, mechanics.load_factor))
 
 
 def status_name(status: Status) -> str:
@@ -123,10 +114,12 @@ def status_words(status: Status) -> str:
 
 def bound_figures(case: CaseResult) -> tuple[str, str]:
     """What associative flow proves to be borne and not to be borne, as the answer of the case, eight digits."""
+    low, high = case.checks.static_bound, case.checks.kinematic_bound
     if case.load_case.tilt is not None:
-        lowest, highest = angle_bounds(case)
-        return _digits(lowest), _digits(highest)
-    return _of_factor(case.load_case, case.checks.static_bound), _of_factor(case.load_case, case.checks.kinematic_bound)
+        low, high = angle_bounds(case)
+    elif case.load_case.settlement is not None:
+        low, high = (answer_value(case.load_case, bound) for bound in (low, high))
+    return digits(low), digits(high)
 
 
 def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str], list[list[str]]]:
@@ -163,15 +156,8 @@ def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, flo
     return ends if load_case.settlement is None else (ends[1], ends[0])
 
 
-def _of_factor(load_case: LoadCase, load_factor: float) -> str:
-    if math.isnan(load_factor):
-        return "-"
-    if load_case.settlement is not None:
-        return _digits(load_case.settlement.reaction(load_factor))
-    return _digits(load_factor if load_case.tilt is None else angle_at(load_case.tilt, load_factor))
-
-
-def _digits(value: float) -> str:
+def digits(value: float) -> str:
+    """Eight significant digits; ``-`` where there is no number."""
     return "-" if math.isnan(value) else f"{value + 0.0:.8g}"
 
 

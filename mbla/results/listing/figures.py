@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from mbla.model.model import Model
-from mbla.results.listing.answers import LEAST_AND_GREATEST, answer_head, extent_figures, settlement_lines, status_name
+from mbla.results.listing.answers import (
+    LEAST_AND_GREATEST,
+    answer_head,
+    digits,
+    extent_figures,
+    settlement_lines,
+    status_name,
+)
 from mbla.results.listing.text import MOST_ROWS, counted, entry, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
@@ -59,7 +66,7 @@ def _factors(model: Model, case: CaseResult) -> list[str]:
             lines += entry(f"{answer_head(model, case.load_case)}, {which}", figure)
     ends = range_of(case)
     if ends is not None:
-        lines += entry("range for this mechanism", f"{_digits(ends[0])} .. {_digits(ends[1])}   (verified)")
+        lines += entry("range for this mechanism", f"{digits(ends[0])} .. {digits(ends[1])}   (verified)")
     elif own is not None and (solution.lower is not None or solution.upper is not None):
         claimed = [number(np.nan if end is None else end.load_factor) for end in (solution.lower, solution.upper)]
         lines += entry("range for this mechanism", f"{' .. '.join(claimed)}   (NOT verified)")
@@ -74,11 +81,11 @@ def _angle(case: CaseResult) -> list[str]:
     """A tilting table: the angle, and those between which it is proved to lie."""
     if case.load_case.tilt is None:
         return []
-    lines = entry("angle", f"{_digits(angle_of(case))} degrees")
+    lines = entry("angle", f"{digits(angle_of(case))} degrees")
     low, high = angle_bounds(case)
     if np.isnan(low) and np.isnan(high):
         return lines
-    return lines + entry("angle, associative bounds", f"{_digits(low)} .. {_digits(high)} degrees")
+    return lines + entry("angle, associative bounds", f"{digits(low)} .. {digits(high)} degrees")
 
 
 def _bracket(case: CaseResult) -> list[str]:
@@ -86,8 +93,8 @@ def _bracket(case: CaseResult) -> list[str]:
     solution = case.solution
     if solution.outer is None:
         return []
-    inner = "-" if solution.associative is None else _digits(solution.associative.load_factor)
-    outer = f"{_digits(solution.outer.load_factor)}   ({solution.sides} sides; the cone lies between)"
+    inner = "-" if solution.associative is None else digits(solution.associative.load_factor)
+    outer = f"{digits(solution.outer.load_factor)}   ({solution.sides} sides; the cone lies between)"
     return entry("inscribed polyhedron", inner) + entry("circumscribed polyhedron", outer)
 
 
@@ -95,13 +102,9 @@ def _bounds(case: CaseResult) -> list[str]:
     checks = case.checks
     if np.isnan(checks.static_bound) and np.isnan(checks.kinematic_bound):
         return []
-    lines = entry("associative, static bound", _digits(checks.static_bound))
-    lines += entry("associative, kinematic bound", _digits(checks.kinematic_bound))
+    lines = entry("associative, static bound", digits(checks.static_bound))
+    lines += entry("associative, kinematic bound", digits(checks.kinematic_bound))
     return lines + entry("relative gap", small(checks.gap))
-
-
-def _digits(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.8g}"
 
 
 def _beside(associative: Mechanics, own: Mechanics | None) -> str:

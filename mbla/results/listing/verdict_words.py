@@ -9,7 +9,7 @@ import numpy as np
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
 from mbla.results.findings import rounding_of
-from mbla.results.listing.answers import in_order, reaction_words, status_name
+from mbla.results.listing.answers import answer_value, in_order, reaction_unit, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
     angle_at,
@@ -54,7 +54,9 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
     ``a reaction of 5232 N`` where a support gives way, ``31.2 degrees of tilt`` for a tilting table.
     """
     if load_case.settlement is not None:
-        return reaction_words(model, load_case.settlement, load_factor)
+        return (
+            f"a reaction of {number(answer_value(load_case, load_factor))} {reaction_unit(model, load_case.settlement)}"
+        )
     if load_case.tilt is not None:
         angle = angle_at(load_case.tilt, load_factor)
         if np.isnan(angle):

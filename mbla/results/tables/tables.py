@@ -15,8 +15,7 @@ from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.record.blocks import BLOCK_COLUMNS
 from mbla.results.record.cases import CASE_COLUMNS
-from mbla.results.record.interfaces import INTERFACE_COLUMNS
-from mbla.results.record.points import POINT_COLUMNS
+from mbla.results.record.contacts import INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.results import Results
 from mbla.results.series import chosen_cases
 from mbla.results.tables.formats import table_csv, table_parquet

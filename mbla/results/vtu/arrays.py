@@ -9,8 +9,7 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.results.record.blocks import BLOCK_COLUMNS
-from mbla.results.record.interfaces import INTERFACE_COLUMNS
-from mbla.results.record.points import POINT_COLUMNS
+from mbla.results.record.contacts import INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.record.quantity import Quantity, flag, real, unit_text, whole
 from mbla.results.record.scene import Column, Scene
 

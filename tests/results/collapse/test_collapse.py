@@ -44,20 +44,6 @@ def test_nothing_is_kept_of_records_that_are_gone() -> None:
     assert found == list(range(100))
 
 
-def test_by_name_it_is_found_every_time() -> None:
-    """Only arguments by position are known again."""
-    calls = []
-
-    @kept
-    def doubled(record: Record, times: int) -> int:
-        calls.append(times)
-        return times * record.value
-
-    one = Record(3)
-    assert [doubled(one, times=2), doubled(one, times=2)] == [6, 6]
-    assert calls == [2, 2]
-
-
 # ---  ---------------------------------------------------------------------------------------------------------------
 
 

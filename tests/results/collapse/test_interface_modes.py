@@ -12,7 +12,6 @@ from mbla.results.collapse.interface_modes import (
     InterfaceMode,
     InterfaceMotion,
     interface_motion,
-    interface_radii,
     largest_by_interface,
     stuck_interfaces,
     sum_by_interface,
@@ -89,12 +88,6 @@ def test_a_hinge_about_an_edge_has_its_axis_there() -> None:
     assert motion.hinge_directions[0] == pytest.approx([0, 1, 0])
     assert motion.rotation[0] == pytest.approx([0, 2, 0])
     assert motion.translation[0] == pytest.approx([0, 0, 1])  # the middle of the bed rises
-
-
-def test_a_hinge_about_a_corner_runs_through_it() -> None:
-    motion = motion_of(turning(CORNER, (-1, 1, 0)))
-    assert motion.hinge_points[0] == pytest.approx(CORNER)
-    assert motion.hinge_directions[0] == pytest.approx([-(0.5**0.5), 0.5**0.5, 0])
 
 
 def test_the_axis_lies_in_the_interface_though_the_rotation_does_not() -> None:
@@ -191,7 +184,3 @@ def test_sums_and_largest_of_each_interface() -> None:
     assert sum_by_interface(contacts, np.column_stack([values, values])).tolist() == [[10, 10], [-26, -26]]
     assert sum_by_interface(contacts, values > 2).tolist() == [2, 0]
     assert largest_by_interface(contacts, values).tolist() == [4, 0]
-
-
-def test_radius_of_a_unit_square() -> None:
-    assert interface_radii(tower_contacts()) == pytest.approx([0.5**0.5, 0.5**0.5])

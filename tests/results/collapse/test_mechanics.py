@@ -278,14 +278,6 @@ def test_a_dead_load_that_drives_is_a_source_too(factor: float, shares: str) -> 
     assert shares in words(MODEL, CONTACTS, falling)
 
 
-def test_groups_that_move_have_their_share() -> None:
-    mechanics = tower_mechanics()
-    mechanism = mechanics.mechanism + sliding().mechanism
-    text = words(MODEL, CONTACTS, replace(mechanics, mechanism=mechanism))
-    assert "tower" in text
-    assert "brick" in text
-
-
 def test_mechanism_in_the_record() -> None:
     record = mechanism_json(MODEL, CONTACTS, CASE, tower_mechanics(), 3)
     assert {name: record[name] for name in ("open", "slide", "stick")} == {"open": 2, "slide": 0, "stick": 6}

@@ -112,10 +112,6 @@ def test_small_spinning_block_does_not_turn_several_times(results: Results) -> N
     assert np.linalg.norm(scaled[:, 3:], axis=1).max() == pytest.approx(LARGEST_ROTATION)
 
 
-def test_nothing_moves_without_mechanism(results: Results) -> None:
-    assert motion_scale(results.model, np.zeros((3, 6))) == 0.0
-
-
 def test_certificate_moves_where_there_is_no_equilibrium(results: Results) -> None:
     motion = drawn_motion(results.model, results.cases[1])
     assert motion[1, 2] < 0

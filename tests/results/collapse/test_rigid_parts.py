@@ -6,11 +6,10 @@ import pytest
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, resting_blocks, rigid_parts
+from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, rigid_parts
 from mbla.results.listing.mechanism_words import motion_words, part_lines
-from mbla.results.listing.places import direction_words
 from mbla.results.listing.text import WIDTH
-from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
+from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_model
 
 
 def stack(n: int) -> tuple[Model, Contacts]:
@@ -115,27 +114,11 @@ def test_a_turn_too_slight_for_its_size_is_a_travel() -> None:
     assert part.axis_point == pytest.approx([0.5, 0.5, 2 - 1 / 0.1])  # the centre of rotation lies below
 
 
-def test_only_the_tower_moves() -> None:
-    model, mechanics = tower_model(), tower_mechanics()
-    assert rigid_parts(model, tower_contacts(), mechanics.mechanism).tolist() == [0, 1, 0]
-    assert resting_blocks(model, mechanics.mechanism).tolist() == [True, False, True]
-
-
 def test_share_of_the_weight_that_moves_and_its_name() -> None:
     model = tower_model()
     assert moving_share(model, np.array([0, 1, 0])) == pytest.approx(0.5)  # the base is fixed and does not count
     assert moving_share(replace(model, fixed=np.ones(3, dtype=bool)), np.zeros(3, dtype=np.int64)) == 0.0
     assert [reach(share) for share in (0.0, 0.1, 0.3, 0.5, 1.0)] == ["local", "local", "partial", "global", "global"]
-
-
-def test_parts_in_words() -> None:
-    model, contacts = stack(6)
-    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
-    parts = rigid_parts(model, contacts, motion)
-    lines = part_lines(model, part_motions(model, parts, motion))
-    text = " ".join(" ".join(lines).split())
-    assert "1: stack[3..5] turns about +y at (1, 0.5, 3) 3 147.15" in text
-    assert "2: stack[1..2] moves along +x 2 49.05" in text
 
 
 def test_many_parts_are_shortened_and_counted() -> None:
@@ -148,11 +131,6 @@ def test_many_parts_are_shortened_and_counted() -> None:
     assert len(part_motions(model, parts, motion)) == n - 1
     assert "and 19 lighter ones" in lines[-1]
     assert max(map(len, lines)) <= WIDTH
-
-
-def test_directions_by_name_where_they_follow_an_axis() -> None:
-    assert direction_words(np.array([0.0, -1.0, 0.0])) == "-y"
-    assert direction_words(np.array([0.8, 0.0, 0.6])) == "(0.8, 0, 0.6)"
 
 
 def test_long_lists_of_blocks_give_way_to_the_rest_of_the_row() -> None:

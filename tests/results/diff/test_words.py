@@ -41,20 +41,6 @@ def test_of_a_long_diff_the_rest_is_counted(same: Comparison, more: int) -> None
     assert ("and 5 more lines; --json has them all" in text) is (more > 0)
 
 
-def test_other_units_and_other_names_are_told(same: Comparison) -> None:
-    text = text_of(replace(same, model=replace(same.model, units=("m, N, kg", "mm, kN, t"), matched_by="place")))
-    assert "Units: m, N, kg in A, mm, kN, t in B; everything here is in those of A." in text
-    assert "Blocks were matched by their place: their names are others, or in another order." in text
-    assert "Units" not in text_of(same)
-    assert "matched by their place" not in text_of(same)
-
-
-def test_another_flow_rule_is_told(same: Comparison) -> None:
-    text = text_of(with_case(same, flow_rule=("associative", "non_associative, path")))
-    assert "flow rule associative in A, non_associative, path in B" in text
-    assert "flow rule" not in text_of(same)
-
-
 @pytest.mark.parametrize("more", [0, 3])
 def test_of_many_reactions_the_largest_are_named(same: Comparison, more: int) -> None:
     changes = tuple(ReactionChange(f"pier[{i}]", np.array([0.0, 0.0, 2.0 + more])) for i in range(MOST_NAMED + more))

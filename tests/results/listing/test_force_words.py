@@ -33,13 +33,6 @@ def test_ranges_of_normal_forces_say_which_are_unique() -> None:
     assert lines[-1].split()[-3:] == ["10", "10", "10"]
 
 
-def test_an_end_that_was_not_found_has_no_figure_and_is_not_unique() -> None:
-    lines = force_range_lines(MODEL, CONTACTS, tower_mechanics(), np.array([[np.nan, 10.0], [2.0, 3.0]]))
-    assert "0 of 2 are unique" in words(lines)
-    assert lines[-2].split()[-3:] == ["2", "3", "10"]
-    assert lines[-1].split()[-3:] == ["-", "10", "10"]
-
-
 @pytest.mark.parametrize("interfaces", [MOST_ROWS, MOST_ROWS + 5])
 def test_long_tables_say_how_much_they_leave_out(interfaces: int) -> None:
     lower = np.array([[i, 0, 0] for i in range(interfaces)] + [[0, 0, 1]], float)

@@ -14,12 +14,10 @@ from mbla.errors import Message, Notice
 from mbla.model.model import Settlement, Tilt
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.answers import answer_columns
-from mbla.results.listing.listing import listing, verification_lines
+from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
-from mbla.results.listing.verdict_words import uniqueness_words
 from mbla.results.record.json_record import results_json
-from mbla.results.record.quantity import CLAIMED, COURSE, TIMES, VERSIONS, WORDS
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, tower_results
@@ -47,13 +45,6 @@ def section(text: str, title: str) -> str:
     return match[1]
 
 
-def test_reactions_balance_in_print(text: str) -> None:
-    rows = {line[:26].strip(): line[26:].split() for line in section(text, "Load case push_x").splitlines()}
-    assert rows["base[0]"][:3] == ["-5", "0", "10"]
-    assert rows["sum of reactions"][:3] == ["-10", "0", "20"]
-    assert rows["out of balance"] == ["0"] * 6
-
-
 def with_case(results: Results, **changes: Any) -> Results:
     """Results whose first case has another status, solution or checks."""
     first = results.cases[0]
@@ -79,18 +70,6 @@ def test_a_fall_is_told_as_any_other_failure(results: Results) -> None:
     assert "with the load" not in found
     assert "Nothing slides." in found
     assert "nan" not in found
-
-
-def test_verification_names_what_differs(results: Results) -> None:
-    assert "agrees" in verification_lines(results, ())[-1]
-    lines = verification_lines(results, ("push_x: static bound is 1 recomputed, the file says 2",))
-    assert "differs: push_x: static bound is 1" in lines[-1]
-    text = " ".join(" ".join(lines).split())
-    assert f"not verified, but as the run told it: {VERSIONS}; {TIMES}; {CLAIMED}; {COURSE}; {WORDS}" in text
-
-
-def test_the_associative_factor_is_unique_without_words() -> None:
-    assert uniqueness_words(MODEL, tower_results("associative").cases[0]) == ""
 
 
 def test_the_table_has_the_least_and_the_greatest_where_a_case_has_several() -> None:
@@ -123,12 +102,6 @@ def summary(results: Results) -> str:
     return " ".join(" ".join(lines).split())
 
 
-def test_warnings_but_no_notices(results: Results) -> None:
-    text = summary(results)
-    assert "near-miss" in text
-    assert "faces-turned-outwards" not in text
-
-
 def test_associative_flow_needs_no_second_column(results: Results) -> None:
     cases = tuple(replace(case, solution=replace(case.solution, flow_rule="associative")) for case in results.cases)
     assert summary_lines(replace(results, cases=cases))[1].split() == ["load", "case", "status", "load", "factor"]
@@ -144,13 +117,6 @@ def test_a_value_that_is_no_result_is_not_in_the_table(results: Results, status:
     assert "no load factor; the best iterate, 0.5 g" in text
     assert "no more than 0.4 g" in text
     assert "hinge" not in text
-
-
-def test_no_bound_is_claimed_where_there_is_none(results: Results) -> None:
-    first = results.cases[0]
-    checks = replace(first.checks, kinematic_bound=np.nan)
-    unsure = replace(first, status=Status.NOT_VERIFIED, checks=checks)
-    assert "no more than" not in summary(replace(results, cases=(unsure,)))
 
 
 def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
@@ -196,11 +162,6 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
     lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
     assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
     assert lines[2].split() == ["tilted", "solved", angle, "-"]
-
-
-def test_a_result_without_cases_has_its_model_alone(results: Results) -> None:
-    lines = summary_lines(replace(results, cases=(), notices=()))
-    assert lines == ["tower.yaml: 3 blocks, 2 interfaces, 8 contact points, weight 65 N"]
 
 
 def test_what_a_fall_may_come_from_is_told_before_it() -> None:
