@@ -21,8 +21,8 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.results import CaseResult
-from mbla.solution.associative.proofs import PROVED_RESIDUAL
 from mbla.solution.solution import Status
+from mbla.solution.verification.case import PROVED_RESIDUAL
 from mbla.solution.verification.statics import bodies_of_points, load_scale, load_sizes
 
 BROKEN = {

@@ -43,6 +43,7 @@ from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord, never_left
+from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.statics import (
     contact_resultants,
@@ -178,9 +179,9 @@ def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution
     found = solution.mechanics
     if found is None or (solution.lower is None and solution.upper is None):
         return np.nan, np.nan
-    limits = yield_limits(model, contacts)
-    dilatancy = limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros_like(limits.dilatancy)
-    left = residuals_of(model, contacts, load_case, found, dilatancy).largest
+    case = Case(model, contacts, load_case)
+    dilatancy = case.limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros(len(contacts.points))
+    left = residuals_of(case, found, dilatancy).largest
     if not left <= SOLVED_RESIDUAL:
         return np.nan, np.nan
     allowed = max(EXACT_RESIDUAL, left)
@@ -191,7 +192,7 @@ def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution
         speed = float(np.abs(found.mechanism).max(initial=0.0))
         if np.abs(end.mechanism - found.mechanism).max(initial=0.0) > SAME_MECHANISM * speed:
             return np.nan
-        fits = residuals_of(model, contacts, load_case, end, dilatancy).largest <= allowed
+        fits = residuals_of(case, end, dilatancy).largest <= allowed
         return end.load_factor if fits else np.nan
 
     return verified(solution.lower, -1.0), verified(solution.upper, 1.0)
@@ -201,7 +202,7 @@ def peak_check(model: Model, contacts: Contacts, load_case: LoadCase, peak: Mech
     """Load factor of a peak where its forces carry it, NaN where they do not or where there is none."""
     if peak is None:
         return np.nan
-    residuals = residuals_of(model, contacts, load_case, peak, np.zeros(len(peak.contact_forces)))
+    residuals = residuals_of(Case(model, contacts, load_case), peak, np.zeros(len(peak.contact_forces)))
     carried = (
         residuals.equilibrium <= EXACT_RESIDUAL and residuals.yielding <= EXACT_RESIDUAL
     )  # neither where it is no number

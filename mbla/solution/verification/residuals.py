@@ -18,20 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
-from mbla.model.model import LoadCase, Model
-from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.statics import (
-    LoadScale,
-    contact_resultants,
-    contact_velocities,
-    left_to_balance,
-    load_scale,
-    off_guides,
-    power,
-)
+from mbla.solution.verification.case import Case
+from mbla.solution.verification.statics import off_guides
 
 AT_REST = 1e-9
 """contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""
@@ -72,65 +62,40 @@ class Residuals:
 
 
 def residuals_of(
-    model: Model,
-    contacts: Contacts,
-    load_case: LoadCase,
-    mechanics: Mechanics,
-    dilatancy: FloatArray,
-    polygon: FloatArray | None = None,
+    case: Case, mechanics: Mechanics, dilatancy: FloatArray, polygon: FloatArray | None = None
 ) -> Residuals:
     """Residuals under a flow rule with the given dilatancy (tangent), (n_points,).
 
     polygon : (n, 2) corners that bound the shear of a unit circle; the speed against which sliding dissipates is then
               s = max g·v_T over the corners g
     """
-    limits = yield_limits(model, contacts)
-    scale = load_scale(model, contacts, load_case, limits)
-    u, x, factor = mechanics.mechanism, mechanics.contact_forces, mechanics.load_factor
-    v = contact_velocities(model, contacts, u)
+    limits, scale, contacts, free = case.limits, case.scale, case.contacts, case.model.free
+    x, factor, (u, motions) = mechanics.contact_forces, mechanics.load_factor, case.motion_of(mechanics)
+    moved, (by_interfaces, by_crushing) = case.velocities(u), case.interface_velocities(motions)
+    v, interfaces = moved - by_interfaces, case.interface_terms(mechanics)
     sliding = np.hypot(v[:, 1], v[:, 2]) if polygon is None else (v[:, 1:] @ polygon.T).max(axis=1)
-    speed = float(np.linalg.norm(v, axis=1).max(initial=0.0))
-    closing = np.where(np.isinf(limits.compression), np.maximum(-v[:, 0], 0.0), 0.0)
-    live_power, dead_power = power(load_case.live_load, u), power(load_case.dead_load, u)
+    speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
+    closing = np.where(np.isinf(limits.compression), np.maximum(by_crushing[:, 0] - moved[:, 0], 0.0), 0.0)
+    dead_power, live_power = case.powers(u)
     strength = limits.friction * x[:, 0] + limits.cohesion
     flow = flow_power(limits, dilatancy, x, v, sliding, strength)
-    frictional = float(np.abs(strength * sliding).sum())
+    frictional = float(np.abs(strength * sliding).sum()) + interfaces.frictional
     balance = max(abs(factor * live_power), abs(dead_power), frictional, scale.least_factor(u))
-    external = dead_power + factor * live_power
-    unbalanced = unbalanced_loads(model, contacts, load_case, x, factor, scale)[model.free]
-    point_scale = scale.point_scale(contacts, x)
+    lost = dead_power + factor * live_power - flow.dissipated - interfaces.dissipated
+    block_scale = case.block_scale(x, factor)
+    point_scale = scale.of_lighter(contacts, block_scale)
+    excess = float((yield_violation(x, limits) / point_scale).max(initial=0.0))
     tension = np.maximum(-x[:, 0] - limits.tension, 0.0)
     return Residuals(
-        equilibrium=float((unbalanced / scale.block_scale(contacts, x)[model.free]).max(initial=0.0)),
-        yielding=float((yield_violation(x, limits) / point_scale).max(initial=0.0)),
+        equilibrium=float((case.unbalanced_loads(x, factor)[free] / block_scale[free]).max(initial=0.0)),
+        yielding=max(excess, case.interface_excess(x, point_scale)),
         tension=float((tension / point_scale).max(initial=0.0)),
-        penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(model, u, scale.arms)),
-        complementarity=share_of(flow.normal + flow.slip, balance),
-        slip=share_of(flow.slip, balance),
+        penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(case.model, u, scale.arms)),
+        complementarity=share_of(flow.normal + flow.slip + interfaces.unexplained, balance),
+        slip=share_of(flow.slip + interfaces.slip, balance),
         live_power=live_power,
-        power_balance=share_of(abs(external - flow.dissipated), balance),
+        power_balance=share_of(abs(lost), balance),
     )
-
-
-def unbalanced_loads(
-    model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
-) -> FloatArray:
-    """Largest unbalanced component of each block, moments over the lever arm, zero on fixed blocks, (n_blocks,).
-
-    Of guided blocks only what their guides do not take counts.
-    """
-    unbalanced = np.abs(unbalanced_wrenches(model, contacts, load_case, contact_forces, factor, scale))
-    unbalanced[:, 3:] /= scale.arms[:, None]
-    return np.where(model.fixed, 0.0, unbalanced.max(axis=1))
-
-
-def unbalanced_wrenches(
-    model: Model, contacts: Contacts, load_case: LoadCase, contact_forces: FloatArray, factor: float, scale: LoadScale
-) -> FloatArray:
-    """What loads and contact forces leave on each block beside what its guides take, (n_blocks, 6) N, N m."""
-    loads = load_case.dead_load + factor * load_case.live_load
-    acting = contact_resultants(model, contacts, contact_forces) + loads
-    return left_to_balance(model, acting, scale.arms)
 
 
 def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arms: FloatArray) -> float:

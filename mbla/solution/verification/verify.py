@@ -20,6 +20,7 @@ from mbla.process.stopwatch import timed
 from mbla.program.assemble import yield_limits
 from mbla.solution.glued import rule_of, solution_on_solids
 from mbla.solution.solution import Checks, Solution, Standing, Status
+from mbla.solution.verification.case import Case
 from mbla.solution.verification.further_claims import (
     lock_failures,
     never_failures,
@@ -29,7 +30,7 @@ from mbla.solution.verification.further_claims import (
     tilt_failures,
 )
 from mbla.solution.verification.residuals import residuals_of
-from mbla.solution.verification.verify_convex import convex_lock_failures, convex_residuals, point_limits, verify_convex
+from mbla.solution.verification.verify_convex import InterfaceCase, convex_lock_failures, point_limits, verify_convex
 from mbla.solution.verification.verify_points import verify_points
 from mbla.solution.verification.verify_polyhedral import verify_polyhedral
 
@@ -102,11 +103,12 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     mechanics = getattr(of_solids, part)
     if part == "level" and load_case.tilt is not None:
         load_case = replace(load_case, live_load=load_case.tilt.across)
-    case, rule = solids.load_case(load_case), rule_of(part, solution)
+    rule = rule_of(part, solution)
+    parts = solids.model, solids.contacts, solids.load_case(load_case)
+    case = Case(*parts)
     if mechanics.interface_motions is not None:
-        return convex_residuals(solids.model, solids.contacts, case, mechanics, rule, solution.contact_model).largest
-    slope = yield_limits(solids.model, solids.contacts).dilatancy_by(rule)
-    return residuals_of(solids.model, solids.contacts, case, mechanics, slope).largest
+        case = InterfaceCase(*parts, solution.contact_model, rule)
+    return residuals_of(case, mechanics, case.limits.dilatancy_by(rule)).largest
 
 
 def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:

@@ -11,16 +11,13 @@ approximate.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.program.assemble import yield_limits
 from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.thresholds import (
@@ -31,8 +28,8 @@ from mbla.solution.thresholds import (
     SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
+from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import Residuals, residuals_of
-from mbla.solution.verification.statics import load_scale
 
 
 @dataclass(frozen=True)
@@ -78,34 +75,32 @@ def checks_of(residuals: Residuals, bounds: Bounds, failures: tuple[Message, ...
     )
 
 
-def checks_without_mechanics(
-    solution: Solution, certificate_failures: Callable[[FloatArray], tuple[Message, ...]]
-) -> Checks:
+def verify_points(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
+    """Recompute residuals and bounds of a solution; NaN where there is nothing to check."""
+    return checked(Case(model, contacts, load_case), solution)
+
+
+def checked(case: Case, solution: Solution) -> Checks:
+    """The same, by the conditions of a case."""
+    if solution.mechanics is None:
+        return _checked_without_mechanics(case, solution)
+    dilatancy, associative = case.limits.dilatancy_by(solution.flow_rule), solution.associative
+    residuals, bounds = residuals_of(case, solution.mechanics, dilatancy), Bounds()
+    if associative is not None:
+        least_factor = case.scale.least_factor(associative.mechanism)
+        bounds = Bounds.of(*associative_bounds(case, associative), least_factor)
+    return checks_of(residuals, bounds, failures_of(residuals, solution, bounds))
+
+
+def _checked_without_mechanics(case: Case, solution: Solution) -> Checks:
     """Of a solution without forces and mechanism: of its certificate where it has one; all figures are NaN."""
     failures: tuple[Message, ...] = (
         (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
     )
     if solution.certificate is not None:
-        failures = certificate_failures(solution.certificate)
+        failures = certificate_failures(case, (solution.certificate, solution.certificate_motions))
     nan = np.nan
     return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
-
-
-def verify_points(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
-    """Recompute residuals and bounds of a solution; NaN where there is nothing to check."""
-    limits = yield_limits(model, contacts)
-    scale = load_scale(model, contacts, load_case, limits)
-    if solution.mechanics is None:
-        return checks_without_mechanics(
-            solution, lambda motion: certificate_failures(model, contacts, load_case, motion, limits, scale)
-        )
-    dilatancy = limits.dilatancy_by(solution.flow_rule)
-    residuals = residuals_of(model, contacts, load_case, solution.mechanics, dilatancy)
-    bounds = Bounds()
-    if solution.associative is not None:
-        proved = associative_bounds(model, contacts, load_case, solution.associative, limits, scale)
-        bounds = Bounds.of(*proved, scale.least_factor(solution.associative.mechanism))
-    return checks_of(residuals, bounds, failures_of(residuals, solution, bounds))
 
 
 def verified_status(solution: Solution, checks: Checks) -> Status:

@@ -24,13 +24,12 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.thresholds import GAP_TOLERANCE
+from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import Residuals, residuals_of
-from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.verify_points import Bounds, checks_of, residual_failures, verify_points
 
 
@@ -42,9 +41,11 @@ def verify_polyhedral(model: Model, contacts: Contacts, load_case: LoadCase, sol
     if solution.flow_rule != "associative":
         between = replace(inner, mechanism=outer.mechanism, contact_velocities=outer.contact_velocities)
         return verify_points(model, contacts, load_case, replace(solution, associative=between))
-    bounds = _bounds(model, contacts, load_case, inner, outer)
-    residuals = _own_residuals(model, contacts, load_case, inner, _corners(solution.sides, circumscribed=False))
-    circumscribed = _of_the_circumscribed(model, contacts, load_case, outer, solution.sides)
+    case = Case(model, contacts, load_case)
+    proved = associative_bounds(case, replace(inner, mechanism=outer.mechanism))
+    bounds = Bounds.of(*proved, case.scale.least_factor(outer.mechanism))
+    residuals = _own_residuals(case, inner, _corners(solution.sides, circumscribed=False))
+    circumscribed = _of_the_circumscribed(case, outer, solution.sides)
     failures = residual_failures(residuals, "associative")
     failures += residual_failures(circumscribed, "associative", "circumscribed polyhedron: ")
     failures += _bound_failures(inner, outer, bounds)
@@ -58,38 +59,24 @@ def _corners(sides: int, circumscribed: bool) -> FloatArray:
     return np.column_stack([np.cos(angles), np.sin(angles)]) / (np.cos(half) if circumscribed else 1.0)
 
 
-def _own_residuals(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, polygon: FloatArray
-) -> Residuals:
+def _own_residuals(case: Case, mechanics: Mechanics, polygon: FloatArray) -> Residuals:
     """Residuals by the law of the polygon, or by that of the circle where they are less."""
-    friction = yield_limits(model, contacts).friction
-    by_polygon = residuals_of(model, contacts, load_case, mechanics, friction, polygon)
-    by_circle = residuals_of(model, contacts, load_case, mechanics, friction)
+    friction = case.limits.friction
+    by_polygon = residuals_of(case, mechanics, friction, polygon)
+    by_circle = residuals_of(case, mechanics, friction)
     return min(by_polygon, by_circle, key=lambda residuals: residuals.complementarity)
 
 
-def _of_the_circumscribed(
-    model: Model, contacts: Contacts, load_case: LoadCase, outer: Mechanics, sides: int
-) -> Residuals:
+def _of_the_circumscribed(case: Case, outer: Mechanics, sides: int) -> Residuals:
     """The same with the excess of shear over the circumscribed polygon in place of that over the circle.
 
     Its sides touch the circle at the corners e of the inscribed one: −T·e ≤ c + μN for each of them.
     """
-    limits, forces = yield_limits(model, contacts), outer.contact_forces
-    residuals = _own_residuals(model, contacts, load_case, outer, _corners(sides, circumscribed=True))
+    forces, residuals = outer.contact_forces, _own_residuals(case, outer, _corners(sides, circumscribed=True))
     shear = np.maximum((-forces[:, 1:] @ _corners(sides, circumscribed=False).T).max(axis=1), 0.0)
-    excess = yield_violation(np.column_stack([forces[:, 0], shear]), limits)
-    size = load_scale(model, contacts, load_case, limits).point_scale(contacts, forces)
+    excess = yield_violation(np.column_stack([forces[:, 0], shear]), case.limits)
+    size = case.scale.point_scale(case.contacts, forces)
     return replace(residuals, yielding=float((excess / size).max(initial=0.0)))
-
-
-def _bounds(model: Model, contacts: Contacts, load_case: LoadCase, inner: Mechanics, outer: Mechanics) -> Bounds:
-    """What forces of the inscribed polyhedron and mechanism of the circumscribed one prove."""
-    limits = yield_limits(model, contacts)
-    scale = load_scale(model, contacts, load_case, limits)
-    between = replace(inner, mechanism=outer.mechanism)
-    proved = associative_bounds(model, contacts, load_case, between, limits, scale)
-    return Bounds.of(*proved, scale.least_factor(outer.mechanism))
 
 
 def _bound_failures(inner: Mechanics, outer: Mechanics, bounds: Bounds) -> list[Message]:

@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.assemble import yield_limits
 from mbla.program.program import Program
 from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.statics import load_scale
+from mbla.solution.verification.case import Case
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground, state
 
@@ -57,18 +56,16 @@ def mended(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
             of["asked"] += 1
             yield u
 
-    monkeypatch.setattr("mbla.solution.associative.proofs.repaired_mechanisms", mechanisms)
+    monkeypatch.setattr("mbla.solution.verification.case.repaired_mechanisms", mechanisms)
     monkeypatch.setattr(
-        "mbla.solution.associative.proofs.repaired_forces",
+        "mbla.solution.verification.case.repaired_forces",
         lambda _, forces, factor: (forces, factor) if of["forces"] else None,
     )
     return of
 
 
 def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
-    limits = yield_limits(line.model, line.contacts)
-    scale = load_scale(line.model, line.contacts, line.load_case, limits)
-    return associative_bounds(line.model, line.contacts, line.load_case, mechanics, limits, scale)
+    return associative_bounds(Case(line.model, line.contacts, line.load_case), mechanics)
 
 
 def of_block(
@@ -238,9 +235,8 @@ def test_of_large_forces_more_may_be_rounding(off: float, proves: bool) -> None:
 def against_a_fall(line: Line, motion: tuple[float, ...]) -> tuple[str, ...]:
     """Of a block pushed by 24 as well, a load of 40."""
     case = loaded(line.load_case, (24, 0, -32, 0, 0, 0), LIVE)
-    limits = yield_limits(line.model, line.contacts)
-    scale = load_scale(line.model, line.contacts, case, limits)
-    return certificate_failures(line.model, line.contacts, case, np.array([motion], dtype=float), limits, scale)
+    fall = np.array([motion], dtype=float), None
+    return tuple(map(str, certificate_failures(Case(line.model, line.contacts, case), fall)))
 
 
 NO_WORK = ("the dead load does no work in the mechanism that should show the lack of equilibrium",)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mbla.contacts.contacts import Contacts
 from mbla.solution.solution import Mechanics
+from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import Residuals, residuals_of
 from tests.line import BLOCK, Line, line_of
 
@@ -38,7 +39,7 @@ def sliding(line: Line) -> Mechanics:
 
 def residuals(line: Line, mechanics: Mechanics, tangent: float = 0.0) -> Residuals:
     dilatancy = np.full(len(line.contacts.points), tangent)
-    return residuals_of(line.model, line.contacts, line.load_case, mechanics, dilatancy)
+    return residuals_of(Case(line.model, line.contacts, line.load_case), mechanics, dilatancy)
 
 
 def test_the_exact_state_has_none(line: Line) -> None:

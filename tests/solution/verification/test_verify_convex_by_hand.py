@@ -13,9 +13,10 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.assemble import yield_limits
 from mbla.program.resultants import ConvexProgram
+from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Status
 from mbla.solution.verification.interface_laws import InterfaceLaws
-from mbla.solution.verification.verify_convex import convex_bounds, convex_lock_failures, verify_convex
+from mbla.solution.verification.verify_convex import InterfaceCase, convex_lock_failures, verify_convex
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import claim, cube, loaded, on_ground, state
 
@@ -319,7 +320,7 @@ def test_resultants_of_small_forces_are_judged_by_these(dry: Line) -> None:
 
 
 def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
-    return convex_bounds(line.model, line.contacts, line.load_case, mechanics, "convex")
+    return associative_bounds(InterfaceCase(line.model, line.contacts, line.load_case, "convex"), mechanics)
 
 
 @pytest.mark.usefixtures("mended")
@@ -470,7 +471,7 @@ def test_forces_locked_in_raise_no_bound(off: float, proves: bool) -> None:
 @pytest.fixture
 def bounds(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[float, float]]:
     of: dict[str, tuple[float, float]] = {}
-    monkeypatch.setattr(MODULE, "_bounds", lambda *_: of["bounds"])
+    monkeypatch.setattr("mbla.solution.verification.verify_points.associative_bounds", lambda *_: of["bounds"])
     return of
 
 

@@ -46,7 +46,7 @@ def told(line: Line, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     of: dict[str, Any] = {"inner": inner, "outer": outer, "bounds": (2.0, 2.0), "polygons": {}, "left": {}}
 
     def residuals_of(*arguments: Any) -> Residuals:
-        mechanics, dilatancy, *polygon = arguments[3:]
+        mechanics, dilatancy, *polygon = arguments[1:]
         name = "inner" if mechanics is of["inner"] else "outer"
         assert mechanics is of[name]
         assert dilatancy.tolist() == [0.5] * 4
@@ -58,8 +58,8 @@ def told(line: Line, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         return left
 
     def bounds(*arguments: Any) -> tuple[float, float]:
-        assert arguments[3].contact_forces is of["inner"].contact_forces
-        assert arguments[3].mechanism is of["outer"].mechanism
+        assert arguments[1].contact_forces is of["inner"].contact_forces
+        assert arguments[1].mechanism is of["outer"].mechanism
         found: tuple[float, float] = of["bounds"]
         return found
 

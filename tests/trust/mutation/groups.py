@@ -35,6 +35,7 @@ GROUPS = {
             "mbla/solution/verification/residuals.py",
             "mbla/solution/associative/bounds.py",
             "mbla/solution/associative/proofs.py",
+            "mbla/solution/verification/case.py",
             "mbla/solution/verification/statics.py",
             "mbla/solution/associative/certificate.py",
         ),
