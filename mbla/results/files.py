@@ -6,7 +6,7 @@ flushed to the disk and renamed into place when the run has succeeded.
 A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
 :mod:`mbla.results.write`, which the next whole result removes); signals wait while it does that, and while it
 puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
-(:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.lock`).
+(:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.disk`).
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from mbla.results.disk import (
     clear_leftovers,
     file_errors,
     flush_to_disk,
+    locked,
     mark_as_new,
     missing_folders,
     remove_folders,
     remove_new,
     temporary_path,
 )
-from mbla.results.lock import locked
 
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""

@@ -22,8 +22,16 @@ from typing import Any
 
 from mbla.errors import FileError, Notice, UsageError
 from mbla.process.signals import held_signals
-from mbla.results.disk import file_errors, flush_to_disk, missing_folders, temporary_path
-from mbla.results.lock import AT_WORK, holder, lock_path, locked
+from mbla.results.disk import (
+    AT_WORK,
+    file_errors,
+    flush_to_disk,
+    holder,
+    lock_path,
+    locked,
+    missing_folders,
+    temporary_path,
+)
 from mbla.sweeps.identity import difference as other_versions
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.lock import holder, lock_path, locked
+from mbla.results.disk import holder, lock_path, locked
 
 
 def test_nobody_holds_a_lock_that_was_left_behind(tmp_path: Path) -> None:

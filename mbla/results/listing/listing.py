@@ -15,7 +15,6 @@ from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.answers import series_lines, worst_words
-from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
     enough_lines,
@@ -26,7 +25,7 @@ from mbla.results.listing.forces import (
     reaction_lines,
     work_lines,
 )
-from mbla.results.listing.mechanism_words import fall_lines, fall_sentences, mechanism_lines, mechanism_summary
+from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary, told_of
 from mbla.results.listing.model_words import (
     contact_lines,
     header_lines,
@@ -61,34 +60,24 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
 def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
     """What there is to say of a load case, the verdict and the failure first; no section is empty."""
     solution, held, model = case.solution, model, model.of_case(case.load_case)
-    mechanics, load_case = solution.mechanics, case.load_case
-    if mechanics is None:
-        motion = solution.certificate
-        told = [] if motion is None else fall_sentences(model, contacts, load_case, motion)
-        sections = [Section("Verdict", _verdict_lines(model, case, "", told))]
-        if motion is not None:
-            sections.append(Section("Mechanism", spaced(fall_lines(model, contacts, motion))))
-        if solution.lock is not None:
-            sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
-    else:
-        collapse = collapse_of(model, contacts, load_case, mechanics)
-        failure = failure_of(model, contacts, collapse, mechanics)
-        told = failure_sentences(model, contacts, load_case, collapse, failure)
+    mechanics, load_case, told = solution.mechanics, case.load_case, told_of(model, contacts, case)
+    summary = "" if told is None or mechanics is None else mechanism_summary(model, told.collapse, told.failure)
+    sections = [Section("Verdict", _verdict_lines(model, case, summary, [] if told is None else told.sentences))]
+    if told is not None:
+        sections.append(Section("Mechanism", spaced(mechanism_lines(model, contacts, told.failure))))
+    if mechanics is not None and told is not None:
         dimension = 3 if solution.size is None else solution.size.dimension
-        work = enough_lines(case, enough_of(model, contacts, collapse.parts))
-        work += work_lines(model, contacts, load_case, mechanics, collapse.work)
+        work = enough_lines(case, enough_of(model, contacts, told.collapse.parts))
+        work += work_lines(model, contacts, load_case, mechanics, told.collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
         reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
-        sections = [
-            Section("Verdict", _verdict_lines(model, case, mechanism_summary(model, collapse, failure), told)),
-            Section("Mechanism", spaced(mechanism_lines(model, contacts, failure))),
-            Section("Work", ["", *work]),
-            Section("Reactions", reactions),
-        ]
+        sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
         if solution.force_ranges is not None:
             ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
             sections.append(Section("Range of normal forces", ranges))
+    elif mechanics is None and solution.lock is not None:
+        sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
     sections += [
         Section("Load factor and bounds", ["", *figures(model, case)]),
         Section("Reductions", spaced(reduction_lines(solution.reductions))),

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_of
+from mbla.model.model import Model
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, fall_of
 from mbla.results.collapse.cracks import Crack
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
@@ -21,6 +21,7 @@ from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.failure_words import as_parts, crack_kind, failure_sentences, hinge_side
 from mbla.results.listing.places import TABLE_DIGITS, block_names, direction_words, point_words
 from mbla.results.listing.text import MOST_ROWS, counted, number, percent, sentence, table
+from mbla.results.results import CaseResult
 
 LONGEST = 40
 """characters up to which the blocks of parts are named; beyond, their groups: the sentences say more"""
@@ -209,23 +210,29 @@ LIFTS = (
 """what the motion is worth as a picture of the fall, where anything slides in it"""
 
 
-def fall_sentences(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
-    """What moves and how, where it turns and parts, what slides; the live load, which does not act yet, says no way."""
-    collapse, mechanics = fall_of(model, contacts, certificate)
+@dataclass(frozen=True)
+class Told:
+    """How a case fails, or falls without equilibrium; the sentences are read in their order, tables follow."""
+
+    collapse: Collapse
+    failure: Failure
+    sentences: list[str]
+
+
+def told_of(model: Model, contacts: Contacts, case: CaseResult) -> Told | None:
+    """From the mechanism, a result or not; None without any motion.
+
+    Without equilibrium the live load does not act yet, and says no way.
+    """
+    load_case, mechanics, certificate = case.load_case, case.solution.mechanics, case.solution.certificate
+    remark = []
+    if mechanics is not None:
+        collapse = collapse_of(model, contacts, load_case, mechanics)
+    elif certificate is not None:
+        collapse, mechanics = fall_of(model, contacts, certificate)
+        load_case = replace(load_case, live_load=np.zeros_like(load_case.live_load))
+        remark = [LIFTS] if collapse.interfaces.slides.any() else []
+    else:
+        return None
     failure = failure_of(model, contacts, collapse, mechanics)
-    unloaded = replace(load_case, live_load=np.zeros_like(load_case.live_load))
-    lifts = [LIFTS] if collapse.interfaces.slides.any() else []
-    return failure_sentences(model, contacts, unloaded, collapse, failure) + lifts
-
-
-def fall_lines(model: Model, contacts: Contacts, certificate: FloatArray) -> list[str]:
-    """The tables of the parts, hinge lines, sliding planes and cracks."""
-    collapse, mechanics = fall_of(model, contacts, certificate)
-    return mechanism_lines(model, contacts, failure_of(model, contacts, collapse, mechanics))
-
-
-def fall_summary(model: Model, contacts: Contacts, load_case: LoadCase, certificate: FloatArray) -> list[str]:
-    """For the terminal: the first of these sentences, which say how much moves and what the heaviest part does."""
-    return [
-        line for text in fall_sentences(model, contacts, load_case, certificate)[:2] for line in sentence(text, "    ")
-    ]
+    return Told(collapse, failure, failure_sentences(model, contacts, load_case, collapse, failure) + remark)

@@ -7,16 +7,14 @@ from collections.abc import Sequence
 
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
-from mbla.results.listing.failure_words import failure_sentences
-from mbla.results.listing.mechanism_words import fall_summary, mechanism_summary
+from mbla.results.listing.mechanism_words import mechanism_summary, told_of
 from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
-from mbla.solution.solution import Mechanics, Status
+from mbla.solution.solution import Status
 
 CAUSES = ("isolated-blocks", "unsupported-parts")
 """Warnings that stand before the load cases: the verdicts on these follow from them."""
@@ -103,26 +101,16 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
     return table(["load case", "status", *heads], rows, left=2)
 
 
-def _heaviest(results: Results, case: CaseResult, mechanics: Mechanics, collapse: Collapse) -> list[str]:
-    """What the heaviest part does."""
-    model, contacts = results.model.of_case(case.load_case), results.contacts
-    failure = failure_of(model, contacts, collapse, mechanics)
-    return sentence("".join(failure_sentences(model, contacts, case.load_case, collapse, failure)[1:2]), DETAIL)
-
-
 def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
-    model, solution, mechanics = results.model.of_case(case.load_case), case.solution, result_of(case)
-    text = f"{case.load_case.name}: {verdict(model, case)}"
-    if mechanics is not None:
-        collapse = collapse_of(model, results.contacts, case.load_case, mechanics)
-        failure = failure_of(model, results.contacts, collapse, mechanics)
-        text += f": {mechanism_summary(model, collapse, failure)}"
+    model, contacts, found = results.model.of_case(case.load_case), results.contacts, result_of(case)
+    fails = found is not None or case.solution.mechanics is None
+    told = told_of(model, contacts, case) if fails else None
+    text, details = f"{case.load_case.name}: {verdict(model, case)}", []
+    if told is not None:  # what the heaviest part does; of a fall how much moves, too
+        text += "" if found is None else f": {mechanism_summary(model, told.collapse, told.failure)}"
+        details = told.sentences[:2] if found is None else told.sentences[1:2]
     lines = sentence(text)
-    if mechanics is not None:
-        lines += _heaviest(results, case, mechanics, collapse)
-    if solution.mechanics is None and solution.certificate is not None:
-        lines += fall_summary(model, results.contacts, case.load_case, solution.certificate)
-    for why in (*reasons(case), bound_words(model, case)):
-        lines += sentence(why, DETAIL)
+    for words in (*details, *reasons(case), bound_words(model, case)):
+        lines += sentence(words, DETAIL)
     return lines

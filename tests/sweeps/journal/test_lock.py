@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.lock import lock_path, locked
+from mbla.results.disk import lock_path, locked
 from mbla.sweeps.journal import Journal, journal_name, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, point

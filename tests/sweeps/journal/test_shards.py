@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.results.lock import lock_path
+from mbla.results.disk import lock_path
 from mbla.sweeps.journal import WHOLE, Journal, journal_name, journals_in, merged, shard_of
 from mbla.sweeps.plan import Task
 from tests.sweeps.journal.points import HEADER, as_read, point

@@ -28,7 +28,7 @@ from mbla.deck.include import confined
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model, geometry
 from mbla.model.solids.build import blocks_from_polyhedra
-from mbla.results import lock as journal_lock
+from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.notebook import run
 from mbla.results.notebook.run import Run
