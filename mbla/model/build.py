@@ -29,7 +29,7 @@ from mbla.model.selectors import Roster, check_overrides, select_blocks, unplace
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import Blocks, distance_outside
 from mbla.model.solids.build import build_blocks
-from mbla.model.solids.defects import far_fault, far_notices
+from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports.build import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
@@ -149,12 +149,11 @@ def _build(deck: Deck) -> Structure:
     faults: list[Fault] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
-    far = far_fault(items.polyhedra, deck.contacts.tolerance)
-    faults += (
-        defects_in_words(deck, built.defects, items.items, built.blocks)
-        if far is None
-        else [deck.fault_at(("blocks",), Message("coordinate-out-of-range", far))]
-    )
+    far = far_away(items.polyhedra, items.labels.name, deck.contacts.tolerance)
+    if isinstance(far, Message):
+        faults.append(deck.fault_at(("blocks",), far))
+    else:
+        faults += defects_in_words(deck, built.defects, items.items, built.blocks)
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
     roster = Roster(built.blocks, partial, deck.fault_at, faults)
     supports = build_supports(deck, Supports(items.fixed, items.grounds), roster)
@@ -162,7 +161,7 @@ def _build(deck: Deck) -> Structure:
     interfaces = read_interfaces(deck, roster, supports.grounds)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))
-    first = (*items.notices, *built.notices, *far_notices(items.polyhedra, items.labels.name))
+    first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []))
     bent = replace(built.bent, items=items.items[built.bent.blocks])
     return Structure(roster.of_deck(unplaced), supports, interfaces, bent, first)  # places are those of one deck
 

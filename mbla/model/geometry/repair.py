@@ -29,7 +29,7 @@ from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.surfaces import face_codes, repeated_faces, split_surfaces
 from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, welding_notices, with_faces
-from mbla.model.solids.defects import coordinate_defects, mark
+from mbla.model.solids.defects import Defects, coordinate_defects
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
@@ -65,7 +65,9 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     tolerance     : relative to the shortest edge, for gaps inside a block
     weld_distance : distance within which corners of an object are one
     """
-    fit = ~mark(coordinate_defects(geometry.polyhedra), len(geometry.polyhedra))
+    defects = Defects(len(geometry.polyhedra))
+    defects.add(coordinate_defects(geometry.polyhedra))
+    fit = defects.sound
     work = _Work(take_polyhedra(geometry.polyhedra, np.flatnonzero(fit)), np.flatnonzero(fit))
     work.put(work.polyhedra)
     _weld_equal(work, geometry)

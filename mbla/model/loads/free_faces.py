@@ -14,16 +14,13 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import intersections, plane_axes, signed_areas
-from mbla.model.solids.ragged import chunks, items_of_rows, ranges, row_maxima
+from mbla.model.solids.plane import intersections, meeting_boxes, plane_axes, signed_areas
+from mbla.model.solids.ragged import items_of_rows, row_maxima
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""
 BARELY = 1e-9
 """share of a face below which a common part is the rounding of a shared edge"""
-
-MOST_PAIRS = 500_000
-"""pairs of faces that are looked at in one go"""
 
 
 @dataclass(frozen=True)
@@ -137,61 +134,17 @@ def _covers(
 
 
 def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float) -> tuple[IntArray, IntArray]:
-    """(position in ``faces``, face of another block that may lie against it): a sweep along the x axis."""
+    """(position in ``faces``, face of another block that may lie against it)."""
     corners = blocks.vertices[blocks.loops]
-    boxes = _Boxes(
-        np.minimum.reduceat(corners, blocks.loop_start[:-1], axis=0),
-        np.maximum.reduceat(corners, blocks.loop_start[:-1], axis=0),
-    )
+    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
     reach = tolerance * blocks.sizes[blocks.block_of_face]
-    order = np.argsort(boxes.low[:, 0], kind="stable")
-    starting = boxes.low[order, 0]
-    widest = float((boxes.high[:, 0] - boxes.low[:, 0]).max())
-    begins = np.searchsorted(starting, boxes.low[faces, 0] - widest - reach[faces], side="left")
-    ends = np.searchsorted(starting, boxes.high[faces, 0] + reach[faces], side="right")
-    found = [
-        _touching(np.arange(part.start, part.stop), faces, order, begins, ends, boxes, reach, blocks)
-        for part in chunks(ends - begins, MOST_PAIRS)
-    ]
-    return np.concatenate([mine for mine, _ in found]), np.concatenate([others for _, others in found])
-
-
-@dataclass(frozen=True)
-class _Boxes:
-    """Corners of the bounding boxes of faces, (n_faces, 3) each."""
-
-    low: FloatArray
-    high: FloatArray
-
-
-def _touching(
-    positions: IntArray,
-    faces: IntArray,
-    order: IntArray,
-    begins: IntArray,
-    ends: IntArray,
-    boxes: _Boxes,
-    reach: FloatArray,
-    blocks: Blocks,
-) -> tuple[IntArray, IntArray]:
-    """Of the faces in the windows order[begins:ends] those whose boxes touch, that face the other way and lie near."""
-    counts = (ends - begins)[positions]
-    row, other = np.repeat(positions, counts), order[ranges(begins[positions], counts)]
-    for test in (_boxes_touch, _face_each_other):
-        kept = test(faces[row], other, boxes, reach, blocks)
-        row, other = row[kept], other[kept]
-    return row, other
-
-
-def _boxes_touch(mine: IntArray, other: IntArray, boxes: _Boxes, reach: FloatArray, blocks: Blocks) -> BoolArray:
-    margin = reach[mine, None]
-    touch = (boxes.low[other] <= boxes.high[mine] + margin) & (boxes.high[other] >= boxes.low[mine] - margin)
-    return np.asarray(np.all(touch, axis=1) & (blocks.block_of_face[mine] != blocks.block_of_face[other]))
-
-
-def _face_each_other(mine: IntArray, other: IntArray, boxes: _Boxes, reach: FloatArray, blocks: Blocks) -> BoolArray:
-    normals = blocks.face_normals[mine]
-    between = blocks.vertices[blocks.loops[blocks.loop_start[other]]]
-    between = between - blocks.vertices[blocks.loops[blocks.loop_start[mine]]]
-    near = np.abs(np.einsum("ij,ij->i", between, normals)) <= 2.0 * reach[mine] + reach[other]
-    return np.asarray(near & (np.einsum("ij,ij->i", blocks.face_normals[other], normals) <= -FACING))
+    margin = reach[faces, None]
+    mine, others = meeting_boxes(low[faces] - margin, high[faces] + margin, low, high)
+    face = faces[mine]
+    between = blocks.vertices[blocks.loops[blocks.loop_start[others]]]
+    between = between - blocks.vertices[blocks.loops[blocks.loop_start[face]]]
+    normals = blocks.face_normals[face]
+    kept = blocks.block_of_face[face] != blocks.block_of_face[others]
+    kept &= np.abs(np.einsum("ij,ij->i", between, normals)) <= 2.0 * reach[face] + reach[others]
+    kept &= np.einsum("ij,ij->i", blocks.face_normals[others], normals) <= -FACING
+    return mine[kept], others[kept]

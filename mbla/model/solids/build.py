@@ -12,12 +12,12 @@ from mbla.errors import MblaError, Message, Notice
 from mbla.model.solids.blocks import BlockLabels, Blocks, no_labels
 from mbla.model.solids.defects import (
     Defect,
+    Defects,
     Extents,
     coordinate_defects,
     corner_defects,
     edge_defects,
     find_extents,
-    mark,
     not_planar,
     planarity_defects,
     size_defects,
@@ -125,28 +125,25 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     judge. Everything is done for all blocks at once.
     """
     polyhedra, unused = drop_unused_vertices(polyhedra)
-    polyhedra, defects = _without_wild_coordinates(polyhedra)
+    defects = Defects(len(polyhedra))
+    defects.add(coordinate_defects(polyhedra))
+    fit = defects.sound[polyhedra.block_of_vertex, None]
+    polyhedra = replace(polyhedra, vertices=np.where(fit, polyhedra.vertices, 0.0))
     extents = find_extents(polyhedra)
-    defects += _among_sound(defects, corner_defects(polyhedra, extents), len(polyhedra))
-    polyhedra, turned, found = _oriented(polyhedra, find_edges(polyhedra))
-    defects += _among_sound(defects, found, len(polyhedra))
-    turned_faces = _turned_faces(polyhedra, turned, labels)
+    defects.add(corner_defects(polyhedra, extents))
+    polyhedra, turned = _oriented(polyhedra, find_edges(polyhedra), defects)
     volumes, _ = volumes_and_centroids(polyhedra)
-    defects += _among_sound(
-        defects, size_defects(polyhedra, face_geometry(polyhedra), volumes, extents), len(polyhedra)
-    )
+    defects.add(size_defects(polyhedra, face_geometry(polyhedra), volumes, extents))
+    turned_faces = _turned_faces(polyhedra, turned, labels)
     polyhedra, bent = _without_bent_faces(polyhedra, defects, np.cbrt(volumes), tolerance)
-    edges, faces, (volumes, centroids) = (
-        find_edges(polyhedra),
-        face_geometry(polyhedra),
-        volumes_and_centroids(polyhedra),
-    )
-    sizes, sound = np.cbrt(volumes), ~mark(defects, len(polyhedra))
-    convex = find_convex(polyhedra, faces, tolerance * sizes) & sound
-    defects += _self_intersections(polyhedra, np.flatnonzero(sound & ~convex))
-    facets = (
-        np.arange(len(polyhedra.block_of_face)) if defects else find_facets(polyhedra, edges, faces, tolerance * sizes)
-    )
+    edges, faces = find_edges(polyhedra), face_geometry(polyhedra)
+    volumes, centroids = volumes_and_centroids(polyhedra)
+    sizes = np.cbrt(volumes)
+    convex = find_convex(polyhedra, faces, tolerance * sizes) & defects.sound
+    defects.add(_self_intersections(polyhedra, np.flatnonzero(defects.sound & ~convex)))
+    facets = np.arange(len(polyhedra.block_of_face))
+    if not defects.found:
+        facets = find_facets(polyhedra, edges, faces, tolerance * sizes)
     blocks = _blocks(polyhedra, faces.normals, facets, convex, volumes, centroids, labels)
     notices = (
         *_unused_vertices(unused, labels),
@@ -154,7 +151,7 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         *_bent_faces(polyhedra, faces, sizes, extents, labels),
         *_faces_split(bent, sizes, labels),
     )
-    return BuiltBlocks(blocks, notices, tuple(sorted(defects, key=lambda defect: defect.block)), bent)
+    return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
 
 
 def _blocks(
@@ -187,58 +184,36 @@ def _blocks(
     )
 
 
-def _among_sound(defects: list[Defect], found: list[Defect], n_blocks: int) -> list[Defect]:
-    """Those of the defects found that are on blocks without an earlier one."""
-    marked = mark(defects, n_blocks)
-    return [defect for defect in found if not marked[defect.block]]
-
-
-def _without_wild_coordinates(polyhedra: Polyhedra) -> tuple[Polyhedra, list[Defect]]:
-    defects = coordinate_defects(polyhedra)
-    if not defects:
-        return polyhedra, defects
-    wild = mark(defects, len(polyhedra))[polyhedra.block_of_vertex]
-    return replace(polyhedra, vertices=np.where(wild[:, None], 0.0, polyhedra.vertices)), defects
-
-
-def _oriented(polyhedra: Polyhedra, edges: Edges) -> tuple[Polyhedra, BoolArray, list[Defect]]:
-    """The polyhedra with faces outwards, the faces turned for it (n_faces,), and what cannot be oriented."""
-    defects = edge_defects(polyhedra, edges)
+def _oriented(polyhedra: Polyhedra, edges: Edges, defects: Defects) -> tuple[Polyhedra, BoolArray]:
+    """The polyhedra with faces outwards, and the faces turned for it (n_faces,); refuses what cannot be oriented."""
+    defects.add(edge_defects(polyhedra, edges))
     pieces = count_pieces(polyhedra, edges)
-    defects += _among_sound(
-        defects,
-        [
-            Defect(int(b), Message("bad-polyhedron", f"is {pieces[b]} separate pieces: each must be a block"))
-            for b in np.flatnonzero(pieces > 1)
-        ],
-        len(polyhedra),
+    defects.add(
+        Defect(b, Message("bad-polyhedron", f"is {pieces[b]} separate pieces: each must be a block"))
+        for b in np.flatnonzero(pieces > 1).tolist()
     )
     turned, one_sided = faces_to_turn(polyhedra, edges)
-    message = "is one-sided: its faces cannot all be turned outwards"
-    defects += _among_sound(
-        defects,
-        [Defect(int(block), Message("bad-polyhedron", message)) for block in np.flatnonzero(one_sided)],
-        len(polyhedra),
-    )
+    message = Message("bad-polyhedron", "is one-sided: its faces cannot all be turned outwards")
+    defects.add(Defect(block, message) for block in np.flatnonzero(one_sided).tolist())
     volumes, _ = volumes_and_centroids(turn_faces(polyhedra, turned))
     turned = turned ^ (volumes < 0)[polyhedra.block_of_face]
-    return turn_faces(polyhedra, turned), turned, defects
+    return turn_faces(polyhedra, turned), turned
 
 
 def _without_bent_faces(
-    polyhedra: Polyhedra, defects: list[Defect], sizes: FloatArray, tolerance: float
+    polyhedra: Polyhedra, defects: Defects, sizes: FloatArray, tolerance: float
 ) -> tuple[Polyhedra, BentFaces]:
-    """The polyhedra with triangles in place of faces that are not planar; adds to ``defects`` what cannot be split."""
+    """The polyhedra with triangles in place of faces that are not planar; refuses what cannot be split."""
     faces = face_geometry(polyhedra)
     bent = not_planar(polyhedra, faces, sizes, tolerance)
-    bent = bent[~mark(defects, len(polyhedra))[polyhedra.block_of_face[bent]]]
+    bent = bent[defects.sound[polyhedra.block_of_face[bent]]]
     if not len(bent):
         return polyhedra, NO_BENT_FACES
     convex = can_be_split(polyhedra, faces, bent)
     block = polyhedra.block_of_face[bent]
     number, departure = bent - polyhedra.face_start[block], faces.deviations[bent]
-    defects += planarity_defects(block[~convex], number[~convex], departure[~convex], sizes, tolerance)
-    chosen = bent[~mark(defects, len(polyhedra))[block]]
+    defects.add(planarity_defects(block[~convex], number[~convex], departure[~convex], sizes, tolerance))
+    chosen = bent[defects.sound[block]]
     return split_faces(polyhedra, faces, chosen) if len(chosen) else (polyhedra, NO_BENT_FACES)
 
 
@@ -246,8 +221,7 @@ def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
     if not len(blocks):
         return []
     chosen = take_polyhedra(polyhedra, blocks)
-    extents: Extents = find_extents(chosen)
-    found = intersection_defects(chosen, find_edges(chosen), face_geometry(chosen), extents)
+    found = intersection_defects(chosen, find_edges(chosen), face_geometry(chosen), find_extents(chosen))
     return [replace(defect, block=int(blocks[defect.block])) for defect in found]
 
 

@@ -12,7 +12,7 @@ block, 1e-6 of itself where that is 1e-7.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,6 +42,24 @@ class Defect:
     face: int | None = None
 
 
+class Defects:
+    """What is found wrong with blocks in one check after the other; what failed one is left out of the next.
+
+    found : so far
+    sound : (n_blocks,) blocks without any
+    """
+
+    def __init__(self, n_blocks: int) -> None:
+        self.found: list[Defect] = []
+        self.sound = np.ones(n_blocks, dtype=bool)
+
+    def add(self, defects: Iterable[Defect]) -> None:
+        """Those of one check, of blocks that passed all before it."""
+        new = [defect for defect in defects if self.sound[defect.block]]
+        self.found += new
+        self.sound[[defect.block for defect in new]] = False
+
+
 @dataclass(frozen=True)
 class Extents:
     """Measures of each polyhedron, (n,) length: ``diagonals`` of bounding boxes, ``rounding`` of the coordinates."""
@@ -65,43 +83,27 @@ def wild_vertices(polyhedra: Polyhedra) -> BoolArray:
         return np.asarray(~(np.abs(polyhedra.vertices) <= LARGEST_COORDINATE).all(axis=1))
 
 
-def coordinate_defects(polyhedra: Polyhedra) -> list[Defect]:
-    """Coordinates that are not finite, or too large to compute with; and blocks that are too small for that."""
-    bad = wild_vertices(polyhedra)
-    blocks, first = np.unique(polyhedra.block_of_vertex[bad], return_index=True)
-    rows = np.flatnonzero(bad)[first]
-    return _tiny_blocks(polyhedra, bad) + [
-        Defect(
-            int(block),
-            Message(
-                "coordinate-out-of-range",
-                f"vertex {row - polyhedra.vertex_start[block]} has a coordinate that is not finite "
-                f"or exceeds {LARGEST_COORDINATE:.0e}",
-            ),
-        )
-        for block, row in zip(blocks, rows, strict=True)
-    ]
+def coordinate_defects(polyhedra: Polyhedra) -> Iterator[Defect]:
+    """Coordinates that are not finite, or too large to compute with; and blocks that are too small for that.
 
-
-def _tiny_blocks(polyhedra: Polyhedra, wild: BoolArray) -> list[Defect]:
-    """Blocks that extend, but hardly; one whose vertices all lie at one place is told as that."""
-    if not len(polyhedra.vertices):
-        return []
-    local = np.where(wild[:, None], 0.0, polyhedra.vertices)
-    start = polyhedra.vertex_start
+    A block whose vertices all lie at one place is told as that.
+    """
+    bad, start = wild_vertices(polyhedra), polyhedra.vertex_start
+    if not len(bad):
+        return
+    local = np.where(bad[:, None], 0.0, polyhedra.vertices)
     spans = (row_maxima(local, start) + row_maxima(-local, start)).max(axis=1)
-    spans[polyhedra.block_of_vertex[wild]] = np.inf
-    return [
-        Defect(
-            int(block),
-            Message(
-                "coordinate-out-of-range",
-                f"measures {spans[block]:.1e} only: blocks of less than {SMALLEST_BLOCK:.0e} cannot be computed with, "
-                "look at the units",
-            ),
+    spans[polyhedra.block_of_vertex[bad]] = np.inf
+    for block in np.flatnonzero((spans > 0) & (spans < SMALLEST_BLOCK)).tolist():
+        words = (
+            f"measures {spans[block]:.1e} only: blocks of less than {SMALLEST_BLOCK:.0e} cannot be computed with, "
+            "look at the units"
         )
-        for block in np.flatnonzero((spans > 0) & (spans < SMALLEST_BLOCK))
-    ]
+        yield Defect(block, Message("coordinate-out-of-range", words))
+    blocks, first = np.unique(polyhedra.block_of_vertex[bad], return_index=True)
+    for block, row in zip(blocks.tolist(), np.flatnonzero(bad)[first], strict=True):
+        words = f"vertex {row - start[block]} has a coordinate that is not finite or exceeds {LARGEST_COORDINATE:.0e}"
+        yield Defect(block, Message("coordinate-out-of-range", words))
 
 
 def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
@@ -230,48 +232,32 @@ def planarity_defects(
     return defects
 
 
-def mark(defects: list[Defect], n_blocks: int) -> BoolArray:
-    """Blocks that have a defect, (n_blocks,)."""
-    marked = np.zeros(n_blocks, dtype=bool)
-    marked[[defect.block for defect in defects]] = True
-    return marked
-
-
 COARSE = 1e-8
 """Rounding of a coordinate, over the diagonal of the block's bounding box, from which load factors may lose digits."""
 
 
-def _coarsest(polyhedra: Polyhedra) -> tuple[int, float]:
-    """The block whose corners are known worst, and the rounding of its coordinates over its diagonal."""
-    if not len(polyhedra.vertices) or not (np.abs(polyhedra.vertices) <= LARGEST_COORDINATE).all():
-        return 0, 0.0  # told by itself
+def far_away(polyhedra: Polyhedra, name: Callable[[int], str], tolerance: float) -> Message | Notice | None:
+    """What is said of blocks so far from the origin that their coordinates are coarse; None where they are not.
+
+    A fault where they are rounded by more than ``contacts.tolerance``, a warning where the load factor may lose digits.
+    """
+    if not len(polyhedra.vertices) or wild_vertices(polyhedra).any():
+        return None  # told by itself
     extents = find_extents(polyhedra)
-    share = np.divide(
-        extents.rounding, extents.diagonals, out=np.zeros_like(extents.rounding), where=extents.diagonals > 0
-    )
-    share[(extents.diagonals == 0) & (extents.rounding > 0)] = 1.0
-    worst = int(np.argmax(share))
-    return worst, float(share[worst])
-
-
-def far_fault(polyhedra: Polyhedra, tolerance: float) -> str | None:
-    """What is said of a deck whose blocks are rounded by more than ``contacts.tolerance``; None where none is."""
-    _, share = _coarsest(polyhedra)
-    if share <= tolerance:
-        return None
-    return (
-        f"so far from the origin coordinates are rounded by {share:.2g} of the size of a block, more than "
-        f"contacts.tolerance = {tolerance:g}: move the structure to the origin"
-    )
-
-
-def far_notices(polyhedra: Polyhedra, name: Callable[[int], str]) -> list[Notice]:
-    """A warning where coordinates are coarse enough for the load factor to lose digits."""
-    block, share = _coarsest(polyhedra)
-    if share <= COARSE:
-        return []
-    words = (
-        f"{name(block)} lies so far from the origin that its coordinates are rounded by {share:.1e} of its size: the "
-        f"load factor may be off by ten times that share; move the structure to the origin"
-    )
-    return [Notice("warning", "coordinates-coarse", words)]
+    rounding, diagonals = extents.rounding, extents.diagonals
+    shares = np.divide(rounding, diagonals, out=(rounding > 0).astype(np.float64), where=diagonals > 0)
+    worst = int(np.argmax(shares))
+    share = float(shares[worst])
+    if share > tolerance:
+        words = (
+            f"so far from the origin coordinates are rounded by {share:.2g} of the size of a block, more than "
+            f"contacts.tolerance = {tolerance:g}: move the structure to the origin"
+        )
+        return Message("coordinate-out-of-range", words)
+    if share > COARSE:
+        words = (
+            f"{name(worst)} lies so far from the origin that its coordinates are rounded by {share:.1e} of its size: "
+            f"the load factor may be off by ten times that share; move the structure to the origin"
+        )
+        return Notice("warning", "coordinates-coarse", words)
+    return None

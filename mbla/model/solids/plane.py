@@ -1,5 +1,7 @@
 """Computing in planes: axes across a normal, and polygons cut by half-planes, of which the signed integral counts.
 
+And boxes in space that meet: a tree over two axes finds them, the third is compared after.
+
 Sutherland and Hodgman 1974 (doi:10.1145/360767.360802): along each edge a corner inside is kept, and where an edge
 crosses the line the crossing is added. All loops of an array have the length of the longest, others repeat their last
 corner; repeated corners and edges there and back along the line add nothing to an integral over the loop.
@@ -11,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 
 
 def unit(direction: Sequence[float] | FloatArray) -> FloatArray:
@@ -69,3 +71,26 @@ def signed_areas(loops: FloatArray) -> FloatArray:
     to = loops - loops[:, :1]
     after = np.roll(to, -1, axis=1)
     return np.asarray((to[..., 0] * after[..., 1] - to[..., 1] * after[..., 0]).sum(axis=1) / 2)
+
+
+AT_ONCE = 20_000
+"""boxes of which the partners are looked for together"""
+
+
+def meeting_boxes(
+    lower: FloatArray, upper: FloatArray, others_lower: FloatArray, others_upper: FloatArray
+) -> tuple[IntArray, IntArray]:
+    """Rows of boxes and of others that share a point, sorted by the first, then by the second; corners (n, 3) each."""
+    import shapely
+
+    tree = shapely.STRtree(shapely.box(*others_lower[:, :2].T, *others_upper[:, :2].T))
+    rectangles = shapely.box(*lower[:, :2].T, *upper[:, :2].T)
+    found = [np.empty((2, 0), dtype=np.int64)]
+    for begin in range(0, len(lower), AT_ONCE):
+        row, other = tree.query(rectangles[begin : begin + AT_ONCE])
+        row = row + begin
+        near = (lower[row, 2] <= others_upper[other, 2]) & (others_lower[other, 2] <= upper[row, 2])
+        found.append(np.stack([row, other])[:, near])
+    row, other = np.concatenate(found, axis=1).astype(np.int64)
+    order = np.lexsort((other, row))
+    return row[order], other[order]

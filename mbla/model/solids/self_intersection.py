@@ -7,30 +7,22 @@ Convex polyhedra need no test.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.errors import Message
 from mbla.model.solids.defects import Defect, Extents
 from mbla.model.solids.measures import Edges, FaceGeometry
-from mbla.model.solids.plane import plane_axes
+from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import chunks, items_of_rows, next_item, ranges, row_maxima
+from mbla.model.solids.ragged import chunks, items_of_rows, next_item, row_maxima
 
 AT_ONCE = 500_000
 """edge-face pairs held in memory together"""
+MARGIN = 1e-6
+"""by which boxes are larger than edges, relative to the diagonal"""
 TOUCH = 1e-9
 """distance, relative to the diagonal, below which a point lies on a plane or an outline"""
-
-
-@dataclass(frozen=True)
-class _Boxes:
-    """Bounding boxes of edges or faces about the local origin, (n, 3) each."""
-
-    least: FloatArray
-    greatest: FloatArray
 
 
 def intersection_defects(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, extents: Extents) -> list[Defect]:
@@ -53,50 +45,20 @@ def intersection_defects(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry
 
 
 def _near_pairs(polyhedra: Polyhedra, edges: Edges, extents: Extents) -> tuple[IntArray, IntArray]:
-    """Edges and faces of one polyhedron whose bounding boxes overlap; with the face's own, for outlines that cross.
+    """Edges and faces of one polyhedron whose bounding boxes meet; with the face's own, for outlines that cross.
 
-    A sweep along x: faces are sorted by their least x inside each polyhedron, so that the candidates of an edge are
-    a run of that order; the other two axes are compared pair by pair.
+    Polyhedra are laid out beside each other along x, three diagonals apart, for one search among all of them.
     """
-    edge_boxes, face_boxes = _edge_boxes(polyhedra, edges), _face_boxes(polyhedra)
     scale = 1 / np.where(extents.diagonals > 0, extents.diagonals, 1.0)
-    of_face, of_edge = polyhedra.block_of_face, edges.block
-    # polyhedra are laid out beside each other, three diagonals apart, for one sort and one search
-    face_low = face_boxes.least[:, 0] * scale[of_face] + 3.0 * of_face
-    face_high = face_boxes.greatest[:, 0] * scale[of_face] + 3.0 * of_face
-    width = row_maxima(face_high - face_low, polyhedra.face_start)
-    order = np.argsort(face_low, kind="stable")
-    margin = 1e-6
-    low = edge_boxes.least[:, 0] * scale[of_edge] + 3.0 * of_edge - width[of_edge] - margin
-    high = edge_boxes.greatest[:, 0] * scale[of_edge] + 3.0 * of_edge + margin
-    first = np.searchsorted(face_low[order], low)
-    counts = np.searchsorted(face_low[order], high, side="right") - first
-    kept: list[tuple[IntArray, IntArray]] = []
-    for part in chunks(counts, 4 * AT_ONCE):
-        edge = np.repeat(np.arange(len(counts))[part], counts[part])
-        face = order[ranges(first[part], counts[part])]
-        near = _boxes_overlap(edge_boxes, edge, face_boxes, face, TOUCH * extents.diagonals[of_edge[edge]])
-        near &= of_edge[edge] == of_face[face]
-        kept.append((edge[near], face[near]))
-    edge = np.concatenate([pair[0] for pair in kept]) if kept else np.empty(0, dtype=np.int64)
-    face = np.concatenate([pair[1] for pair in kept]) if kept else np.empty(0, dtype=np.int64)
+    of_vertex = polyhedra.block_of_vertex
+    places = polyhedra.local_vertices * scale[of_vertex, None]
+    places[:, 0] += 3.0 * of_vertex
+    ends, corners = places[edges.ends], places[polyhedra.loops]
+    start = polyhedra.loop_start
+    edge, face = meeting_boxes(
+        ends.min(axis=1) - MARGIN, ends.max(axis=1) + MARGIN, -row_maxima(-corners, start), row_maxima(corners, start)
+    )
     return edge, face
-
-
-def _edge_boxes(polyhedra: Polyhedra, edges: Edges) -> _Boxes:
-    ends = polyhedra.local_vertices[edges.ends]
-    return _Boxes(ends.min(axis=1), ends.max(axis=1))
-
-
-def _face_boxes(polyhedra: Polyhedra) -> _Boxes:
-    corners = polyhedra.local_vertices[polyhedra.loops]
-    return _Boxes(-row_maxima(-corners, polyhedra.loop_start), row_maxima(corners, polyhedra.loop_start))
-
-
-def _boxes_overlap(one: _Boxes, rows: IntArray, other: _Boxes, columns: IntArray, margin: FloatArray) -> BoolArray:
-    apart = (one.least[rows] > other.greatest[columns] + margin[:, None]).any(axis=1)
-    apart |= (other.least[columns] > one.greatest[rows] + margin[:, None]).any(axis=1)
-    return np.asarray(~apart)
 
 
 def _edge_meets_face(
