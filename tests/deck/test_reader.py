@@ -146,12 +146,6 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     assert document.whole or document.faults
 
 
-@given(st.text(max_size=200))
-def test_any_unicode_is_read_or_refused(text: str) -> None:
-    document = read_yaml(SourceText("deck", text), 0)
-    assert document.whole or document.faults
-
-
 JSON = st.recursive(
     st.booleans() | st.integers(-(2**53), 2**53) | st.floats(-1e300, 1e300) | st.text(string.printable, max_size=8),
     lambda below: (

@@ -1,4 +1,9 @@
-"""What the rules accept; what they refuse is in tests/invalid_decks."""
+"""What the rules accept; what they refuse is in tests/invalid_decks.
+
+What does not go with ``contact_model: convex`` is refused in one line each.
+
+A key that is given and has no effect is said to have none; one that has an effect is not.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +15,10 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.deck.section import EXACTLY_ONE, KINDS, RULES, Rule, Section
+from mbla.deck.sections.analysis import APPLIES, AnalysisSection
 from mbla.errors import DeckError, Finding
 from tests.deck.decks import changed, write
+from tests.line import BLOCK, line_of
 
 WALL = (
     "wall: {group: block, material: stone, unit: [0.4, 0.2, 0.175], length: 2, courses: 6, "
@@ -88,3 +95,61 @@ def test_every_rule_is_broken_by_a_faulty_deck(monkeypatch: pytest.MonkeyPatch) 
         with pytest.raises(DeckError):
             read_deck(path)
     assert {check for checks in of_decks.values() for check in checks} == broken
+
+
+CONVEX = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {contact_model: convex}")
+
+
+@pytest.mark.parametrize(
+    "override",
+    [
+        "analysis.flow_rule=associative",
+        "analysis.scheme=proximal",
+        "analysis.solver=clarabel",
+        "contacts.points.per_edge=2",
+    ],
+)
+def test_what_goes_with_it(override: str) -> None:
+    assert line_of(CONVEX, override).deck.analysis.contact_model == "convex"
+
+
+WITHOUT = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {}")
+
+
+def idle(*overrides: str) -> list[str]:
+    notices = line_of(WITHOUT, *overrides).deck.notices
+    return [notice.message for notice in notices if notice.identifier == "key-idle"]
+
+
+@pytest.mark.parametrize(
+    ("key", "idle_with", "used_with"),
+    [
+        ("analysis.sides=6", "flow_rule=associative", "friction_cone=polyhedral"),
+        ("analysis.scheme=path", "flow_rule=associative", "flow_rule=non_associative"),
+        ("analysis.proximal.max_programs=9", "scheme=path", "scheme=proximal"),
+        ("analysis.interior.tries=2", "contact_model=convex", "scheme=interior"),
+        ("analysis.path.steps=9", "scheme=auto", "scheme=path"),
+        ("analysis.lowest.seed=2", "scheme=auto", "scheme=lowest"),
+        ("analysis.published.slope=0.01", "scheme=auto", "scheme=published"),
+        ("analysis.gap=1e-5", "contact_model=convex", "contact_model=concave"),
+        ("analysis.residual=1e-5", "flow_rule=associative", "flow_rule=dilatancy"),
+        ("analysis.residual=1e-5", "scheme=published", "scheme=interior"),
+        ("analysis.peak=false", "flow_rule=dilatancy", "flow_rule=non_associative"),
+        ("analysis.range=false", "flow_rule=associative", "flow_rule=livesley"),
+        ("analysis.reductions=false", "contact_model=convex", "contact_model=concave"),
+        ("joints.dry.dilatancy=5", "flow_rule=non_associative", "flow_rule=dilatancy"),
+    ],
+)
+def test_with_what_a_key_has_an_effect(key: str, idle_with: str, used_with: str) -> None:
+    linear = ["analysis.flow_rule=associative"] if "polyhedral" in used_with else []
+    (message,) = idle(key, f"analysis.{idle_with}")
+    assert "has no effect: it applies to" in message
+    assert idle(key, f"analysis.{used_with}", *linear) == []
+
+
+def test_keys_that_are_not_given_are_not_mentioned() -> None:
+    assert idle() == idle("analysis.flow_rule=associative") == []
+
+
+def test_every_entry_is_a_key() -> None:
+    assert set(APPLIES) <= set(AnalysisSection.model_fields)

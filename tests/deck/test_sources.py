@@ -60,30 +60,24 @@ def test_size_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "put large geometry in a mesh file" in refusal(tmp_path, BLOCK.encode())
 
 
-def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match=r"nowhere\.yaml: cannot be opened: No such file"):
-        read_deck(tmp_path / "nowhere.yaml")
-
-
-def test_folder(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="not a regular file"):
-        read_deck(tmp_path)
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("nowhere.yaml", r"nowhere\.yaml: cannot be opened: No such file"),
+        (".", "not a regular file"),
+        ("/dev/zero", "not a regular file"),
+        ("a\0b", "cannot be opened"),
+    ],
+)
+def test_what_is_no_file_to_read(tmp_path: Path, name: str, words: str) -> None:
+    with pytest.raises(FileError, match=words):
+        read_deck(tmp_path / name)
 
 
 def test_pipe_does_not_hang(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.yaml")
     with pytest.raises(FileError, match="not a regular file"):
         read_deck(tmp_path / "pipe.yaml")
-
-
-def test_device() -> None:
-    with pytest.raises(FileError, match="not a regular file"):
-        read_deck("/dev/zero")
-
-
-def test_name_with_null_byte() -> None:
-    with pytest.raises(FileError, match="cannot be opened"):
-        read_deck("a\0b")
 
 
 @pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system shows no memory as a file")

@@ -1,12 +1,17 @@
-"""How complaints are merged and placed; their words are in tests/invalid_decks."""
+"""How complaints are merged and placed; their words are in tests/invalid_decks.
+
+An interruption while the types of the deck are built is an interruption, not a fault of the types.
+"""
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from mbla.deck.section import MOST_WRONG
+from mbla.deck.section import MOST_WRONG, Section, built
 from mbla.errors import MOST_FAULTS
 from tests.deck.decks import BLOCK, changed, faults, write
 
@@ -128,3 +133,18 @@ def test_very_many_wrong_numbers_of_one_mapping(tmp_path: Path, number: str) -> 
     assert faults(write(tmp_path, changed(BOX, column))) == [
         "deck.yaml:1:1 more than 20,000 values are wrong: they are looked at no further"
     ]
+
+
+def test_a_signal_waits_until_the_validator_is_there() -> None:
+    class Struck(str):
+        @classmethod
+        def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
+            signal.raise_signal(signal.SIGINT)
+            return handler(str)
+
+    class Stone(Section):
+        name: Struck
+
+    with pytest.raises(KeyboardInterrupt):
+        built(Stone)
+    assert built(Stone).model_validate({"name": "ashlar"}).name == "ashlar"

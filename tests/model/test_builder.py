@@ -30,12 +30,6 @@ def test_groups_and_indices_run_over_items(tmp_path: Path) -> None:
     assert model.blocks.name(28) == "block[1]"
 
 
-def test_items_are_transformed_in_order(tmp_path: Path) -> None:
-    moved = BLOCK.replace("min:", "transform: [{rotate: {axis: [0, 0, 1], angle: 90}}, {translate: [5, 0, 0]}], min:")
-    model = build_model(deck(tmp_path, [moved]))
-    assert model.blocks.centroids[0] == pytest.approx([4.5, 0.5, 1])
-
-
 def test_repeated_item_is_one_group_with_copies(tmp_path: Path) -> None:
     row = BLOCK.replace("min:", "repeat: {count: 3, translate: [2, 0, 0]}, min:")
     model = build_model(deck(tmp_path, [row]))
@@ -87,27 +81,12 @@ def test_springers_on_ground_are_supports(tmp_path: Path) -> None:
     assert not model.fixed.any()
 
 
-def test_springers_on_ground_take_the_joint_of_contacts(tmp_path: Path) -> None:
-    model = build_model(deck(tmp_path, [BLOCK, ARCH.format(", springers: ground")], supports="[{blocks: block}]"))
-    assert [ground.joint for ground in model.grounds] == ["dry", "dry"]
-    assert [ground.blocks.tolist() for ground in model.grounds if ground.blocks is not None] == [[1], [9]]
-
-
 def test_springers_as_blocks_are_fixed(tmp_path: Path) -> None:
     model = build_model(deck(tmp_path, [ARCH.format(", springers: blocks")], supports="[]"))
     assert len(model.blocks) == 11
     assert model.blocks.name(9) == "arch_springers[0]"
     assert model.fixed.tolist() == [False] * 9 + [True, True]
     assert model.free.tolist() == list(range(9))
-
-
-@pytest.mark.parametrize(("n", "count"), [(5, 27), (10, 105), (20, 410)])
-def test_walls_on_a_base_slab(tmp_path: Path, n: int, count: int) -> None:
-    wall = f"wall: {{group: wall, material: stone, unit: [0.4, 0.2, 0.175], length: {0.4 * n}, courses: {n}}}"
-    slab = f"box: {{group: base, material: stone, min: [0, 0, -0.1], max: [{0.4 * n}, 0.2, 0]}}"
-    model = build_model(deck(tmp_path, [wall, slab], supports="[{blocks: base}]"))
-    assert len(model.free) == count
-    assert model.blocks.volumes[:-1].sum() == pytest.approx(0.4 * n * 0.2 * 0.175 * n)
 
 
 def test_notices_of_all_steps_are_kept(tmp_path: Path) -> None:

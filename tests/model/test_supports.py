@@ -84,12 +84,6 @@ def test_depth_below_ground_within_the_tolerance(tmp_path: Path, depth: float, r
         assert len(build_model(deck(tmp_path, [BLOCK], supports)).grounds) == 1
 
 
-def test_ground_without_a_face_on_it(tmp_path: Path) -> None:
-    assert messages(tmp_path, "[{ground: {z: -0.5}}]") == [
-        "supports[0].ground: no face of a block that can move lies on it; the nearest block begins 0.5 above it"
-    ]
-
-
 def test_an_edge_on_the_ground_is_no_face(tmp_path: Path) -> None:
     turned = LEANING.replace("angle: 20", "angle: -20")
     (message,) = messages(tmp_path, "[{ground: {z: 0}}]", turned)
@@ -101,15 +95,6 @@ def test_ground_under_fixed_blocks_only(tmp_path: Path) -> None:
     assert found == [
         "supports[0].ground: no face of a block that can move lies on it; the nearest block begins 1 above it"
     ]
-
-
-def test_no_support(tmp_path: Path) -> None:
-    assert messages(tmp_path, "[]") == ["supports: nothing holds the structure: give ground or fixed blocks"]
-
-
-def test_nothing_can_move(tmp_path: Path) -> None:
-    found = messages(tmp_path, "[{blocks: block}]")
-    assert found[0] == "supports: every block is fixed: nothing can move"
 
 
 DECK = """

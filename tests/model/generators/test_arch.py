@@ -42,43 +42,6 @@ def test_straight_edged_voussoirs_have_the_volume_of_triangles(keys: dict[str, A
     assert built.blocks.volumes == pytest.approx([area] * count, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "keys",
-    [
-        {},
-        {"shape": "segmental", "rise": 0.5},
-        {"shape": "segmental", "rise": 3.5},
-        {"shape": "segmental", "embrace": 90},
-        {"shape": "segmental", "embrace": 200},
-        {"shape": "segmental", "embrace": 359},
-    ],
-)
-def test_intrados_springings(keys: dict[str, Any]) -> None:
-    corners = arch(**keys).parts[0].polyhedra.vertices
-    for springing in ([0, 0, 0], [4, 0, 0], [0, 1, 0], [4, 1, 0]):
-        assert np.linalg.norm(corners - springing, axis=1).min() == 0
-    assert corners[:, 1].min() == 0
-    assert corners[:, 1].max() == 1
-
-
-@pytest.mark.parametrize("rise", [0.5, 2.0, 3.5])
-def test_rise(rise: float) -> None:
-    corners = arch(shape="segmental", rise=rise, voussoirs=20).parts[0].polyhedra.vertices
-    assert corners[:, 2].max() == pytest.approx(rise + 0.3)
-    crown = corners[np.abs(corners[:, 0] - 2) < 1e-9]
-    assert sorted(crown[:, 2]) == pytest.approx([rise] * 4 + [rise + 0.3] * 4)
-
-
-def test_corners_lie_on_radial_joints() -> None:
-    corners = arch(shape="segmental", embrace=120, voussoirs=6).parts[0].polyhedra.vertices
-    radius = 2 / np.sin(np.radians(60))
-    arms = corners[:, [0, 2]] - [2, -radius * np.cos(np.radians(60))]
-    reach = np.linalg.norm(arms, axis=1)
-    assert np.unique(reach.round(9)).tolist() == pytest.approx([radius, radius + 0.3])
-    angles = np.degrees(np.arctan2(arms[:, 0], arms[:, 1]))
-    assert np.unique(angles.round(6)).tolist() == pytest.approx([-60, -40, -20, 0, 20, 40, 60], abs=1e-6)
-
-
 @pytest.mark.parametrize("embrace", [90, 180, 240])
 def test_ground_under_both_springings(embrace: float) -> None:
     made = arch(shape="segmental", embrace=embrace, springers="ground", joint="bed", voussoirs=9)
@@ -112,15 +75,6 @@ def test_fixed_blocks_behind_both_springings(embrace: float) -> None:
         joint = middle + (radius + 0.15) * np.array([side * np.sin(half), 0, np.cos(half)])
         back = np.array([side * np.cos(half), 0, -np.sin(half)])
         assert centroid == pytest.approx(joint + 0.15 * back)
-
-
-@pytest.mark.parametrize(("embrace", "count", "least"), [(180, 1, 2), (359, 1, 2), (200, 1, 2)])
-def test_too_few_voussoirs(embrace: float, count: int, least: int) -> None:
-    with pytest.raises(ItemRefused) as caught:
-        arch(shape="segmental", embrace=embrace, voussoirs=count)
-    assert caught.value.findings == (
-        (("voussoirs",), f"too few: at least {least}, so that each spans less than 180 degrees"),
-    )
 
 
 SPAN, THICKNESS, WIDTH, COUNT = 4.0, 0.5, 1.5, 13

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.vaults import CrossVaultItem
-from mbla.model.generators.generator import Generated, ItemRefused, Site
+from mbla.model.generators.generator import Generated, Site
 from mbla.model.generators.mitred_vaults import generate_cross_vault
 from tests.model.generators.assembly import assemble
 from tests.model.generators.vault_sections import areas_and_centroids, joints_of_circle
@@ -134,9 +134,3 @@ def test_labels(tmp_path: Path) -> None:
     course = blocks.labels.position("course")
     heights = [centroids[(course == number) & (members == "groin"), 2].mean() for number in range(4)]
     assert heights == sorted(heights)
-
-
-def test_webs_that_end_before_the_feet_of_the_groins() -> None:
-    with pytest.raises(ItemRefused) as caught:
-        vault(edge=0.25)
-    assert caught.value.findings == ((("edge",), "must be > 0.25: the webs end beyond the feet of the groins"),)

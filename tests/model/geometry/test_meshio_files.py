@@ -16,7 +16,7 @@ from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import HEXAHEDRON, cuboids
-from tests.model.shapes import box, build_raw, moved, rotation
+from tests.model.shapes import box, build_raw
 
 FORMATS = {".ply": "ply", ".stl": "stl", ".vtu": "vtu", ".msh": "gmsh", ".inp": "abaqus"}
 
@@ -138,15 +138,6 @@ def test_mixed_volume_cells_in_file_order(tmp_path: Path) -> None:
     assert volumes(path) == pytest.approx([1, 1 / 6])
 
 
-def test_polyhedron_cells(tmp_path: Path) -> None:
-    vertices, faces = moved(box(), rotation(0))
-    points = np.concatenate([np.array(vertices), np.array(vertices) + np.array([5, 0, 0])])
-    cells = [[np.array(face) for face in faces], [np.array(face) + 8 for face in faces]]
-    path = tmp_path / "cells.vtu"
-    write_mesh(path, points, [("polyhedron8", cells)])
-    assert volumes(path) == pytest.approx([1, 1])
-
-
 def test_boundary_triangles_beside_volume_cells_are_left_out_with_a_notice(tmp_path: Path) -> None:
     points, cells = grid()
     path = tmp_path / "wall.msh"
@@ -156,15 +147,6 @@ def test_boundary_triangles_beside_volume_cells_are_left_out_with_a_notice(tmp_p
     assert [notice.message for notice in geometry.notices] == [
         "cells were left out: 108 of type triangle; beside volume cells only those are blocks"
     ]
-
-
-def test_lines_are_left_out_with_a_notice(tmp_path: Path) -> None:
-    points, cells = grid()
-    path = tmp_path / "wall.vtu"
-    write_mesh(path, points, [("line", np.array([[0, 1]])), ("quad", quads_of(cells))])
-    geometry = blocks_of(path)
-    assert len(geometry.polyhedra) == 9
-    assert [notice.identifier for notice in geometry.notices] == ["mesh-cells-left-out"]
 
 
 def test_hexahedron_collapsed_to_a_wedge(tmp_path: Path) -> None:
@@ -198,14 +180,6 @@ def test_malformed_files_are_refused_in_silence(
         read_geometry(path)
     assert str(tmp_path) not in str(caught.value)
     assert capfd.readouterr() == ("", "")
-
-
-def test_both_names_of_the_list_of_corners_in_ply(tmp_path: Path) -> None:
-    points, cells = grid()
-    path = tmp_path / "wall.ply"
-    write_mesh(path, points, [("triangle", triangles_of(cells))], file_format="ply")
-    path.write_bytes(path.read_bytes().replace(b"vertex_indices", b"vertex_index"))
-    assert volumes(path) == pytest.approx([1] * 9)
 
 
 @pytest.mark.parametrize("missing", [9, 4, -1])

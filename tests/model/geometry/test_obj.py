@@ -48,13 +48,6 @@ def test_cross_vault() -> None:
     assert built.blocks.volumes.sum() == pytest.approx(3524256.03, abs=0.01)
 
 
-def test_wall() -> None:
-    built = build_raw(blocks_of(DATA / "wall.obj").polyhedra)
-    assert len(built.blocks) == 38
-    assert built.notices == ()
-    assert not built.defects
-
-
 def test_the_data_carries_its_licence_and_origin() -> None:
     assert "MIT License" in (DATA / "LICENSE-compas_dem.txt").read_text()
     assert "559107e09615ccb6e960f6ac15a11a3e00b60799" in (DATA / "README.md").read_text()
@@ -118,12 +111,6 @@ def test_unwelded_corners_are_merged_with_a_notice(tmp_path: Path) -> None:
     assert [notice.message for notice in blocks_of(obj(tmp_path)).notices] == [
         "16 vertices at the same place as another of their block were merged"
     ]
-
-
-def test_orphan_vertices_are_ignored(tmp_path: Path) -> None:
-    path = obj(tmp_path)
-    path.write_text(f"o cube\n{CUBE}v 9 9 9\n{FACES}")
-    assert len(read_obj(path).polyhedra.vertices) == 8
 
 
 def test_an_empty_object_is_no_block(tmp_path: Path) -> None:

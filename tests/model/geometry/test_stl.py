@@ -44,13 +44,6 @@ def test_solids_of_a_text_file_keep_their_names(tmp_path: Path) -> None:
     assert read_stl(path).names == ("first stone", "second")
 
 
-def test_a_single_solid_is_split_without_a_name(tmp_path: Path) -> None:
-    path = tmp_path / "x.stl"
-    path.write_text(text("", box()).replace("solid", "SOLID", 1))
-    assert volumes(path) == [1]
-    assert read_stl(path).names == ()
-
-
 @pytest.mark.parametrize("header", [b"written by a test", b"solid in spite of it"])
 def test_binary(tmp_path: Path, header: bytes) -> None:
     content = header.ljust(80, b"\0")

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model
 from tests.model.shapes import deck
@@ -29,13 +28,6 @@ TWO_STOREYS = [
 def model(folder: Path, line: str, blocks: list[str], more: str = "", supports: str = "[{ground: {z: 0}}]") -> Model:
     loads = f"dead: [{{gravity: none}}, {{line: {{{line}}}{more}}}], live: [{{acceleration: [1, 0, 0]}}]"
     return build_model(deck(folder, blocks, supports, loads))
-
-
-def refused(folder: Path, line: str, blocks: list[str], more: str = "") -> str:
-    with pytest.raises(DeckError) as caught:
-        model(folder, line, blocks, more)
-    assert len(caught.value.faults) == 1
-    return caught.value.faults[0].message
 
 
 def resultant(model: Model, load: FloatArray) -> FloatArray:
@@ -124,19 +116,6 @@ def test_an_open_joint_narrower_than_the_tolerance_loses_nothing(tmp_path: Path)
     ]
     found = model(tmp_path, "from: [0, 0.5, 1], to: [2, 0.5, 1], force_per_length: [0, 0, -1]", blocks)
     assert case_of(found).dead_load[:, 2] == pytest.approx([-1.0005, -0.9995])
-
-
-def test_what_lies_on_no_block_is_refused_with_its_length(tmp_path: Path) -> None:
-    line = "from: [-0.5, 0.1, 0.6], to: [2.25, 0.1, 0.6], force_per_length: [0, 0, -1]"
-    assert refused(tmp_path, line, [WALL]) == (
-        "0.75 of its 2.75 m lie over no block, from (-0.5, 0.1, 0.6) on; shorten the line, or look for blocks in "
-        "another direction with towards"
-    )
-
-
-def test_a_line_below_everything(tmp_path: Path) -> None:
-    line = "from: [0, 0.1, -0.1], to: [2, 0.1, -0.1], force_per_length: [0, 0, -1]"
-    assert refused(tmp_path, line, [WALL]).startswith("2 of its 2 m lie over no block")
 
 
 def test_a_slanting_load_far_above_is_remarked_on(tmp_path: Path) -> None:

@@ -132,29 +132,6 @@ def test_words_of_a_force_outside_its_block(tmp_path: Path) -> None:
     )
 
 
-def test_force_on_several_blocks(tmp_path: Path) -> None:
-    assert messages(tmp_path, "live: [{force: [1, 0, 0], on: top}]") == [
-        "load_cases.push.live[0].on: a force acts on one block, 2 are selected: give an index, or one force for each"
-    ]
-
-
-def test_live_force_on_a_fixed_block(tmp_path: Path) -> None:
-    assert messages(tmp_path, "live: [{acceleration: [1, 0, 0]}, {force: [1, 0, 0], on: base}]") == [
-        "load_cases.push.live[1].on: every block it acts on is fixed: the live load has no effect"
-    ]
-
-
-def test_live_acceleration_on_fixed_blocks(tmp_path: Path) -> None:
-    assert messages(tmp_path, "live: [{acceleration: [1, 0, 0], on: base}]") == [
-        "load_cases.push.live[0].on: every block it acts on is fixed: the live load has no effect"
-    ]
-
-
-def test_live_loads_that_cancel_each_other(tmp_path: Path) -> None:
-    loads = "live: [{acceleration: [0.1, 0, 0]}, {acceleration: [0.2, 0, 0]}, {acceleration: [-0.3, 0, 0]}]"
-    assert messages(tmp_path, loads) == ["load_cases.push.live: the live loads cancel each other: they have no effect"]
-
-
 def test_a_couple_has_an_effect(tmp_path: Path) -> None:
     where = "on: {group: top, index: 1}"
     loads = (

@@ -28,13 +28,6 @@ def model(folder: Path, pressure: str, blocks: list[str], supports: str = GROUND
     return build_model(deck(folder, blocks, supports, loads))
 
 
-def refused(folder: Path, pressure: str, blocks: list[str]) -> str:
-    with pytest.raises(DeckError) as caught:
-        model(folder, pressure, blocks)
-    assert len(caught.value.faults) == 1
-    return caught.value.faults[0].message
-
-
 def load_about(model: Model, point: list[float]) -> FloatArray:
     """Force and moment of the dead load about a point."""
     load = model.load_cases[0].dead_load
@@ -131,18 +124,6 @@ def test_box_and_angle_choose_faces(tmp_path: Path) -> None:
         else:
             with pytest.raises(DeckError, match="no face of these blocks lies so"):
                 model(tmp_path, pressure, arch, "[]")
-
-
-def test_pressure_on_nothing(tmp_path: Path) -> None:
-    assert refused(tmp_path, "normal: [0, 1, 1], value: 5", DAM) == (
-        "no face of these blocks lies so: a normal within 10 degrees of (0, 1, 1)"
-    )
-    assert refused(tmp_path, "normal: [0, 0, -1], value: 5", DAM) == (
-        "other blocks or the ground cover all of these faces; faces: all loads them all the same"
-    )
-    assert refused(tmp_path, "normal: [-1, 0, 0], level: -1, per_depth: 5", DAM) == (
-        "all of these faces lie above its level, z = -1, or are covered by other blocks"
-    )
 
 
 @pytest.mark.parametrize(("units", "length", "force"), [("length: mm, force: kN, mass: t", 1e3, 1e-3)])

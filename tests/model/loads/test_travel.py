@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import Model
 from tests.model.loads.test_line import TWO_STOREYS
@@ -19,13 +18,6 @@ GROUND = "[{ground: {z: 0}}]"
 
 def model(folder: Path, travel: str, blocks: list[str], more: str = "", supports: str = GROUND) -> Model:
     return build_model(deck(folder, blocks, supports, f"live: [{{travel: {{{travel}}}{more}}}]"))
-
-
-def refused(folder: Path, travel: str, blocks: list[str], supports: str = GROUND) -> str:
-    with pytest.raises(DeckError) as caught:
-        model(folder, travel, blocks, supports=supports)
-    assert len(caught.value.faults) == 1
-    return caught.value.faults[0].message
 
 
 def test_a_load_case_for_each_position(tmp_path: Path) -> None:
@@ -72,23 +64,6 @@ def test_against_gravity_and_sideways(tmp_path: Path) -> None:
     assert [case.travel.blocks[0] for case in model(tmp_path, path, ROW).load_cases if case.travel] == [0, 0, 0]
 
 
-def test_positions_over_no_block_are_named(tmp_path: Path) -> None:
-    path = "force: [0, 0, -1], path: [[-0.5, 0.5, 1], [4.5, 0.5, 1]], positions: 11"
-    assert refused(tmp_path, path, ROW) == (
-        "position 1 of 11, at (-0.5, 0.5, 1) m, and 1 more lie over no block; change the path, or look for blocks in "
-        "another direction with towards"
-    )
-
-
-def test_a_position_on_a_fixed_block(tmp_path: Path) -> None:
-    blocks = [*ROW, "box: {group: abutment, material: stone, min: [4, 0, 0], max: [5, 1, 1]}"]
-    path = "force: [0, 0, -1], path: [[0.5, 0.5, 1], [4.5, 0.5, 1]], positions: 5"
-    assert refused(tmp_path, path, blocks, "[{blocks: abutment}, {ground: {z: 0}}]") == (
-        "force (0, 0, -1) N at (4.5, 0.5, 1) m on abutment[0], position 5 of 5 has no effect: the block does not move; "
-        "change the path"
-    )
-
-
 def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
     """From the first at the beginning to the last at the end; who is not on the path does not act."""
     axles = "axles: [{behind: 2, force: [0, 0, -3]}, {behind: 0.5, force: [0, 0, -5]}]"
@@ -123,19 +98,4 @@ def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
     assert found[1].live_words == (
         "force (0, 0, -2) N at (0.75, 0.5, 1) m on row[0] and force (0, 0, -10) N at (0.25, 0.5, 1) m on row[0], "
         "position 2 of 11, first axle 0.5 m along the path, 1 of 3 axles off the path",
-    )
-
-
-def test_axles_further_apart_than_the_path_is_long(tmp_path: Path) -> None:
-    path = "force: [0, 0, -1], path: [[1, 0.5, 1], [2, 0.5, 1]], positions: 5, axles: [{behind: 3, force: [0, 0, -1]}]"
-    assert refused(tmp_path, path, ROW) == (
-        "at position 3 of 5 no force is on the path: make it longer than the gaps between them"
-    )
-
-
-def test_an_axle_over_no_block_is_named(tmp_path: Path) -> None:
-    path = "force: [0, 0, -1], path: [[0, 0.5, 1], [5, 0.5, 1]], positions: 3, axles: [{behind: 1, force: [0, 0, -1]}]"
-    assert refused(tmp_path, path, ROW) == (
-        "position 3 of 3, at (5, 0.5, 1) m, lies over no block; change the path, or look for blocks in another "
-        "direction with towards"
     )

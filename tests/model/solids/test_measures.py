@@ -65,15 +65,6 @@ def test_faces_of_a_box_are_turned_outwards(turned: set[int]) -> None:
     )
 
 
-def test_a_sound_box_needs_no_notice() -> None:
-    assert build(box()).notices == ()
-
-
-def test_non_convex_block_is_turned_too() -> None:
-    built = build(with_faces_turned(prism(L_OUTLINE), {2, 5}))
-    assert built.blocks.volumes == pytest.approx([3.0])
-
-
 def test_only_blocks_that_need_it_are_touched() -> None:
     built = build(box(), with_faces_turned(box((3, 0, 0), (4, 1, 1)), {2}), box((6, 0, 0), (7, 1, 1)))
     assert "(b[1])" in built.notices[0].message
@@ -128,19 +119,6 @@ def _on_klein_bottle(row: int, column: int, n: int) -> int:
     return (-column) % n if row == n else row * n + column
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_random_orientations_are_repaired(seed: int) -> None:
-    shape, volume = hull(seed, 40)
-    assert build(shape).blocks.volumes == pytest.approx([volume])
-
-
-def test_no_face_of_a_sound_box_is_turned() -> None:
-    polyhedra = raw(box(), box((3, 0, 0), (4, 1, 1)))
-    turned, one_sided = faces_to_turn(polyhedra, find_edges(polyhedra))
-    assert turned.tolist() == [False] * 12
-    assert one_sided.tolist() == [False, False]
-
-
 def test_only_faces_that_disagree_with_the_first_of_their_block_are_turned() -> None:
     polyhedra = raw(box(), with_faces_turned(box((3, 0, 0), (4, 1, 1)), {2, 5}))
     turned, _ = faces_to_turn(polyhedra, find_edges(polyhedra))
@@ -157,16 +135,6 @@ def test_non_convex_prism() -> None:
     volumes, centroids = volumes_and_centroids(raw(prism(L_OUTLINE, 4.0)))
     assert volumes == pytest.approx([12.0], rel=1e-15)
     assert centroids == pytest.approx(np.array([[5 / 6, 5 / 6, 2.0]]), rel=1e-15)
-
-
-def test_pyramid_centroid_is_a_quarter_up() -> None:
-    shape = (
-        [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 3]],
-        [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
-    )
-    volumes, centroids = volumes_and_centroids(raw(shape))
-    assert volumes == pytest.approx([4.0])
-    assert centroids == pytest.approx(np.array([[1, 1, 0.75]]))
 
 
 def test_inward_faces_give_a_negative_volume() -> None:
@@ -207,13 +175,6 @@ def test_volume_of_a_bent_face_does_not_depend_on_its_first_corner() -> None:
     shifted = [[*face[1:], *face[:1]] for face in faces]
     volumes, _ = volumes_and_centroids(raw((vertices, faces), (vertices, turned), (vertices, shifted)))
     assert volumes[1:] == pytest.approx([volumes[0]] * 2, rel=1e-15)
-
-
-def test_blocks_are_measured_independently_of_each_other() -> None:
-    shapes = [box(), prism(L_OUTLINE), TETRAHEDRON, hull(1)[0]]
-    together = build(*shapes).blocks
-    alone = [build(shape).blocks.volumes[0] for shape in shapes]
-    assert together.volumes == pytest.approx(alone, rel=1e-15)
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
