@@ -20,18 +20,17 @@ SLIDES = BLOCK.replace("h: 2", "h: 1")
 """a cube with friction 0.5 slides at half its weight, before it would rock at 1"""
 
 
-def test_a_text_gives_its_load_factor_and_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_text_gives_its_load_factor_and_writes_and_prints_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.chdir(tmp_path)
     results = mbla.run(SLIDES)
+    assert results.records.files == ()
     assert results.load_factor == pytest.approx(0.5, rel=1e-6)
     assert results.verified
     assert results.exit_code == 0
     assert results.case("push").status == "solved"
     assert list(tmp_path.iterdir()) == []
-
-
-def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
-    mbla.run(SLIDES)
     assert capfd.readouterr() == ("", "")
 
 
@@ -54,10 +53,6 @@ def test_file_and_folder(tmp_path: Path) -> None:
     mbla.run(deck, output=tmp_path / "mine", force=True)
     by_command = read_results_hdf5(tmp_path / "block.out" / "block.h5")
     assert by_command.cases[0].checks.static_bound == results.case("push").static_bound
-
-
-def test_in_memory_a_run_names_no_files() -> None:
-    assert mbla.run(SLIDES).records.files == ()
 
 
 @pytest.mark.parametrize("values", [{"parameters.mu": 0.25}, ["parameters.mu=0.25"], {"joints.dry.friction": "=b/4"}])
@@ -172,12 +167,6 @@ def test_names_come_late() -> None:
     assert told[0].startswith("False ")
     assert {"run", "read_results", "DeckError"} <= set(told[0].split())
     assert told[1] == "run True"
-    with pytest.raises(AttributeError, match="solve"):
-        mbla.solve  # type: ignore[attr-defined] # noqa: B018
-    assert all(getattr(mbla, name) is not None for name in mbla.__all__)
-
-
-def test_public_names_are_listed_and_others_refused() -> None:
     assert dir(mbla) == sorted(mbla.__all__)
     assert all(getattr(mbla, name) is not None for name in dir(mbla))
     with pytest.raises(AttributeError, match=r"^module 'mbla' has no attribute 'solve'$"):

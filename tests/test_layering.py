@@ -42,47 +42,36 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 
 @cache
-def imports_of(path: Path, *, at_run_time: bool = True) -> frozenset[str]:
-    """Full names of what a file imports, wherever in it; those for type checkers alone left out if ``at_run_time``."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for_types: set[ast.AST] = set()
-    if at_run_time:
-        for node in ast.walk(tree):
-            if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
-                for_types.update(ast.walk(node))
-    names: set[str] = set()
-    for node in ast.walk(tree):
-        if node in for_types:
-            continue
-        if isinstance(node, ast.Import):
-            names.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
+def imports_of(path: Path) -> dict[str, bool]:
+    """Full names of what a file imports, wherever in it, and whether at run time or for type checkers only."""
+    text = path.read_text(encoding="utf-8")
+    nodes = list(ast.walk(ast.parse(text)))
+    guards = [node for node in nodes if isinstance(node, ast.If)] if "TYPE_CHECKING" in text else []
+    for_types = {below for node in guards if "TYPE_CHECKING" in ast.dump(node.test) for below in ast.walk(node)}
+    names: dict[str, bool] = {}
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: relative import"
-            names.add(str(node.module))
-    return frozenset(names)
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            found = [str(node.module)] if isinstance(node, ast.ImportFrom) else [alias.name for alias in node.names]
+            names |= {name: names.get(name, False) or node not in for_types for name in found}
+    return names
 
 
-def test_a_stage_imports_only_from_the_left() -> None:
+def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
     wrong = []
     for path in FILES:
-        stage, *_ = path.relative_to(PACKAGE).parts
-        if stage in STAGES:
-            allowed = {*SHARED, *STAGES[: STAGES.index(stage) + 1], *(WHOLE_LINE if stage == "sweeps" else ())}
-            parts = [(name, name.split(".")) for name in imports_of(path, at_run_time=False)]
-            wrong += [
-                f"{path.relative_to(PACKAGE)} imports {name}"
-                for name, (package, *rest) in parts
-                if package == "mbla" and rest and rest[0] not in allowed
-            ]
+        place = str(path.relative_to(PACKAGE))
+        stage = path.relative_to(PACKAGE).parts[0]
+        allowed = {*SHARED, *STAGES[: STAGES.index(stage) + 1]} if stage in STAGES else set()
+        allowed |= {*WHOLE_LINE} if stage == "sweeps" else set()
+        for name, at_run_time in imports_of(path).items():
+            package, *rest = name.split(".")
+            if allowed and package == "mbla" and rest and rest[0] not in allowed:
+                wrong.append(f"{place} imports {name}")
+            if at_run_time and DOORS.get(package, place) != place:
+                wrong.append(f"{place} imports {name}, whose door is {DOORS[package]}")
     assert wrong == []
-
-
-def test_each_library_has_one_door() -> None:
-    for library, door in DOORS.items():
-        users = {
-            str(path.relative_to(PACKAGE)) for path in FILES if library in {n.split(".")[0] for n in imports_of(path)}
-        }
-        assert users <= {door}, f"{library} is imported by {sorted(users)}"
 
 
 def test_superlu_has_one_door() -> None:

@@ -35,24 +35,24 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 analysis: {flow_rule: associative, accuracy: reference}
 """
 
-FERRIS_TIN_LOI = {
-    1: {"A": [0.5, 1, 1, 1, 1, 0.5], "B": [1, 1, 1, 1, 1], "courses": "A B A B A B"},
-    3: {
-        "Fe": [1, 1, 1, 1],
-        "Fu": [0.5, 1, 1, 1, 0.5],
-        "Wu": [0.5, 1, -1, 1, 0.5],
-        "We": [1, 0.5, -1, 0.5, 1],
-        "courses": "Fe Fu Fe Wu We Wu We Wu Fe Fu Fe",
-    },
-    5: {
-        "Fe": [0.5, 1, 1, 0.5],
-        "Fu": [1, 1, 1],
-        "Wu": [1, -1, 1],
-        "We": [0.5, 0.5, -1, 0.5, 0.5],
-        "courses": "Fe Fu Fe Wu We Wu We Wu Fe Fu Fe Wu We Wu We Wu Fe Fu Fe",
-    },
+FERRIS_TIN_LOI: dict[int, tuple[dict[str, list[float]], str]] = {
+    1: ({"A": [0.5, 1, 1, 1, 1, 0.5], "B": [1, 1, 1, 1, 1]}, "A B A B A B"),
+    3: (
+        {"A": [1, 1, 1, 1], "B": [0.5, 1, 1, 1, 0.5], "C": [0.5, 1, -1, 1, 0.5], "D": [1, 0.5, -1, 0.5, 1]},
+        "A B A C D C D C A B A",
+    ),
+    5: (
+        {"A": [0.5, 1, 1, 0.5], "B": [1, 1, 1], "C": [1, -1, 1], "D": [0.5, 0.5, -1, 0.5, 0.5]},
+        "A B A C D C D C A B A C D C D C A B A",
+    ),
 }
 """Courses bottom to top in units of 0.4 m, negative for a gap (Int. J. Mech. Sci. 43, 2001, 209-224)."""
+
+
+def ferris_tin_loi(number: int) -> list[list[float]]:
+    """Courses of a wall, from below."""
+    courses, order = FERRIS_TIN_LOI[number]
+    return [courses[name] for name in order.split()]
 
 
 def expected(deck: str, case: str) -> float:
@@ -81,9 +81,7 @@ def test_arches_of_cocchetti_and_rizzi(name: str) -> None:
 
 @pytest.mark.parametrize("number", [1, 3, 5])
 def test_walls_of_ferris_and_tin_loi(number: int) -> None:
-    rows = FERRIS_TIN_LOI[number]
-    courses = [rows[name] for name in str(rows["courses"]).split()]
-    planar = wall_load_factor(courses, 0.65)  # type: ignore[arg-type]  # the courses are lists, the order is a text
+    planar = wall_load_factor(ferris_tin_loi(number), 0.65)
     for deck in (f"ferris_wall_{number}", f"ferris_wall_{number}_associative", f"ferris_wall_{number}_slope"):
         assert expected(f"benchmarks/published/{deck}", "push_x") == pytest.approx(planar, rel=DIGITS)
 

@@ -39,8 +39,9 @@ load_cases:
     )
 
 
-@pytest.mark.parametrize("flow_rule", FLOW_RULES)
-@pytest.mark.parametrize(("strength", "density"), [(1e5, 2e3), (1e12, 1.0)])
+@pytest.mark.parametrize(
+    ("strength", "density", "flow_rule"), [(1e5, 2e3, "associative"), (1e12, 1.0, "non_associative")]
+)
 @pytest.mark.parametrize("outline", OUTLINES)
 def test_a_centred_force_crushes_the_whole_joint(outline: str, strength: float, density: float, flow_rule: str) -> None:
     ways = (f"materials.stone.density={density}", f"analysis.flow_rule={flow_rule}")
@@ -48,9 +49,15 @@ def test_a_centred_force_crushes_the_whole_joint(outline: str, strength: float, 
     assert found == pytest.approx(1.0 - density * GRAVITY / strength, rel=1e-8)
 
 
-@pytest.mark.parametrize("flow_rule", FLOW_RULES)
-@pytest.mark.parametrize("strength", [1e5, 1e12])
-@pytest.mark.parametrize("eccentricity", [1e-6, 1e-3])
+@pytest.mark.parametrize(
+    ("eccentricity", "strength", "flow_rule"),
+    [
+        (1e-6, 1e5, "non_associative"),
+        (1e-3, 1e5, "associative"),
+        (1e-6, 1e12, "associative"),
+        (1e-3, 1e12, "non_associative"),
+    ],
+)
 def test_a_force_that_is_nearly_centred(eccentricity: float, strength: float, flow_rule: str) -> None:
     """n² = n − 2 e (n − w) with n = N/(f_c A), w = W/(f_c A), for a rectangle of width 1."""
     weight, across = 2000 * GRAVITY / strength, 1.0 - 2.0 * eccentricity

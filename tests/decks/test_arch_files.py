@@ -1,4 +1,4 @@
-"""One arch from files of every kind: the files are those written, and every deck gives the generator's load factor."""
+"""One arch from files of every kind: every deck has the generator's blocks, contacts and load factor."""
 
 from __future__ import annotations
 
@@ -11,20 +11,15 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
 from tests.analytic.planar import arch_load_factor, polygon_arch
-from tests.decks.arch_files import FILES, FOLDER, content
+from tests.decks.folder import BENCHMARKS
 
-DECKS = sorted(FOLDER.parent.glob("arch_from_*.yaml"))
+DECKS = [path for name, path in BENCHMARKS.items() if name.startswith("arch_from_")]
 SINGLE = ("stl", "gltf")
 """kinds of files with coordinates in single precision"""
 
 
 def kind(path: Path) -> str:
     return path.stem.removeprefix("arch_from_")
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_files_are_those_that_are_written(name: str) -> None:
-    assert (FOLDER / name).read_bytes() == content(name), "python -m tests.decks.arch_files writes it again"
 
 
 def test_there_is_a_deck_for_every_kind_of_file() -> None:

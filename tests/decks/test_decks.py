@@ -28,6 +28,10 @@ LOCKED = ("benchmarks/closed_forms/groove_steep_friction", "regressions/block_un
 """No associative load factor, and one without dilatancy all the same."""
 
 
+LOCKED_IN = ("benchmarks/closed_forms/bar_between_walls",)
+"""Held by forces that somebody must have locked in."""
+
+
 def cases_of(path: Path) -> Iterator[tuple[dict[str, Any], Expectation]]:
     """Each load case as the JSON has it, with what is expected of it; of a travelling load the worst position."""
     expected, record = deck_of(path).content.expected, outcome_of(path).record
@@ -92,9 +96,18 @@ def test_the_deck_meets_its_expectations(path: Path) -> None:
     statuses = {EXIT_STATUS[str(expectation.status)] for _, expectation in cases_of(path)}
     gravest = next(status for status in (4, 5, 0) if status in statuses)
     assert outcome_of(path).exit_status == outcome_of(path).record["exit_code"] == gravest
+    check_standing(path)
     check_bounds(path)
     check_json(path)
     check_files(path)
+
+
+def check_standing(path: Path) -> None:
+    """It stands before its live load, save where it has no equilibrium, or one by self-stress only."""
+    for case, expectation in cases_of(path):
+        stands = "only by self-stress" if name_of(path) in LOCKED_IN else "yes"
+        falls = expectation.status == "no_equilibrium"
+        assert case["standing"]["verdict"] == ("no" if falls else stands), case["name"]
 
 
 def check_json(path: Path) -> None:
@@ -146,21 +159,8 @@ def check_files(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["tutorials/arch", "benchmarks/published/ferris_wall_3", "benchmarks/closed_forms/overhang_too_far"]
-)
-def test_a_second_run_gives_the_same_digits(name: str) -> None:
-    path = path_of(name)
-    first, second = outcome_of(path).record, run_deck(path).record
-    for record in (first, second):
-        del record["time"], record["created"]
-        for case in record["cases"]:
-            del case["time"]
-    assert first == second
-
-
-@pytest.mark.parametrize(
     ("name", "status"),
-    [("tutorials/block", 0), ("tutorials/dolmen", 0), ("benchmarks/closed_forms/incline_too_steep", 5)],
+    [("tutorials/block", 0), ("benchmarks/closed_forms/incline_too_steep", 5)],
 )
 def test_in_a_process_of_its_own(name: str, status: int, tmp_path: Path) -> None:
     path = path_of(name)

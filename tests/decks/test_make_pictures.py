@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from tests.decks import sweep_pictures
 from tests.decks.folder import DECKS
 from tests.decks.make_pictures import (
     PICTURES,
     SAMPLE,
     STUDIES,
+    SWEEPS,
     TABLE,
     DeckPicture,
     deck_path,
@@ -20,7 +20,7 @@ from tests.decks.make_pictures import (
 
 
 def test_table_names_every_picture_once() -> None:
-    of_sweeps = [f"sweep_{picture.sweep}" for picture in sweep_pictures.TABLE]
+    of_sweeps = [f"sweep_{picture.sweep}" for picture in SWEEPS]
     names = [*(picture.name for picture in TABLE), *STUDIES, *of_sweeps]
     assert sorted(names) == sorted(set(names))
     assert set(names) == {path.stem for path in PICTURES.iterdir()}

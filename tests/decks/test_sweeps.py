@@ -30,41 +30,22 @@ POINTS = {
 SAME = 1e-6
 """relative; the bounds of a standard or draft run, which prove its load factor, lie within 3e-7 of each other"""
 
-every_sweep = pytest.mark.parametrize("name", NAMES)
 
-
-# --- the files ----------------------------------------------------------------------------------------------------
-
-
-@every_sweep
-def test_the_design_of_every_sweep_is_made(name: str) -> None:
-    prepared = prepared_sweep(name)
-    record = dry_run_json(prepared)
+@pytest.mark.parametrize("name", NAMES)
+def test_every_sweep_agrees_with_its_schema_and_its_row_of_the_page(name: str) -> None:
+    prepared, path = prepared_sweep(name), sweep_path(name)
     assert len(prepared.design.points) == POINTS[name]
-    assert record["different"] == POINTS[name]  # no point twice
+    assert dry_run_json(prepared)["different"] == POINTS[name]  # no point twice
     assert prepared.sweep.content.title
     assert "load_factor" in prepared.sweep.content.results
-
-
-@every_sweep
-def test_the_sweep_agrees_with_the_schema_to_which_its_first_line_leads(name: str) -> None:
-    path = sweep_path(name)
-    prefix = "# yaml-language-server: $schema="
+    prefix, schema = "# yaml-language-server: $schema=", ROOT / "schemas" / "sweep.schema.json"
     first = path.read_text(encoding="utf-8").splitlines()[0]
-    assert first.startswith(prefix)
-    schema = (path.parent / first.removeprefix(prefix)).resolve()
-    assert schema == ROOT / "schemas" / "sweep.schema.json"
-    tree, _ = read_files(path, kind=SWEEP_FILE)
-    jsonschema.validate(tree.data, json.loads(schema.read_text(encoding="utf-8")))
-
-
-@every_sweep
-def test_the_page_shows_every_sweep_with_its_points_and_a_picture_that_is_there(name: str) -> None:
+    assert (path.parent / first.removeprefix(prefix)).resolve() == schema
+    jsonschema.validate(read_files(path, kind=SWEEP_FILE)[0].data, json.loads(schema.read_text(encoding="utf-8")))
     page = (SWEEPS / "README.md").read_text(encoding="utf-8")
     row = next(line for line in page.splitlines() if line.startswith(f"| [{name}.yaml]({name}.yaml)"))
     assert f"| {POINTS[name]} |" in row
-    picture = row.split("(../pictures/")[1].split(")")[0]
-    assert (DECKS / "pictures" / picture).is_file()
+    assert (DECKS / "pictures" / row.split("(../pictures/")[1].split(")")[0]).is_file()
 
 
 # --- arch: friction and thickness ---------------------------------------------------------------------------------

@@ -40,6 +40,32 @@ blocks:
 """
 )
 
+PUSH = "{push: {live: [{acceleration: [1, 0, 0]}]}}"
+GROUND = "[{ground: {z: 0}}]"
+
+
+def deck(
+    blocks: str,
+    parameters: str = "",
+    joint: str = 'friction: "=mu"',
+    supports: str = GROUND,
+    load_cases: str = PUSH,
+    contacts: str = "",
+) -> str:
+    """A deck of blocks of one stone with one joint law; without ``supports`` the blocks bring their own."""
+    lines = [
+        "mbla: 1",
+        "materials: {stone: {density: 2000}}",
+        f"contacts: {{joint: dry{contacts}}}",
+        f"parameters: {{{parameters}}}",
+        f"joints: {{dry: {{{joint}}}}}",
+        f"blocks:\n{blocks.rstrip()}",
+        *([f"supports: {supports}"] if supports else []),
+        f"load_cases: {load_cases}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 FLOW_RULES = ("associative", "non_associative")
 
 FACTORS = {

@@ -1,129 +1,98 @@
-"""Many alike: equal parts, several mechanisms at once, blocks that meet in edges and corners only."""
+"""Many alike: equal parts, several mechanisms at once, arches under a load at the crown, contact in edges only.
+
+The load factors of arches are those of a second formulation, the linear program of ``tests.analytic.planar``;
+``test_expected`` works them out again. With much friction they fall by hinges, with any flow rule.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from tests.extremes.decks import under_both_rules
+from tests.extremes.decks import FLOW_RULES, deck, ruled, under_both_rules
 from tests.extremes.outcome import Scene
-from tests.extremes.structures_many import HEAD, PUSH
 
-COLUMNS = (
-    HEAD
-    + """\
-parameters: {n: 100, h: 2, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+COLUMNS = deck(
+    """\
   - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
           repeat: {count: "=n", translate: [1, 0, 0]}}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "n: 100, h: 2, mu: 0.5",
 )
 """n columns side by side that do not touch, all with the load factor min(mu, 0.5/h)."""
 
 
-FOUR = (
-    HEAD
-    + """\
-parameters: {h: 2, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+FOUR = deck(
+    """\
   - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
           repeat: [{count: 2, translate: [2, 0, 0]}, {count: 2, translate: [0, 2, 0]}]}
   - box: {group: slab, material: stone, min: [0, 0, "=h"], max: [2.5, 2.5, "=h + 0.25"]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "h: 2, mu: 0.5",
 )
 """Four equal columns under one slab."""
 
 
-SLIDERS = (
-    HEAD
-    + """\
-parameters: {n: 200, mu: 0.25}
-joints: {dry: {friction: "=mu"}}
-blocks:
+SLIDERS = deck(
+    """\
   - box: {group: slider, material: stone, min: [0, 0, 0], max: [1, 1, 0.2],
           repeat: {count: "=n", translate: [0, 0, 0.2]}}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "n: 200, mu: 0.25",
 )
 """A stack so low that every joint slides at the same factor mu where it does not rock."""
 
 
-ROW = (
-    HEAD
-    + """\
-parameters: {n: 200, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+ROW = deck(
+    """\
   - box: {group: row, material: stone, min: [0, 0, 0], max: [1, 1, 1], repeat: {count: "=n", translate: [1, 0, 0]}}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "n: 200, mu: 0.5",
 )
 """Blocks in a row, each against the next, pushed along it: all slide, mu."""
 
 
-PYRAMIDS = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+PYRAMIDS = deck(
+    """\
   - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - polyhedron: {group: tip, material: stone, vertices: [[0.5, 0.5, 1], [0, 0, 2], [1, 0, 2], [1, 1, 2], [0, 1, 2]],
                  faces: [[1, 2, 3, 4], [0, 2, 1], [0, 3, 2], [0, 4, 3], [0, 1, 4]]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    joint="friction: 0.5",
 )
 """A pyramid that stands on its apex: no surface in common, no contact."""
 
 
-EDGE = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+EDGE = deck(
+    """\
   - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - polyhedron: {group: roof, material: stone, vertices: [[0, 0.5, 1], [1, 0.5, 1], [0, 0, 2], [1, 0, 2], [1, 1, 2],
                  [0, 1, 2]], faces: [[2, 3, 4, 5], [0, 1, 3, 2], [0, 5, 4, 1], [0, 2, 5], [1, 4, 3]]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    joint="friction: 0.5",
 )
 """A prism that stands on its edge."""
 
 
-CORNER = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+CORNER = deck(
+    """\
   - box: {group: one, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - box: {group: two, material: stone, min: [1, 1, 0], max: [2, 2, 1]}
   - box: {group: three, material: stone, min: [2, 2, 1], max: [3, 3, 2]}
   - box: {group: floor, material: stone, min: [2, 2, 0], max: [3, 3, 1]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    joint="friction: 0.5",
 )
 """Blocks that meet along an edge or at a corner only: they do not touch, every one slides by itself."""
 
 
-DOME = (
-    HEAD
-    + """\
-parameters: {segments: 12, rings: 4}
-joints: {dry: {friction: 0.65}}
-blocks:
+DOME = deck(
+    """\
   - dome: {group: dome, material: stone, span: 4, thickness: 0.6, rings: "=rings", segments: "=segments", oculus: 0.6,
            bond: stack, springers: ground}
-"""
-    + PUSH
+""",
+    "segments: 12, rings: 4",
+    joint="friction: 0.65",
+    supports="",
 )
 
 
@@ -170,4 +139,67 @@ def _touching() -> list[Scene]:
     ]
 
 
-SCENES = (*_symmetric(), *_touching())
+ARCH = """\
+  - arch: {group: arch, material: stone, shape: semicircular, span: "=2 - t", thickness: "=t", width: 0.3,
+           voussoirs: "=n", springers: ground}
+"""
+CROWN = deck(
+    ARCH,
+    "n: 21, t: 0.3",
+    joint="friction: 5",
+    supports="",
+    load_cases="""{crown: {live: [{force: [0, 0, "=-2000*9.81*0.3"], on: {group: arch, index: "=(n - 1)/2"},
+                             at: ["=1 - t/2", 0.15, 1]}]}}""",
+)
+"""The keystone of an arch of mean radius 1, pressed down by the weight of one square metre of its elevation."""
+
+PUSHED = deck(ARCH, "n: 21, t: 0.3", joint="friction: 5", supports="")
+
+APART = PUSHED.replace("parameters: {n: 21, t: 0.3}", "parameters: {n: 21, t: 0.3, apart: 10, turn: 0}").replace(
+    "springers: ground}",
+    """springers: ground}
+  - arch: {group: other, material: stone, shape: semicircular, span: "=2 - t", thickness: "=t", width: 0.3,
+           voussoirs: "=n", springers: ground, transform: [{rotate: {axis: [0, 0, 1], angle: "=turn"}},
+           {translate: ["=apart", 0, 0]}]}""",
+)
+"""Two of the same arch; turned by half a turn the other is pushed the other way about, which is all one to it."""
+
+CROWNS = {(21, 0.3): 13.02883201174, (99, 0.3): 2.8791706705987}
+PUSHES = {(21, 0.3): 0.52062466103388, (2000, 0.3): 0.518069053659506}
+"""Load factors by voussoirs and thickness."""
+
+
+def _arches() -> list[Scene]:
+    family, scenes = "symmetric arches", []
+    for rule in FLOW_RULES:
+        asked = ruled(rule)
+        for (n, t), factor in CROWNS.items():
+            size = (f"parameters.n={n}", f"parameters.t={t}", asked)
+            for reductions in ("true", "false"):
+                name = f"{n} voussoirs pressed at the crown, reductions {reductions}, {rule}"
+                overrides = (*size, f"analysis.reductions={reductions}")
+                scenes.append(Scene(name, family, CROWN, overrides, factor, long=n > 21))
+        for (n, t), factor in PUSHES.items():
+            size = (f"parameters.n={n}", f"parameters.t={t}", asked)
+            scenes.append(Scene(f"{n} voussoirs, pushed, {rule}", family, PUSHED, size, factor, long=n > 21))
+    return scenes
+
+
+def _apart() -> list[Scene]:
+    family = "two alike apart"
+    return [
+        Scene(
+            f"arches {apart:g} m apart, the other turned by {turn} degrees, {rule}",
+            family,
+            APART,
+            (f"parameters.apart={apart!r}", f"parameters.turn={turn}", ruled(rule)),
+            PUSHES[21, 0.3],
+            long=apart > 1e3 or (turn > 0 and rule != "associative"),
+        )
+        for rule in FLOW_RULES
+        for apart in (10.0, 1e6)
+        for turn in (0, 180)
+    ]
+
+
+SCENES = (*_symmetric(), *_touching(), *_arches(), *_apart())

@@ -1,21 +1,13 @@
-"""Many contacts: indeterminate to the thousands, hundreds of contact points in one interface."""
+"""Many contacts and blocks: indeterminate to the thousands, hundreds of points in one interface, chains, walls."""
 
 from __future__ import annotations
 
 import math
 
-from tests.extremes.decks import under_both_rules
+import numpy as np
+
+from tests.extremes.decks import deck, under_both_rules
 from tests.extremes.outcome import Scene
-
-HEAD = """\
-mbla: 1
-materials: {stone: {density: 2000}}
-contacts: {joint: dry}
-"""
-
-
-PUSH = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
-
 
 OUTLINES = "outlines-simplified"
 
@@ -23,18 +15,14 @@ OUTLINES = "outlines-simplified"
 SPATIAL = ("analysis.reductions=false",)
 
 
-ON_MANY = (
-    HEAD
-    + """\
-parameters: {n: 30, h: 1, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+ON_MANY = deck(
+    """\
   - box: {group: base, material: stone, min: [0, 0, 0], max: ["=1/n", "=1/n", 0.1],
           repeat: [{count: "=n", translate: ["=1/n", 0, 0]}, {count: "=n", translate: [0, "=1/n", 0]}]}
   - box: {group: block, material: stone, min: [0, 0, 0.1], max: [1, 1, "=0.1 + h"]}
-supports: [{blocks: base}]
-"""
-    + PUSH
+""",
+    "n: 30, h: 1, mu: 0.5",
+    supports="[{blocks: base}]",
 )
 """A block on a floor of n x n fixed blocks: min(mu, 1/h)."""
 
@@ -46,45 +34,31 @@ ON_LOOSE = ON_MANY.replace("supports: [{blocks: base}]", "supports: [{ground: {z
 the tile under the toe tips with the block, and without dilatancy the block slides off it by a thousandth sooner."""
 
 
-POINTS = (
-    HEAD.replace("contacts: {joint: dry}", 'contacts: {joint: dry, points: {per_edge: "=k"}}')
-    + """\
-parameters: {k: 50, h: 1, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+POINTS = deck(
+    """\
   - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, "=h"]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "k: 50, h: 1, mu: 0.5",
+    contacts=', points: {per_edge: "=k"}',
 )
 
 
-CORNERS = (
-    HEAD
-    + """\
-parameters: {n: 360, h: 1, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+CORNERS = deck(
+    """\
   - column: {group: column, material: stone, radius: 0.5, height: "=h", drums: 2, sides: "=n", polygon: inscribed}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "n: 360, h: 1, mu: 0.5",
 )
 """Two drums with faces of n corners: it slides at mu, or rocks about the edge at +x, at the distance r cos(pi/n)."""
 
 
-BEAM = (
-    HEAD
-    + """\
-parameters: {n: 1000, h: 2, mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+BEAM = deck(
+    """\
   - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
           repeat: {count: "=n", translate: [1, 0, 0]}}
   - box: {group: beam, material: stone, min: [0, 0, "=h"], max: ["=n - 0.5", 0.5, "=h + 0.5"]}
-supports: [{ground: {z: 0}}]
-"""
-    + PUSH
+""",
+    "n: 1000, h: 2, mu: 0.5",
 )
 """n columns of weight w under one beam of weight W: all rock together, the beam riding on their edges."""
 
@@ -160,4 +134,83 @@ def _points() -> list[Scene]:
     return scenes
 
 
-SCENES = (*_statics(), *_points())
+ROW = deck(
+    """\
+  - box: {group: row, material: stone, min: [0, 0, 0], max: [1, 1, 1], repeat: {count: "=n", translate: [1, 0, 0]}}
+""",
+    "n: 2000, mu: 0.5",
+)
+"""Blocks in a row, each against the next, every one pushed along it: mu."""
+
+SHOVED = ROW.replace(
+    "acceleration: [1, 0, 0]", 'force: ["=2000*9.81", 0, 0], on: {group: row, index: 0}, at: [0, 0.5, 0.4]'
+)
+"""Only the first is pushed, by its weight times the load factor, and shoves all others: n mu."""
+
+STACK = deck(
+    """\
+  - stack: {group: stack, material: stone, block: [1, 1, "=h"], count: "=n"}
+""",
+    "n: 1000, h: 0.1, mu: 0.5",
+)
+"""It rocks about its toe: min(mu, 1/(n h))."""
+
+TOP = STACK.replace("acceleration: [1, 0, 0]", "acceleration: [1, 0, 0], on: {group: stack, drum: -1}")
+"""Only the top block is pushed: it slides at mu or the stack rocks, b/2 n = factor (n - 1/2) h."""
+
+HANGING = deck(
+    """\
+  - box: {group: chain, material: stone, min: [0, 0, -0.1], max: [0.1, 0.1, 0],
+          repeat: {count: "=n", translate: [0, 0, -0.1]}}
+  - box: {group: ceiling, material: stone, min: [0, 0, 0], max: [0.1, 0.1, 0.1]}
+""",
+    'n: 200, w: "=2000*9.81*0.1*0.1*0.1"',
+    joint='friction: 0.5, cohesion: "=10*n*w/0.01", tensile_strength: "=2*n*w/0.01"',
+    supports="[{blocks: ceiling}]",
+    load_cases="{pull: {live: [{acceleration: [0, 0, -1], on: chain}]}}",
+)
+"""Blocks that hang from a ceiling by joints that bear twice the weight of all: the load factor is 1."""
+
+WALL = deck(
+    """\
+  - wall: {group: wall, material: stone, unit: [0.4, 0.2, 0.175], length: "=0.4*n", courses: "=n"}
+""",
+    "n: 20",
+    joint="friction: 0.65",
+)
+
+
+def top_factor(n: int, height: float = 0.1, mu: float = 0.5) -> float:
+    """The top block alone slides, or the upper k blocks turn about the edge of a joint: k/2 = factor (k - 1/2) h."""
+    k = np.arange(1, n + 1)
+    return min(mu, float((k / 2 / ((k - 0.5) * height)).min()))
+
+
+def _chains() -> list[Scene]:
+    family, scenes = "chains and stacks", []
+    for n, long in ((200, False), (2000, True)):
+        size = f"parameters.n={n}"
+        scenes += under_both_rules(f"row of {n} blocks, all pushed", family, ROW, 0.5, overrides=(size,), long=long)
+        scenes += under_both_rules(
+            f"row of {n} blocks, the first shoves all", family, SHOVED, 0.5 * n, overrides=(size,), long=long
+        )
+        scenes += under_both_rules(f"hanging chain of {n} blocks", family, HANGING, 1.0, overrides=(size,), long=long)
+    for n, long in ((100, False), (1000, True)):
+        size = f"parameters.n={n}"
+        scenes += under_both_rules(
+            f"stack of {n} blocks", family, STACK, min(0.5, 1 / (n * 0.1)), overrides=(size,), long=long
+        )
+        scenes += under_both_rules(
+            f"stack of {n} blocks, the top pushed", family, TOP, top_factor(n), overrides=(size,), long=long
+        )
+    return scenes
+
+
+def _walls() -> list[Scene]:
+    """Planar walls whose factor the verification proves from both sides; 0.42267551 is the middle of those bounds,
+    1.8e-8 apart. Smaller walls lead up to it: 0.453068, 0.437461, 0.426794 of 40, 60 and 100 courses."""
+    size = ("parameters.n=141", "analysis.flow_rule=associative")
+    return [Scene("wall of 19,951 blocks, associative", "large walls", WALL, size, 0.42267551, 1e-5, long=True)]
+
+
+SCENES = (*_statics(), *_points(), *_chains(), *_walls())

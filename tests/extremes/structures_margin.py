@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from tests.extremes.decks import under_both_rules
+from tests.extremes.decks import deck, under_both_rules
 from tests.extremes.outcome import Scene
 
-HEAD = """\
-mbla: 1
-materials: {stone: {density: 2000}}
-contacts: {joint: dry}
-"""
 SMALLEST = 1e-9
 """Of load factors near zero, absolute, in units of dead over live load: a millionth of the thousandth below which the
 program measures its errors by that size (``ZERO_FACTOR``) instead of by the factor itself."""
@@ -21,110 +16,85 @@ def _tolerance(factor: float) -> float:
     return max(1e-6, SMALLEST / factor) if factor > 0 else SMALLEST
 
 
-INCLINE = (
-    HEAD
-    + """\
-parameters: {mu: 0.5, more: 0, a: "=atan(mu) + more*180/pi"}
-joints: {dry: {friction: "=mu"}}
-blocks:
+INCLINE = deck(
+    """\
   - box: {group: block, material: stone, min: [-0.5, -0.5, 0], max: [0.5, 0.5, 0.2],
           transform: {rotate: {axis: [0, -1, 0], angle: "=a"}}}
-supports: [{ground: {point: [0, 0, 0], normal: ["=-sin(a)", 0, "=cos(a)"]}}]
-load_cases: {down: {live: [{acceleration: [-1, 0, 0]}]}}
-"""
+""",
+    'mu: 0.5, more: 0, a: "=atan(mu) + more*180/pi"',
+    supports='[{ground: {point: [0, 0, 0], normal: ["=-sin(a)", 0, "=cos(a)"]}}]',
+    load_cases="{down: {live: [{acceleration: [-1, 0, 0]}]}}",
 )
 """Block on a slope, pushed down it: (mu - tan a)/(1 + mu tan a)."""
 
-TIPPING = (
-    HEAD
-    + """\
-parameters: {more: 0}
-joints: {dry: {friction: 0.8}}
-blocks:
+TIPPING = deck(
+    """\
   - box: {group: base, material: stone, min: [-1, 0, 0], max: [0, 0.5, 0.2]}
   - box: {group: top, material: stone, min: ["=-0.5 + more", 0, 0.2], max: ["=0.5 + more", 0.5, 0.4]}
-supports: [{blocks: base}]
-load_cases: {push: {live: [{acceleration: [1, 0, 0], on: top}]}}
-"""
+""",
+    "more: 0",
+    joint="friction: 0.8",
+    supports="[{blocks: base}]",
+    load_cases="{push: {live: [{acceleration: [1, 0, 0], on: top}]}}",
 )
 """A block with its centre of gravity over the edge of the one below, pushed outwards: -more/(h/2)."""
 
-OVERHANG = (
-    HEAD
-    + """\
-parameters: {s: 1, n: 12, weight: "=2000*9.81*0.1", tip: 0}
-joints: {dry: {friction: 0.7}}
-blocks:
+OVERHANG = deck(
+    """\
   - stack: {group: pile, material: stone, block: [1, 0.5, 0.2], count: "=n", overhang: "=s"}
-supports: [{ground: {z: 0}}]
-load_cases: {tip: {live: [{force: [0, 0, "=-weight"], on: {group: pile, drum: -1}, at: ["=1 + tip", 0.25, "=0.2*n"]}]}}
-"""
+""",
+    's: 1, n: 12, weight: "=2000*9.81*0.1", tip: 0',
+    joint="friction: 0.7",
+    load_cases="""{tip: {live: [{force: [0, 0, "=-weight"], on: {group: pile, drum: -1},
+                           at: ["=1 + tip", 0.25, "=0.2*n"]}]}}""",
 )
 """Harmonic overhang loaded at its tip: (1 - s)/s."""
 
-BLOCK = (
-    HEAD
-    + """\
-parameters: {mu: 0.5, live: 1, b: 1, h: 1}
-joints: {dry: {friction: "=mu"}}
-blocks:
+BLOCK = deck(
+    """\
   - box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, "=h"]}
-supports: [{ground: {z: 0}}]
-load_cases: {push: {live: [{acceleration: ["=live", 0, 0]}]}}
-"""
+""",
+    "mu: 0.5, live: 1, b: 1, h: 1",
+    load_cases='{push: {live: [{acceleration: ["=live", 0, 0]}]}}',
 )
 """One block on the ground: min(mu, b/h)/live."""
 
-PRESSED = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+PRESSED = deck(
+    """\
   - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
-supports: [{ground: {z: 0}}]
-load_cases: {push: {live: [{acceleration: [0, 0, -1]}]}}
-"""
+""",
+    joint="friction: 0.5",
+    load_cases="{push: {live: [{acceleration: [0, 0, -1]}]}}",
 )
 
-TWO = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+TWO = deck(
+    """\
   - box: {group: safe, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - box: {group: slab, material: stone, min: [0, 0, 1], max: [3, 1, 1.2]}
   - box: {group: loose, material: stone, min: [5, 0, 0], max: [6, 1, 1]}
-supports: [{ground: {z: 0}}]
-load_cases: {push: {live: [{acceleration: [1, 0, 0], on: loose}]}}
-"""
+""",
+    joint="friction: 0.5",
+    load_cases="{push: {live: [{acceleration: [1, 0, 0], on: loose}]}}",
 )
 """A slab that falls off by its own weight, beside a block that is pushed."""
 
-WEDGED = (
-    HEAD
-    + """\
-parameters: {mu: 0.5}
-joints: {dry: {friction: "=mu"}}
-blocks:
+WEDGED = deck(
+    """\
   - box: {group: left, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - box: {group: middle, material: stone, min: [1, 0, 0], max: [2, 1, 1]}
   - box: {group: right, material: stone, min: [2, 0, 0], max: [3, 1, 1]}
-supports: [{ground: {z: 0}}, {blocks: left}, {blocks: right}]
-load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
-"""
+""",
+    "mu: 0.5",
+    supports="[{ground: {z: 0}}, {blocks: left}, {blocks: right}]",
 )
 """A block between two that are fixed, pushed against one: nothing can give."""
 
-HOVERING = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.5}}
-blocks:
+HOVERING = deck(
+    """\
   - box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
   - box: {group: hovering, material: stone, min: [0, 0, 2], max: [1, 1, 3]}
-supports: [{ground: {z: 0}}]
-load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
-"""
+""",
+    joint="friction: 0.5",
 )
 
 WEIGHTLESS = BLOCK.replace("load_cases: {push: {", "load_cases: {push: {dead: [{gravity: none}], ")

@@ -9,8 +9,7 @@ from scipy.optimize import linprog
 
 from mbla.arrays import FloatArray, IntArray
 from tests.analytic.planar import arch_load_factor, polygon_arch
-from tests.extremes.structures_alike import DOME, DOME_FACTOR
-from tests.extremes.structures_symmetric import CROWNS, PUSHES
+from tests.extremes.structures_alike import CROWNS, DOME, DOME_FACTOR, PUSHES
 from tests.line import line_of
 from tests.performance.rivals.statement import Statement, statement_of
 

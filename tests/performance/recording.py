@@ -22,7 +22,6 @@ Row = dict[str, str]
 
 CASES = {
     "line": ("structure", "flow_rule"),
-    "results": ("step", "blocks"),
     "rivals": ("structure", "rival"),
     "stages": ("case", "stage"),
     "sweep": ("sweep", "way", "points"),

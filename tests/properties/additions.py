@@ -15,11 +15,10 @@ from mbla.model.model import Joint, LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels, no_labels
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from tests.properties.cells import below, indexed
 from tests.properties.scenes import Scene, with_section
 
 FAR_LAW = "law_of_the_far_part"
-ON_PLANE = 1e-9
-"""distance from a cut, over block size, at which a corner lies on it"""
 
 
 def movable(model: Model) -> IntArray:
@@ -50,7 +49,7 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
     own = blocks.vertices[rows] - blocks.centroids[block]
     axes = np.linalg.svd(own - own.mean(axis=0))[2]
     normal = np.cos(askew) * axes[0] + np.sin(askew) * axes[1]
-    halves = [_half(blocks.vertices, polyhedra, block, blocks.centroids[block], side * normal) for side in (1.0, -1.0)]
+    halves = [_half(polyhedra, block, blocks.centroids[block], side * normal) for side in (1.0, -1.0)]
     n = len(blocks)
     order = np.arange(n)
     order[block] = n
@@ -86,44 +85,14 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
     return replace(scene, model=replace(larger, grounds=grounds, load_cases=cases))
 
 
-def _half(vertices: FloatArray, polyhedra: Polyhedra, block: int, point: FloatArray, normal: FloatArray) -> Polyhedra:
+def _half(polyhedra: Polyhedra, block: int, point: FloatArray, normal: FloatArray) -> Polyhedra:
     """What of a convex polyhedron lies on the side of a plane that its normal points to."""
-    rows = np.arange(polyhedra.vertex_start[block], polyhedra.vertex_start[block + 1])
-    heights = {int(row): float((vertices[row] - point) @ normal) for row in rows}
-    size = max(abs(height) for height in heights.values())
-    heights = {row: 0.0 if abs(height) < ON_PLANE * size else height for row, height in heights.items()}
-    points: list[FloatArray] = []
-    number: dict[tuple[int, int], int] = {}
-
-    def corner(key: tuple[int, int], place: FloatArray) -> int:
-        if key not in number:
-            number[key] = len(points)
-            points.append(place)
-        return number[key]
-
-    faces, rim = [], set()
-    for face in range(polyhedra.face_start[block], polyhedra.face_start[block + 1]):
-        loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist()
-        kept: list[int] = []
-        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True):
-            if heights[a] >= 0.0:
-                kept.append(corner((a, a), vertices[a]))
-                if heights[a] == 0.0:
-                    rim.add(kept[-1])
-            if heights[a] * heights[b] < 0.0:
-                low, high = min(a, b), max(a, b)
-                share = heights[low] / (heights[low] - heights[high])
-                kept.append(corner((low, high), vertices[low] + share * (vertices[high] - vertices[low])))
-                rim.add(kept[-1])
-        if len(kept) >= 3:
-            faces.append(kept)
-    ring = np.array(sorted(rim))
-    places = np.array(points)
-    about = places[ring] - places[ring].mean(axis=0)
-    across = np.linalg.svd(np.array([normal]))[2][1:]
-    ring = ring[np.argsort(np.arctan2(about @ across[1], about @ across[0]))]
-    faces = [face for face in faces if not set(face) <= rim]
-    return polyhedra_from_lists([places], [[*faces, ring.tolist()]])
+    faces = range(polyhedra.face_start[block], polyhedra.face_start[block + 1])
+    loops = [polyhedra.loops[slice(*polyhedra.loop_start[face : face + 2])] for face in faces]
+    cell = [polyhedra.vertices[loop] for loop in loops]
+    size = float(np.ptp(np.vstack(cell), axis=0).max())
+    vertices, indices = indexed(below(cell, -normal, -float(normal @ point)), size)
+    return polyhedra_from_lists([np.array(vertices)], [indices])
 
 
 def _with_blocks(model: Model, blocks: Blocks, count: int, fixed: tuple[bool, ...] = (False,)) -> Model:

@@ -27,24 +27,18 @@ def strengthless(scene: Scene, solved: Solved) -> bool:
     return not any(j.cohesion or j.tensile_strength or np.isfinite(j.compressive_strength) for j in used)
 
 
-def refine(scene: Scene, solved: Solved) -> Scene | None:
-    """Edges in two parts, points inside."""
-    points = scene.deck.contacts.points
-    if scene.deck.analysis.contact_model == "convex" or points.spacing is not None or scene.model.mirrors:
-        return None
-    if not strengthless(scene, solved):
-        return None
-    return with_section(scene, points=points.model_copy(update={"per_edge": 2 * (points.per_edge or 1)}))
+def refine(*, strengths: bool) -> Callable[[Scene, Solved], Scene | None]:
+    """Edges in two parts, points inside; where joints have strengths, or where none has."""
 
+    def make(scene: Scene, solved: Solved) -> Scene | None:
+        points = scene.deck.contacts.points
+        if scene.deck.analysis.contact_model == "convex" or points.spacing is not None or scene.model.mirrors:
+            return None
+        if strengthless(scene, solved) == strengths:
+            return None
+        return with_section(scene, points=points.model_copy(update={"per_edge": 2 * (points.per_edge or 1)}))
 
-def refine_with_strength(scene: Scene, solved: Solved) -> Scene | None:
-    """The same where joints have strengths."""
-    points = scene.deck.contacts.points
-    if scene.deck.analysis.contact_model == "convex" or points.spacing is not None or scene.model.mirrors:
-        return None
-    if strengthless(scene, solved):
-        return None
-    return with_section(scene, points=points.model_copy(update={"per_edge": 2 * (points.per_edge or 1)}))
+    return make
 
 
 def split(askew: float) -> Callable[[Scene, Solved], Scene | None]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.errors import MblaError
 from mbla.results.collapse.mechanics import support_reactions
 from mbla.results.results import CaseResult
-from tests.properties.relations import Relation, Transformation
 from tests.properties.scenes import Scene, Solved, bounds_of, solve_scene, value_of, with_analysis
 
 SAME = 1e-6
@@ -22,6 +23,35 @@ MET = 1e-9
 """bounds that cross by this much, relatively, have met"""
 VECTORS = 1e-6
 """difference of the sum of reactions, over the sum of loads, that counts as none"""
+
+
+class Relation(StrEnum):
+    """How the load factor may move."""
+
+    EQUAL = "equal"
+    RISES = "never lower"
+    FALLS = "never higher"
+    ENCLOSED = "between both polyhedra"
+
+
+@dataclass(frozen=True)
+class Transformation:
+    """One row of the table.
+
+    make    : the other scene from the scene and what came out of it; None where it does not apply
+    reason  : why the relation holds
+    ratio   : new load factor over the old one where they are equal but for scale
+    any_flow : also tried without normality
+    turn    : by which vectors turn
+    """
+
+    name: str
+    relation: Relation
+    reason: str
+    make: Callable[[Scene, Solved], Scene | None]
+    ratio: float = 1.0
+    any_flow: bool = False
+    turn: Callable[[Scene], FloatArray] | None = None
 
 
 class Verdict(StrEnum):

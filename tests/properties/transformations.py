@@ -8,74 +8,71 @@ Under associative flow the load factor is the value of a convex program, unique,
 
 Without normality the factor is not unique and none of the monotonic statements is a theorem: more friction, glue or
 strength may lower the factor that a scheme comes to rest on. What remains is EQUAL up to the choice of a state
-(:mod:`tests.properties.metamorphic`).
+(:mod:`tests.properties.comparisons`).
 """
 
 from __future__ import annotations
 
-from tests.properties.alterations import (
-    convex_model,
-    far_part,
-    fix_a_block,
-    open_an_interface,
-    part_at_rest,
-    polyhedra,
-    refine,
-    refine_with_strength,
-    split,
-    with_joints,
-)
-from tests.properties.relations import Relation, Transformation
-from tests.properties.restatements import (
-    feet,
-    heavier,
-    live_load_times,
-    millimetres,
-    mirror,
-    named_loads,
-    other_solver,
-    reflection,
-    renumber,
-    reverse_interfaces,
-    rotate,
-    translate,
-    turn_of,
-    unreduced,
-)
+from tests.properties import alterations, restatements
+from tests.properties.alterations import with_joints
+from tests.properties.comparisons import Relation, Transformation
 
 E_, R_, F_ = Relation.EQUAL, Relation.RISES, Relation.FALLS
 TABLE = (
-    Transformation("translate", E_, "statics knows no origin", translate),
-    Transformation("rotate with gravity", E_, "statics knows no axes", rotate, any_flow=True, turn=turn_of),
+    Transformation("translate", E_, "statics knows no origin", restatements.translate),
     Transformation(
-        "mirror", E_, "forces mirror as vectors, moments as axial vectors", mirror, any_flow=True, turn=reflection
-    ),
-    Transformation("renumber blocks", E_, "names carry nothing", renumber, any_flow=True),
-    Transformation("units mm, kN, t", E_, "a load factor has no unit", millimetres, any_flow=True),
-    Transformation("units ft, lbf, lb", E_, "a load factor has no unit", feet),
-    Transformation("reverse the order of interfaces", E_, "sums do not know their order", reverse_interfaces),
-    Transformation("live load times 8", E_, "the factor is inversely proportional", live_load_times(8.0), 0.125, True),
-    Transformation(
-        "every load as two named loads, combined", E_, "loads add up, whatever they are called", named_loads
+        "rotate with gravity",
+        E_,
+        "statics knows no axes",
+        restatements.rotate,
+        any_flow=True,
+        turn=restatements.turn_of,
     ),
     Transformation(
-        "densities, forces, strengths times 37", E_, "equilibrium and yield are homogeneous", heavier, any_flow=True
+        "mirror",
+        E_,
+        "forces mirror as vectors, moments as axial vectors",
+        restatements.mirror,
+        any_flow=True,
+        turn=restatements.reflection,
+    ),
+    Transformation("renumber blocks", E_, "names carry nothing", restatements.renumber, any_flow=True),
+    Transformation("units mm, kN, t", E_, "a load factor has no unit", restatements.millimetres, any_flow=True),
+    Transformation("units ft, lbf, lb", E_, "a load factor has no unit", restatements.feet),
+    Transformation(
+        "reverse the order of interfaces", E_, "sums do not know their order", restatements.reverse_interfaces
+    ),
+    Transformation(
+        "live load times 8", E_, "the factor is inversely proportional", restatements.live_load_times(8.0), 0.125, True
+    ),
+    Transformation(
+        "every load as two named loads, combined",
+        E_,
+        "loads add up, whatever they are called",
+        restatements.named_loads,
+    ),
+    Transformation(
+        "densities, forces, strengths times 37",
+        E_,
+        "equilibrium and yield are homogeneous",
+        restatements.heavier,
+        any_flow=True,
     ),
     Transformation(
         "split a block into two glued",
         E_,
         "a rigid body is its parts; the corners of a divided interface have the same hull as before, "
         "and without strengths only the hull of the contact points counts",
-        split(0.0),
+        alterations.split(0.0),
         any_flow=True,
     ),
-    Transformation("split it askew", E_, "the same", split(0.35)),
+    Transformation("split it askew", E_, "the same", alterations.split(0.35)),
     Transformation(
         "refine contact points, no strengths",
         E_,
         "a force at a point within the hull is a sum of forces of the same direction at its corners: the cone of all "
         "is the same. In torsion too: it may still gather at the corners",
-        refine,
+        alterations.refine(strengths=False),
         any_flow=True,
     ),
     Transformation(
@@ -83,12 +80,12 @@ TABLE = (
         F_,
         "each share of area of a point comes from the corners around it, so that the corners bear what the refined "
         "points bear; a theorem for triangles and parallelograms, whose corner shares the moments alone decide",
-        refine_with_strength,
+        alterations.refine(strengths=True),
     ),
-    Transformation("add a part far away", E_, "what nothing loads does not move", far_part, any_flow=True),
-    Transformation("add a part that stays at rest", E_, "the weakest part decides", part_at_rest),
-    Transformation("without reductions", E_, "reductions are exact", unreduced),
-    Transformation("another cone solver", E_, "the optimum is one", other_solver),
+    Transformation("add a part far away", E_, "what nothing loads does not move", alterations.far_part, any_flow=True),
+    Transformation("add a part that stays at rest", E_, "the weakest part decides", alterations.part_at_rest),
+    Transformation("without reductions", E_, "reductions are exact", restatements.unreduced),
+    Transformation("another cone solver", E_, "the optimum is one", restatements.other_solver),
     Transformation("friction times 1.2", R_, "a wider cone", with_joints(lambda j, _: {"friction": 1.2 * j.friction})),
     Transformation(
         "cohesion added", R_, "more shear is borne", with_joints(lambda j, s: {"cohesion": j.cohesion + 0.1 * s})
@@ -110,10 +107,15 @@ TABLE = (
         "less compression is borne",
         with_joints(lambda j, s: {"compressive_strength": 0.8 * min(j.compressive_strength, 50.0 * s)}),
     ),
-    Transformation("fix a block", R_, "fewer motions", fix_a_block),
-    Transformation("open an interface", F_, "one force less", open_an_interface),
-    Transformation("convex contact model", F_, "conditions on resultants are added to those on points", convex_model),
+    Transformation("fix a block", R_, "fewer motions", alterations.fix_a_block),
+    Transformation("open an interface", F_, "one force less", alterations.open_an_interface),
     Transformation(
-        "friction octagons", Relation.ENCLOSED, "inscribed polyhedron, cone, circumscribed polyhedron", polyhedra
+        "convex contact model", F_, "conditions on resultants are added to those on points", alterations.convex_model
+    ),
+    Transformation(
+        "friction octagons",
+        Relation.ENCLOSED,
+        "inscribed polyhedron, cone, circumscribed polyhedron",
+        alterations.polyhedra,
     ),
 )

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.trust.soak.watching import POINTS, watched
+from tests.trust.watching import POINTS, watched
 
 pytestmark = pytest.mark.long
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.trust.table import write
+from tests.trust.counts import write
 
 
 def main() -> int:

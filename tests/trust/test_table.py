@@ -7,14 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.trust.counts import Record, recorded
-from tests.trust.table import README, section, table
+from tests.trust.counts import README, Record, recorded, section, table
 
 FOLDER = Path(__file__).parent
 
 
 def test_the_readme_has_the_table_of_the_records() -> None:
-    assert section(README.read_text(encoding="utf-8")) == table(), "python -m tests.trust.table writes it"
+    assert section(README.read_text(encoding="utf-8")) == table(), "python -m tests.trust.counts writes it"
 
 
 @pytest.mark.parametrize("record", recorded(), ids=lambda record: record.check)

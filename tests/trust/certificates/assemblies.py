@@ -6,8 +6,8 @@ import math
 from random import Random
 from typing import Any
 
+from tests.properties.cells import cells_of_planes, cells_of_voronoi, indexed
 from tests.properties.random_items import KINDS, Piece, Tree
-from tests.trust.certificates.cells import cells_of_planes, cells_of_voronoi, indexed
 
 SHARES = {
     "planes": 5,

@@ -10,11 +10,18 @@ from dataclasses import replace
 import pytest
 
 from tests.trust.certificates.assemblies import assembly
-from tests.trust.certificates.claims import SETTLED, broken_claims
-from tests.trust.certificates.whole_line import Outcome, each, outcome_of
+from tests.trust.certificates.whole_line import SETTLED, Outcome, broken_claims, each, outcome_of
 from tests.trust.counts import record_counts
 
 LOG = logging.getLogger(__name__)
+OF_ASSOCIATIVE = (
+    "An associative load factor that is called solved lies between bounds within 1e-5 of each other, which mbla verify "
+    "recomputes from the result file alone"
+)
+OTHERS = (
+    "A load factor without dilatancy that is called solved carries its residuals, all below 1e-4, and lies at or below "
+    "the kinematic bound of the associative one"
+)
 STACK = 4
 FEW = (5, 12, 52)
 """cells of a box, some that do not stand, and a wall that friction locks"""
@@ -61,10 +68,6 @@ def test_what_is_not_kept_is_found(stack: tuple[Outcome, Outcome]) -> None:
 @pytest.mark.trust
 def test_all_certificates() -> None:
     outcomes, statuses = _all(associative, MANY)
-    claim = (
-        "An associative load factor that is called solved lies between bounds within 1e-5 of each other, which "
-        "mbla verify recomputes from the result file alone"
-    )
     counts = {
         "random assemblies": len(outcomes),
         "solved, all with both bounds": statuses["solved"],
@@ -72,23 +75,19 @@ def test_all_certificates() -> None:
         "locked by friction, proved by forces": statuses["unbounded"],
         "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
     }
-    record_counts("certificates", 10, claim, counts)
+    record_counts("certificates", 10, OF_ASSOCIATIVE, counts)
 
 
 @pytest.mark.trust
 def test_all_without_dilatancy() -> None:
     outcomes, statuses = _all(without_dilatancy, WITHOUT_DILATANCY)
-    claim = (
-        "A load factor without dilatancy that is called solved carries its residuals, all below 1e-4, and lies at or "
-        "below the kinematic bound of the associative one"
-    )
     counts = {
         "random assemblies": len(outcomes),
         "solved": statuses["solved"],
         "without equilibrium, or locked by friction, proved": statuses["no_equilibrium"] + statuses["unbounded"],
         "said to be left open": len(outcomes) - sum(statuses[status] for status in SETTLED),
     }
-    record_counts("without_dilatancy", 11, claim, counts)
+    record_counts("without_dilatancy", 11, OTHERS, counts)
 
 
 def _all(solve: Callable[[int], Outcome], seeds: range) -> tuple[list[Outcome], Counter[str]]:

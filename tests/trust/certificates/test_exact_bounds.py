@@ -11,10 +11,9 @@ import pytest
 
 from mbla.solution.solution import Mechanics
 from tests.trust.certificates.assemblies import assembly, at_points
-from tests.trust.certificates.claims import NEAR_ZERO, WITHIN
 from tests.trust.certificates.exact_bounds import ExactBounds, bound_of, exact_bounds, within_limits
 from tests.trust.certificates.rational import ExactCase, exact_case, rationals
-from tests.trust.certificates.whole_line import each, with_results
+from tests.trust.certificates.whole_line import NEAR_ZERO, WITHIN, each, with_results
 from tests.trust.counts import record_counts
 
 LOG = logging.getLogger(__name__)

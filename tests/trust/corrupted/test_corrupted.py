@@ -1,4 +1,4 @@
-"""Result files that were damaged, edited and forged are refused or disagreed with, and bring no command down."""
+"""Result files that were damaged or malformed bring no command down, and ``mbla verify`` agrees with none forged."""
 
 from __future__ import annotations
 
@@ -7,168 +7,244 @@ import json
 import random
 import shutil
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.results.changed_files import changing
-from tests.trust.corrupted.commands import REFUSED, Worker, claims, commands, differing, faults_of, worker
-from tests.trust.corrupted.damage import DAMAGES, damaged
-from tests.trust.corrupted.forgery import MALFORMED, change_figure, datasets, figures, words
-from tests.trust.corrupted.originals import DECKS, write_originals
+from mbla.errors import FileError
+from mbla.results.verify import verify_file
+from tests.trust.corrupted.files import FORGED, claims_changed, content_of, is_proof, write_decks
+from tests.trust.corrupted.spoiling import DAMAGES, MALFORMED, damaged, forge, malform
 from tests.trust.counts import record_counts
+from tests.trust.processes import Commands, Ended
 
-DAMAGED, MALFORMED_FILES, FORGED = 450, 250, 300
-"""files of each family in the full form: 1,000"""
+DAMAGED_FILES, MALFORMED_FILES, FORGERIES = 600, 400, 300
+SMALL = ("several", "bar_between_walls", "beam_on_three_supports")
+"""decks whose results are damaged and malformed"""
+IMPORTED = (
+    *("mbla.results.diff.comparison", "mbla.results.diff.words", "mbla.results.exit_status", "mbla.results.verify"),
+    *("mbla.results.hdf5.result_file", "mbla.results.listing.listing", "mbla.results.tables.tables"),
+)
+DRAWING = ("mbla.results.pictures.plot", "mbla.results.report.report")
+LIMITS = {"RLIMIT_AS": 4 << 30, "RLIMIT_CORE": 0, "RLIMIT_CPU": 60}
+REFUSED = 6
+STATUSES = (0, 4, 5, REFUSED)
+"""documented for commands on results; 5 and 4 from verify, 4 from diff"""
+MOST_SECONDS = 5.0
+"""of processor time until a file is refused"""
+MOST_MB = 2048.0
 
-
-@dataclass
-class Found:
-    """What a check counted, and what was wrong, in words."""
-
-    counts: Counter[str] = field(default_factory=Counter)
-    wrong: list[str] = field(default_factory=list)
-
-
-class Check:
-    """Originals, a worker, and what was found so far."""
-
-    def __init__(self, folder: Path, runner: Worker, names: Iterable[str] = tuple(DECKS)) -> None:
-        self.folder, self.worker, self.found = folder, runner, Found()
-        self.originals = write_originals(folder, names)
-        self.good = next(iter(self.originals.values()))
-        self.told = {name: self._told(path) for name, path in self.originals.items()}
-
-    def _told(self, path: Path) -> dict[str, str]:
-        """What show and verify say of a file as it was written."""
-        asked = commands(path, path, self.folder)
-        return {name: self.worker.run(*asked[name]).out for name in ("show", "verify")}
-
-    def fresh(self, name: str) -> Path:
-        """A copy of an original to be spoilt."""
-        path = self.folder / "spoilt" / f"{name}.h5"
-        path.parent.mkdir(exist_ok=True)
-        shutil.copy(self.originals[name], path)
-        return path
-
-    def refused_by_all(self, path: Path, what: str, names: tuple[str, ...] = ()) -> None:
-        """Every command must refuse the file."""
-        self.found.counts["files"] += 1
-        for name, arguments in commands(path, self.good, self.folder / "out").items():
-            if names and name not in names:
-                continue
-            ended = self.worker.run(*arguments)
-            self.found.counts["commands"] += 1
-            self.found.wrong += [f"{what}: {name}: {fault}" for fault in faults_of(path, ended)]
-            if ended.status != REFUSED:
-                self.found.wrong.append(f"{what}: {name} ends with {ended.status} instead of {REFUSED}")
-        self.found.counts["refused"] += 1
-
-    def judged(self, path: Path, original: str, what: str, names: tuple[str, ...] = ()) -> None:
-        """No command may fail to end well; verify must not agree with other claims than those of the original."""
-        self.found.counts["files"] += 1
-        for name, arguments in commands(path, self.good, self.folder / "out").items():
-            if names and name not in names:
-                continue
-            ended = self.worker.run(*arguments)
-            self.found.counts["commands"] += 1
-            self.found.wrong += [f"{what}: {name}: {fault}" for fault in faults_of(path, ended)]
-            if name != "verify":
-                continue
-            if ended.status == REFUSED:
-                self.found.counts["refused"] += 1
-            elif not ended.out or not json.loads(ended.out)["agrees"]:
-                self.found.counts["disagreed"] += 1
-            else:
-                self.found.counts["without effect"] += 1
-                changed = differing(claims(self.told[original]["verify"]), claims(ended.out))
-                self.found.wrong += [f"{what}: verify agrees with another claim: {place}" for place in changed[:3]]
-
-    def malformed(self, path: Path, original: str, what: str) -> None:
-        """Refused by every command, or told as the original is."""
-        show = self.worker.run("show", path)
-        if show.status == REFUSED:
-            self.refused_by_all(path, what)
-            return
-        self.judged(path, original, what)
-
-    def done(self) -> None:
-        assert not self.found.wrong, "\n".join([f"{len(self.found.wrong)} faults", *self.found.wrong[:60]])
+# --- damaged and malformed: no command may crash, and all must refuse a file that one refuses ----------------------
 
 
-def spoil_by_damage(check: Check, number: int) -> None:
-    generator = random.Random(1)
-    for row, kind, original in zip(range(number), itertools.cycle(DAMAGES), itertools.cycle(check.originals)):
-        path = check.fresh(original)
-        path.write_bytes(damaged(path.read_bytes(), kind, generator))
-        check.malformed(path, original, f"damage {row}, {kind}, {original}")
+def commands(path: Path, good: Path, out: Path) -> dict[str, tuple[str | Path, ...]]:
+    """Arguments of every command that reads a result file; ``good`` is another to compare with."""
+    return {
+        "show": ("show", path),
+        "verify": ("verify", path, "--json"),
+        "diff": ("diff", path, good),
+        "export": ("export", path, "--csv", "-o", out / "tables", "--force"),
+        "plot": ("plot", path, "-o", out / "pictures", "--kind", "mechanism", "--format", "svg"),
+        "report": ("report", path, "-o", out / "report.html", "--no-3d"),
+    }
 
 
-def spoil_by_form(check: Check, number: int) -> None:
-    generator = random.Random(3)
-    for row, kind, original in zip(range(number), itertools.cycle(MALFORMED), itertools.cycle(check.originals)):
-        path = check.fresh(original)
-        with changing(path) as file:
-            name = generator.choice(datasets(file))
-            MALFORMED[kind](file, name, generator)
-        check.malformed(path, original, f"form {row}, {kind}, {name}, {original}")
+def faults_of(path: Path, ended: Ended) -> list[str]:
+    """What is wrong with how a command ended, whatever the file."""
+    faults = []
+    if ended.status not in STATUSES:
+        faults.append(f"exit status {ended.status}")
+    if "Traceback" in ended.err or "Warning" in ended.err:
+        faults.append("traceback or warning")
+    if ended.memory > MOST_MB:
+        faults.append(f"{ended.memory:.0f} MB")
+    if ended.status == REFUSED:
+        said_nothing = not ended.out or json.loads(ended.out)["exit_code"] == REFUSED
+        if len(ended.err.splitlines()) != 1 or str(path) not in ended.err or not said_nothing:
+            faults.append("a refusal that is not one line about the file")
+        if ended.seconds > MOST_SECONDS:
+            faults.append(f"refused after {ended.seconds:.1f} s")
+    return [f"{fault}: {ended.err.strip()[-300:]}" for fault in faults]
 
 
-def spoil_by_figures(check: Check, number: int) -> None:
-    generator = random.Random(4)
-    for row, original in zip(range(number), itertools.cycle(check.originals)):
-        path = check.fresh(original)
-        name = generator.choice(words(path) if row % 8 == 7 else figures(path))
-        with changing(path) as file:
-            change_figure(file, name, generator)
-        check.judged(path, original, f"figure {row}, {name}, {original}")
+def damage(path: Path, kind: str, generator: random.Random) -> str:
+    """Damage a file; what was done, in words."""
+    path.write_bytes(damaged(path.read_bytes(), kind, generator))
+    return "of bytes"
 
 
-def test_some_files(tmp_path: Path) -> None:
-    """A few of each family, with the commands that cost little."""
-    with worker(tmp_path) as runner:
-        check = Check(tmp_path, runner, ["overhang"])
-        spoil_by_damage(check, len(DAMAGES))
-        _would_find_agreement_with_another_claim(check)
-    check.done()
-    assert check.found.counts["refused"] >= len(DAMAGES) - 1
+def given_to_commands(
+    running: Commands, original: Path, path: Path, spoil: Callable[[], str], left_out: Collection[str]
+) -> tuple[Counter[str], list[str]]:
+    """A spoilt copy of a file given to every command: what became of it, and what is wrong with that."""
+    shutil.copy(original, path)
+    what = spoil()
+    asked = commands(path, original, path.parent / "out")
+    ended = {name: running.run(*arguments) for name, arguments in asked.items() if name not in left_out}
+    wrong = [f"{what}: {name}: {fault}" for name, each in ended.items() for fault in faults_of(path, each)]
+    counts = Counter({"files": 1, "commands": len(ended)})
+    verified = ended["verify"]
+    if ended["show"].status == REFUSED:
+        taken = [name for name, each in ended.items() if each.status != REFUSED]
+        wrong += [f"{what}: show refuses it, {name} does not" for name in taken]
+        counts["refused"] += 1
+    elif verified.status == REFUSED or not (verified.out and json.loads(verified.out).get("agrees")):
+        counts["disagreed"] += 1
+    else:
+        counts["without effect"] += 1
+        known = content_of(original)
+        found = {key: value for key, value in content_of(path).items() if key in known}
+        changed = [claim for claim in claims_changed(known, found) if not is_proof(claim, found)]
+        wrong += [f"{what}: verify agrees with another claim: {claim}" for claim in changed[:3]]
+    return counts, wrong
 
 
-def _would_find_agreement_with_another_claim(check: Check) -> None:
-    """A check that knows of another weight than the file has holds it against verify, which agrees with it."""
-    told = json.loads(check.told["overhang"]["verify"])
-    told["model"]["total_weight"] *= 1.25
-    kept, check.found, verified = check.found, Found(), check.told["overhang"]["verify"]
-    check.told["overhang"]["verify"] = json.dumps(told)
-    check.judged(check.fresh("overhang"), "overhang", "as written", ("verify",))
-    found, check.found = check.found, kept
-    check.told["overhang"]["verify"] = verified
-    assert found.counts["without effect"] == 1
-    assert [fault for fault in found.wrong if "verify agrees with another claim: .model.total_weight" in fault]
+def spoilt(
+    running: Commands,
+    folder: Path,
+    originals: Iterable[Path],
+    damages: int,
+    malformed: int,
+    left_out: Collection[str] = (),
+) -> tuple[Counter[str], list[str]]:
+    """So many damaged and malformed files; ``left_out`` are commands."""
+    counts: Counter[str] = Counter()
+    wrong = []
+    cycle, path, generator = itertools.cycle(originals), folder / "spoilt.h5", random.Random(3)
+    ways: list[tuple[Callable[..., str], Iterable[str], int]] = [
+        (damage, DAMAGES, damages),
+        (malform, MALFORMED, malformed),
+    ]
+    for spoil, kinds, number in ways:
+        for kind in itertools.islice(itertools.cycle(kinds), number):
+            original = next(cycle)
+            made = partial(spoil, path, kind, generator)
+            done, faults = given_to_commands(running, original, path, made, left_out)
+            counts += done
+            wrong += [f"{kind}, {original.stem}, {fault}" for fault in faults]
+    return counts, wrong
+
+
+def test_some_spoilt_files(tmp_path: Path) -> None:
+    """One of each kind of damage, given to commands that draw nothing."""
+    originals = write_decks(tmp_path, ("bar_between_walls",)).values()
+    with Commands(IMPORTED, LIMITS) as running:
+        counts, wrong = spoilt(running, tmp_path, originals, len(DAMAGES), 0, ("plot", "report"))
+    assert not wrong, "\n".join(wrong)
+    assert counts["refused"] >= len(DAMAGES) - 1
 
 
 @pytest.mark.trust
-def test_a_thousand_files(tmp_path: Path) -> None:
-    with worker(tmp_path, "--drawing") as runner:
-        check = Check(tmp_path, runner)
-        spoil_by_damage(check, DAMAGED)
-        spoil_by_form(check, MALFORMED_FILES)
-        spoil_by_figures(check, FORGED)
-    check.done()
-    counts = check.found.counts
+def test_a_thousand_spoilt_files(tmp_path: Path) -> None:
+    originals = write_decks(tmp_path, SMALL).values()
+    with Commands((*IMPORTED, *DRAWING), LIMITS) as running:
+        counts, wrong = spoilt(running, tmp_path, originals, DAMAGED_FILES, MALFORMED_FILES)
+    assert not wrong, "\n".join([f"{len(wrong)} faults", *wrong[:60]])
     record_counts(
         "corrupted-results",
         60,
-        "A result file that was damaged after the run is refused or read as it was written, and `mbla verify` agrees "
-        "with none whose figures were changed, unless the change leaves every claim as it was",
+        "A result file that was damaged or malformed after the run brings no command down: all refuse it, or `mbla "
+        "verify` disagrees with it, or the change leaves every claim as it was",
         {
             "spoilt files": counts["files"],
             "commands run on them": counts["commands"],
             "files refused by every command": counts["refused"],
-            "files that verify disagrees with": counts["disagreed"],
+            "files that verify refuses or disagrees with": counts["disagreed"],
             "files whose claims the change left as they were": counts["without effect"],
-            "crashes, or other claims that verify agreed with": len(check.found.wrong),
+            "crashes, or other claims that verify agreed with": len(wrong),
+        },
+    )
+
+
+# --- forged: verify agrees with no claim that was changed ----------------------------------------------------------
+
+
+def judged(path: Path, original: Path) -> tuple[str, list[str]]:
+    """What became of a forged file, and claims with which verify agrees although they were changed."""
+    try:
+        _, disagreements = verify_file(path)
+    except FileError:
+        return "refused", []
+    if disagreements:
+        return "disagreed", []
+    forged = content_of(path)
+    changed = claims_changed(content_of(original), forged)
+    return ("proved" if changed else "told"), [claim for claim in changed if not is_proof(claim, forged)]
+
+
+def forgeries(folder: Path, originals: Mapping[str, Path], number: int, seed: int) -> tuple[Counter[str], list[str]]:
+    """Forgeries of files in turn: what became of them, and what is wrong."""
+    generator = random.Random(seed)
+    counts: Counter[str] = Counter()
+    wrong = []
+    path = folder / "forged.h5"
+    for row, (name, original) in zip(range(number), itertools.cycle(originals.items()), strict=False):
+        said = forge(original, path, generator)
+        became, changed = judged(path, original)
+        counts[became] += 1
+        wrong += [f"{row}, {name}, {said}: verify agrees with {place}" for place in changed[:1]]
+    return counts, wrong
+
+
+def test_some_forgeries(tmp_path: Path) -> None:
+    originals = write_decks(tmp_path, ("bar_between_walls",))
+    assert verify_file(originals["bar_between_walls"])[1] == ()
+    counts, wrong = forgeries(tmp_path, originals, 8, seed=1)
+    assert not wrong, "\n".join(wrong)
+    assert counts["disagreed"] + counts["refused"] >= 4
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "claim"),
+    [
+        (("cases/a@1/load_factor", ""), 0.5 * (1 + 1e-5), "cases/a@1/load_factor"),
+        (("cases/a@1/load_factor", ""), 0.5 * (1 + 1e-7), None),
+        (("cases/a@1/load_factor", "units"), b"m", "cases/a@1/load_factor@units"),
+        (("cases/a@1/reason", ""), b"none", None),
+        (("cases/a@1/reason", "units"), b"m", "cases/a@1/reason@units"),
+        (("cases/a@1/standing/verdict", ""), b"yes", "cases/a@1/standing/verdict"),
+        (("cases/a@1/standing/verdict", ""), b"doubtful", None),
+        (("model/title", ""), b"forged", "model/title"),
+        (("", "created"), b"2020", None),
+        (("", "deck_sha256"), b"00", "@deck_sha256"),
+    ],
+)
+def test_what_is_a_changed_claim(key: tuple[str, str], value: Any, claim: str | None) -> None:
+    of_case = {("cases/a@1/load_factor", ""): 0.5, ("cases/a@1/reason", ""): b"", ("cases/a@1/reason", "units"): b"1"}
+    of_case["cases/a@1/standing/verdict", ""] = b"only by self-stress"
+    content = {**of_case, ("model/title", ""): b"x", ("", "created"): b"2026", ("", "deck_sha256"): b"ab"}
+    assert claims_changed(content, content) == []
+    assert claims_changed(content, content | {key: value}) == ([] if claim is None else [claim])
+
+
+@pytest.mark.parametrize("rule", [b"associative", b"non_associative"])
+@pytest.mark.parametrize("left", [(), ("modes",)])
+def test_an_associative_answer_is_left_out_whole_where_the_case_is_its_own(rule: bytes, left: tuple[str, ...]) -> None:
+    forged = {("cases/a@1/flow_rule", ""): rule, **{(f"cases/a@1/associative/{name}", ""): 0 for name in left}}
+    assert is_proof("cases/a@1/associative/load_factor", forged) == (rule == b"associative" and not left)
+    assert is_proof("cases/a@1/lock", forged)
+    assert not is_proof("cases/a@1/load_factor", forged)
+    assert not is_proof("model/title", forged)
+
+
+@pytest.mark.trust
+def test_three_hundred_forgeries(tmp_path: Path) -> None:
+    counts, wrong = forgeries(tmp_path, write_decks(tmp_path, tuple(FORGED)), FORGERIES, seed=2)
+    assert not wrong, "\n".join([f"{len(wrong)} faults", *wrong])
+    record_counts(
+        "forged-results",
+        61,
+        "`mbla verify` agrees with no result file in which any dataset or attribute was changed, removed or swapped "
+        "between load cases, unless it is marked as not verified",
+        {
+            "forgeries": FORGERIES,
+            "files that verify disagrees with": counts["disagreed"],
+            "files refused": counts["refused"],
+            "files forged only in what is marked as not verified, or by less than rounding": counts["told"],
+            "files whose forged proof still proves the claim": counts["proved"] - len(wrong),
+            "changed claims that verify agreed with": len(wrong),
         },
     )

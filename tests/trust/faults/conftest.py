@@ -1,19 +1,27 @@
-"""The process that runs the commands."""
+"""The process that runs the commands, and the deck over whose earlier result they run."""
 
 from __future__ import annotations
 
+import ctypes
+import sys
 from collections.abc import Iterator
 
 import pytest
 
-from tests.trust.faults.commands import Commands
-from tests.trust.faults.mounts import keep_mounts_to_ourselves
+from tests.trust.faults.scene import IMPORTED, Scene
+from tests.trust.processes import Commands
+
+CLONE_NEWNS, MS_REC, MS_PRIVATE = 0x20000, 1 << 14, 1 << 18
 
 
 @pytest.fixture(scope="session")
-def commands(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Commands]:
-    keep_mounts_to_ourselves()
-    with Commands(tmp_path_factory.mktemp("faults")) as running:
+def commands() -> Iterator[Commands]:
+    """Mounts that are made from here on are those of these processes alone, where the system lets them be."""
+    if sys.platform == "linux":
+        library = ctypes.CDLL(None, use_errno=True)
+        if library.unshare(CLONE_NEWNS) == 0 and library.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None):
+            raise OSError(ctypes.get_errno(), "mounts cannot be made private")
+    with Commands(IMPORTED, shim=True) as running:
         yield running
 
 
@@ -23,3 +31,8 @@ def faulty(commands: Commands) -> Commands:
     if commands.shim is None:
         pytest.skip("no C compiler: calls cannot be made to fail where libraries written in C make them")
     return commands
+
+
+@pytest.fixture(scope="session")
+def scene(commands: Commands, tmp_path_factory: pytest.TempPathFactory) -> Scene:
+    return Scene(commands, tmp_path_factory.mktemp("scene"))

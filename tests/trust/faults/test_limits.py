@@ -1,129 +1,134 @@
-"""Disks that are full and memory that does not suffice, at many sizes: exit status 6 or 7, one line, files whole."""
+"""Disks, files and memory that are too small, and folders that are none: exit status 6 or 7, one line, files whole."""
 
 from __future__ import annotations
 
-import resource
+import contextlib
+import ctypes
+import os
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from mbla.results.disk import PREFIX
 from tests.trust.counts import record_counts
-from tests.trust.faults.commands import (
-    Commands,
-    Ended,
-    content,
-    hidden,
-    is_one_plain_line,
-    restored,
-    without_partial,
-    written,
-)
-from tests.trust.faults.mounts import small_disk
+from tests.trust.faults.scene import Scene, content, is_one_plain_line, restored, without_partial
+from tests.trust.processes import Ended
 
 CLAIM = (
     "`mbla run` where the disk, a file or memory is too small: exit status 6 or 7, one line, no crash, and the earlier "
     "result byte for byte"
 )
 DISKS, FILES, MEMORIES = 50, 50, 20
-MEGABYTE = 1 << 20
-PAGE = 4096
+MEGABYTE, PAGE = 1 << 20, 4096
 WORDS = 400
 """bytes that the error itself takes, which goes to a file as well"""
+MS_RDONLY, MS_REMOUNT = 1, 32
 
 
-class Limited:
-    """A deck, and its earlier result."""
-
-    def __init__(self, commands: Commands, folder: Path) -> None:
-        self.commands = commands
-        self.deck = written(folder / "block.yaml")
-        self.out = folder / "block.out"
-        assert commands.run("run", self.deck, "--set", "parameters.mu=0.3", "-q").status == 0
-        self.earlier = content(self.out)
-
-    def ended_well(self, ended: Ended, out: Path, told: object) -> bool:
-        """Whether the limit was met; all as it was then."""
-        assert ended.status in (0, 6, 7), (told, ended)
-        if ended.status == 0:
-            return False
-        assert is_one_plain_line(ended.said), (told, ended)
-        assert without_partial(content(out)) == self.earlier, (told, ended.said, sorted(content(out)))
-        assert hidden(out) == []
-        return True
-
-    def with_files_up_to(self, size: int) -> bool:
-        """No file may be larger [bytes]; whether one would have been."""
-        restored(self.out, self.earlier)
-        ended = self.commands.run("run", self.deck, "-q", "--force", limits={"RLIMIT_FSIZE": size})
-        met = self.ended_well(ended, self.out, size)
-        assert not met or ended.status == 6, ended
-        return met
-
-    def with_memory(self, size: int) -> bool:
-        """No more address space than that [bytes] above what the process has at its beginning."""
-        restored(self.out, self.earlier)
-        ended = self.commands.run("run", self.deck, "-q", "--force", limits={"RLIMIT_AS": size})
-        met = self.ended_well(ended, self.out, size)
-        assert not met or ended.status == 7, ended
-        return met
-
-    def memory(self) -> int:
-        """What suffices, to a megabyte, above what the process has at its beginning [bytes]."""
-        low, high = 0, 1024
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if self.with_memory(middle * MEGABYTE) else (low, middle)
-        return high * MEGABYTE
-
-    def on_a_disk_of(self, room: int, folder: Path) -> bool:
-        """A file system with so much room beside the earlier result [bytes]; whether it was too small."""
-        used = sum(-(-len(data) // PAGE) * PAGE for data in self.earlier.values())
-        with small_disk(folder, used + room):
-            out = folder / "block.out"
-            restored(out, self.earlier)
-            ended = self.commands.run("run", self.deck, "-q", "--force", "-o", out)
-            met = self.ended_well(ended, out, room)
-            assert not met or ended.status == 6, ended
-            return met
+@contextlib.contextmanager
+def small_disk(folder: Path, size: int) -> Iterator[None]:
+    """A file system in memory of that size [bytes]; the test is skipped where none may be mounted."""
+    library = ctypes.CDLL(None, use_errno=True)
+    folder.mkdir(exist_ok=True)
+    options = f"size={size}".encode()
+    if sys.platform != "linux" or library.mount(b"tmpfs", os.fsencode(folder), b"tmpfs", 0, options):
+        pytest.skip(f"no small file system can be mounted: {os.strerror(ctypes.get_errno())}")
+    try:
+        yield
+    finally:
+        library.umount2(os.fsencode(folder), 0)
 
 
-@pytest.fixture(scope="module")
-def limited(commands: Commands, tmp_path_factory: pytest.TempPathFactory) -> Limited:
-    return Limited(commands, tmp_path_factory.mktemp("limited"))
+def met(scene: Scene, ended: Ended, out: Path, status: int) -> bool:
+    """Whether the limit was met: the run ended with that status, and all is as it was."""
+    if ended.status == 0:
+        return False
+    assert ended.status == status, ended
+    assert is_one_plain_line(ended.err), ended
+    assert without_partial(content(out)) == scene.earlier, (ended, sorted(content(out)))
+    assert not [name for name in content(out) if name.startswith((PREFIX, "."))]
+    return True
 
 
-def test_files_too_large(limited: Limited) -> None:
-    assert limited.with_files_up_to(WORDS)
-    assert limited.with_files_up_to(max(map(len, limited.earlier.values())) - 2000)
+def with_limit(scene: Scene, name: str, size: int) -> bool:
+    """No file may be larger, or no more memory taken above that at the beginning [bytes]; whether it was too little."""
+    ended = scene.over_the_earlier(limits={name: size})
+    return met(scene, ended, scene.out, 6 if name == "RLIMIT_FSIZE" else 7)
 
 
-def test_memory_that_does_not_suffice(limited: Limited) -> None:
-    assert limited.with_memory(MEGABYTE)
+def on_a_disk_of(scene: Scene, room: int, folder: Path) -> bool:
+    """A file system with so much room beside the earlier result [bytes]; whether it was too small."""
+    used = sum(-(-len(data) // PAGE) * PAGE for data in scene.earlier.values())
+    with small_disk(folder, used + room):
+        out = folder / "block.out"
+        restored(out, scene.earlier)
+        return met(scene, scene.run("--force", "-o", out), out, 6)
 
 
-def test_a_full_disk(limited: Limited, tmp_path: Path) -> None:
-    assert limited.on_a_disk_of(PAGE * 4, tmp_path / "disk")
+def memory_that_suffices(scene: Scene) -> int:
+    """To a megabyte, above what the process has at its beginning [bytes]."""
+    low, high = 0, 1024
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if with_limit(scene, "RLIMIT_AS", middle * MEGABYTE) else (low, middle)
+    return high * MEGABYTE
+
+
+def test_too_little_of_each(scene: Scene, tmp_path: Path) -> None:
+    assert with_limit(scene, "RLIMIT_FSIZE", max(map(len, scene.earlier.values())) - 2000)
+    assert with_limit(scene, "RLIMIT_AS", MEGABYTE)
+    assert on_a_disk_of(scene, PAGE * 4, tmp_path / "disk")
 
 
 @pytest.mark.trust
-def test_disks_files_and_memories_of_many_sizes(limited: Limited, tmp_path: Path) -> None:
-    largest = max(map(len, limited.earlier.values()))
-    step = (largest - WORDS) // (FILES + 2)
-    files = sum(limited.with_files_up_to(WORDS + step * part) for part in range(FILES))
+def test_disks_files_and_memories_of_many_sizes(scene: Scene, tmp_path: Path) -> None:
+    step = (max(map(len, scene.earlier.values())) - WORDS) // (FILES + 2)
+    files = sum(with_limit(scene, "RLIMIT_FSIZE", WORDS + step * part) for part in range(FILES))
     assert files == FILES
-    room = sum(-(-len(data) // PAGE) * PAGE for data in limited.earlier.values())
+    room = sum(-(-len(data) // PAGE) * PAGE for data in scene.earlier.values())
     sizes = range(0, room, max(PAGE, room // (DISKS + 2)))
-    disks = sum(limited.on_a_disk_of(size, tmp_path / "disk") for size in sizes)
-    step = (limited.memory() - MEGABYTE) // MEMORIES
-    memories = sum(limited.with_memory(step * part) for part in range(MEMORIES))
+    disks = sum(on_a_disk_of(scene, size, tmp_path / "disk") for size in sizes)
+    step = (memory_that_suffices(scene) - MEGABYTE) // MEMORIES
+    memories = sum(with_limit(scene, "RLIMIT_AS", step * part) for part in range(MEMORIES))
     assert memories == MEMORIES
-    record_counts(
-        "faults-limits",
-        53,
-        CLAIM,
-        {"sizes of files": files, "sizes of disks": disks, "memory limits": memories},
-    )
+    counts = {"sizes of files": files, "sizes of disks": disks, "memory limits": memories}
+    record_counts("faults-limits", 53, CLAIM, counts)
 
 
-def test_limits_are_of_this_system() -> None:
-    assert resource.getrlimit(resource.RLIMIT_FSIZE)[1] == resource.RLIM_INFINITY
+def refused(scene: Scene, out: Path, *options: str) -> str:
+    """What a run says that cannot write into a folder."""
+    ended = scene.run("-o", out, *options)
+    assert ended.status == 6, ended
+    assert is_one_plain_line(ended.err)
+    return ended.err
+
+
+def test_a_read_only_folder(scene: Scene, tmp_path: Path) -> None:
+    """Of a file system that is mounted so: the administrator may write to every other one."""
+    disk = tmp_path / "disk"
+    with small_disk(disk, MEGABYTE):
+        restored(disk / "block.out", {"block.h5": b"earlier"})
+        library = ctypes.CDLL(None, use_errno=True)
+        assert library.mount(b"none", os.fsencode(disk), b"tmpfs", MS_RDONLY | MS_REMOUNT, None) == 0
+        for out, options in ((disk / "block.out", ["--force"]), (disk / "more" / "block.out", [])):
+            assert refused(scene, out, *options) == f"mbla: {out}: Read-only file system  [file-not-written]\n"
+        assert content(disk / "block.out") == {"block.h5": b"earlier"}
+
+
+def test_folders_are_made_where_no_file_stands_in_the_way(scene: Scene, tmp_path: Path) -> None:
+    assert scene.run("-o", tmp_path / "a" / "b").status == 0
+    assert "block.h5" in content(tmp_path / "a" / "b")
+    (tmp_path / "mine").write_text("mine")
+    for out in (tmp_path / "mine", tmp_path / "mine" / "more" / "more"):
+        assert str(out) in refused(scene, out)
+    assert (tmp_path / "mine").read_text() == "mine"
+
+
+@pytest.mark.parametrize("suffix", ["h5", "json"])
+def test_a_folder_where_a_file_should_be(scene: Scene, tmp_path: Path, suffix: str) -> None:
+    folder = tmp_path / "out" / f"block.{suffix}"
+    folder.mkdir(parents=True)
+    assert refused(scene, folder.parent, "--force") == f"mbla: {folder}: is a folder  [folder-given]\n"
+    assert list(folder.parent.iterdir()) == [folder]

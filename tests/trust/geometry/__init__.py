@@ -6,5 +6,4 @@
 ``texts``     what is done to a file once it is written: cut off, counts that lie, words where numbers belong
 ``mutants``   all of them, from a seed
 ``judging``   what a run of the command line makes of one, and whether that is right
-``huge``      a million triangles, in a process of its own
 """

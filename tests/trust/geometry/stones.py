@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from mbla.arrays import FloatArray
 from mbla.model.solids.polyhedra import HEXAHEDRON
-from tests.decks.arch_files import voussoirs
 
 Face = tuple[int, ...]
 
@@ -35,8 +36,18 @@ class Stone:
         return replace(self, corners=corners)
 
 
+def voussoirs() -> FloatArray:
+    """Those of decks/benchmarks/formats: corners in the order of ``HEXAHEDRON``, 4 to 7 at y = 0; (9, 8, 3) m."""
+    angles = np.pi * np.arange(10) / 9
+    rays = np.stack([-np.cos(angles), 0 * angles, np.sin(angles)], axis=1)
+    rays[-1, 2] = 0.0
+    inner, outer = (rays * radius + [2.0, 0, 0] for radius in (2.0, 2.6))
+    front = np.stack([inner[:-1], inner[1:], outer[1:], outer[:-1]], axis=1)
+    return np.asarray(np.concatenate([front + np.array([0, 1.0, 0]), front], axis=1))
+
+
 def arch() -> list[Stone]:
-    """The arch of ``tests/decks/arch_files.py``: nine voussoirs, corners 4 to 7 on the plane y = 0."""
+    """Nine voussoirs."""
     faces = tuple(tuple(face) for face in HEXAHEDRON)
     return [Stone(f"voussoir {number}", corners.copy(), faces) for number, corners in enumerate(voussoirs())]
 

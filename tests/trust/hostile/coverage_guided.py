@@ -6,10 +6,8 @@
 
 It begins with the decks of the program and with those that it refuses; the first byte of an input says of which kind
 the file is, the rest is its content. What reached new lines is kept in ``FOLDER/corpus``, where the next call goes on.
-A file that is answered by anything but a clear refusal or a model goes to ``FOLDER/finds``, and its story to
-``FOLDER/result.json``, which says how many files were given: a call that finds one there gives those that are left,
-with another seed. What kills the process itself, or takes more memory than
-libFuzzer allows, is left in the current folder as ``crash-...``, ``oom-...`` or ``timeout-...``.
+The first file that is answered by anything but a clear refusal or a model ends it with an exit status other than 0, and
+is left in ``FOLDER`` as ``crash-...``, ``oom-...`` or ``timeout-...``.
 """
 
 from __future__ import annotations
@@ -25,7 +23,6 @@ import atheris
 with atheris.instrument_imports(include=["mbla"]):
     from tests.trust.hostile import subject
 
-from tests.trust.hostile.finds import Finds
 from tests.trust.hostile.mutations import changed
 from tests.trust.hostile.samples import seeds
 
@@ -58,28 +55,21 @@ def mutate(data: bytes, most: int, seed: int) -> bytes:
 def main() -> None:
     """Fuzz; libFuzzer ends the process."""
     place = Path(sys.argv[1])
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else RUNS
-    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 1
+    runs, seed = [*map(int, sys.argv[2:]), *(RUNS, 1)[len(sys.argv) - 2 :]]
     corpus = place / "corpus"
     corpus.mkdir(parents=True, exist_ok=True)
     for kind, content in seeds():
         data = packed(kind, content)
         (corpus / hashlib.sha256(data).hexdigest()[:20]).write_bytes(data)
-    record = place / "result.json"
-    finds = Finds.resumed(record, place / "finds")
-    if finds.runs >= runs:
-        return
     with TemporaryDirectory() as folder:
         subject.prepare_folder(Path(folder))
-
-        def one(data: bytes) -> None:
-            finds.give(*unpacked(data), Path(folder))
-            if finds.runs % 100 == 0:  # libFuzzer ends the process without a word to Python
-                finds.write(record)
-
-        left = [f"-runs={runs - finds.runs}", f"-seed={seed + finds.runs}"]
-        options = [*left, "-timeout=60", f"-rss_limit_mb={MOST_MEGABYTES}", "-max_len=6000"]
-        atheris.Setup([sys.argv[0], *options, str(corpus)], one, custom_mutator=mutate)
+        options = [f"-runs={runs}", f"-seed={seed}", "-timeout=60", f"-rss_limit_mb={MOST_MEGABYTES}", "-max_len=6000"]
+        options.append(f"-artifact_prefix={place}/")
+        atheris.Setup(
+            [sys.argv[0], *options, str(corpus)],
+            lambda data: subject.give(*unpacked(data), Path(folder)),
+            custom_mutator=mutate,
+        )
         atheris.Fuzz()
 
 

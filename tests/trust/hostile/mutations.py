@@ -15,76 +15,25 @@ T = TypeVar("T")
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
-VALUES: Sequence[Any] = (
-    None,
-    True,
-    0,
-    1,
-    -1,
-    2,
-    0.5,
-    90,
-    180,
-    1e-300,
-    1e-9,
-    1e9,
-    1e300,
-    -1e300,
-    2**31,
-    2**53 + 1,
-    10**30,
-    10**400,
-    "",
-    " ",
-    "stone",
-    "dry",
-    "ground",
-    "=1/0",
-    "=9**9**9",
-    "=n*1e9",
-    "=mu",
-    "=-1",
-    "10 kN",
-    "1e9 km",
-    "1 m^9",
-    "stone.obj",
-    "../stone.obj",
-    "/dev/zero",
-    "\u202e\u0000",
-    "x" * 5000,
-    [],
-    {},
-    [0, 0, 0],
-    [1, 0, 0],
-    [0, 0, 1e-12],
-    [1e200, -1e200, 1e200],
-    [[0, 0, 0], [1, 1, 1]],
-    {"group": "wall", "index": -1},
-    {"ground": {"z": 0}},
-    {"count": 100000, "translate": [0, 0, 0]},
-    {"translate": [0, 0, 1e-9]},
-    {"scale": 1e-9},
-    {"rotate": {"axis": [0, 0, 1], "angle": 45}},
-)
+VALUES: Sequence[Any] = [
+    *yaml.safe_load(
+        """
+        [null, true, 0, 1, -1, 2, 0.5, 90, 180, 1.0e-300, 1.0e-9, 1.0e+9, 1.0e+300, -1.0e+300, 2147483648,
+         9007199254740993, "", " ", stone, dry, ground, "=1/0", "=9**9**9", "=n*1e9", "=mu", "=-1", 10 kN, 1e9 km,
+         1 m^9, stone.obj, ../stone.obj, /dev/zero, [], {}, [0, 0, 0], [1, 0, 0], [0, 0, 1.0e-12],
+         [1.0e+200, -1.0e+200, 1.0e+200], [[0, 0, 0], [1, 1, 1]], {group: wall, index: -1}, {ground: {z: 0}},
+         {count: 100000, translate: [0, 0, 0]}, {translate: [0, 0, 1.0e-9]}, {scale: 1.0e-9},
+         {rotate: {axis: [0, 0, 1], angle: 45}}]
+        """
+    ),
+    *(10**30, 10**400, "\u202e\u0000", "x" * 5000),
+]
 """what is put in the place of something else"""
 WORDS = (b"0", b"-1", b"1", b"2", b"nan", b"inf", b"1e308", b"1e-308", b"99999999999", b"4294967295", b"x", b"", b"1 1")
-BYTES: tuple[bytes, ...] = (
-    b"\0",
-    b"\xff",
-    b"\xef\xbb\xbf",
-    b"\r",
-    b"\n",
-    b"\t",
-    b"\x1b",
-    b"{",
-    b"}",
-    b"[",
-    b"]",
-    b"&a ",
-    b"*a",
-    b"!!x ",
-)
-BYTES += (b"<<: ", b": ", b"- ", b"#", b'"', b"'", b"|\n", b"? ", b"%YAML 1.1\n", b"---\n", b"...\n", b"\xe2\x80\xa8")
+BYTES = [bytes([value]) for value in (0, 9, 10, 13, 27, 255)]
+BYTES += [b"\xef\xbb\xbf", b"\xe2\x80\xa8", b"{", b"}", b"[", b"]", b"#", b'"', b"'", b"&a ", b"*a", b"!!x ", b"<<: "]
+BYTES += [b": ", b"- ", b"? ", b"|\n", b"---\n", b"...\n", b"%YAML 1.1\n"]
+"""what is inserted"""
 
 
 class Choice(Protocol):

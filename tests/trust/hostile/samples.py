@@ -6,7 +6,7 @@ import base64
 import io
 import json
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -15,6 +15,8 @@ import meshio
 import numpy as np
 
 from tests.line import BLOCK, WALL
+from tests.trust.geometry.formats import Files, compas, inp_surface, obj, ply_text, stl_binary, stl_text
+from tests.trust.geometry.stones import Stone
 
 ROOT = Path(__file__).parents[3]
 
@@ -50,41 +52,12 @@ results: [status, load_factor]
 """
 
 
-def _obj() -> bytes:
-    lines = ["o stone", *(f"v {x} {y} {z}" for x, y, z in POINTS)]
-    lines += [f"f {' '.join(str(corner + 1) for corner in face)}" for face in QUADS]
-    return ("\n".join(lines) + "\n").encode()
-
-
-def _stl() -> bytes:
-    facets = "".join(
-        "facet normal 0 0 0\nouter loop\n"
-        + "".join("vertex {} {} {}\n".format(*POINTS[corner]) for corner in triangle)
-        + "endloop\nendfacet\n"
-        for triangle in TRIANGLES
-    )
-    return f"solid stone\n{facets}endsolid stone\n".encode()
-
-
-def binary_stl() -> bytes:
-    """The cube as binary STL."""
-    records = [struct.pack("<12fH", 0, 0, 0, *np.ravel([POINTS[c] for c in t]), 0) for t in TRIANGLES]
-    return b"\0" * 80 + struct.pack("<I", len(records)) + b"".join(records)
-
-
 def written_by_meshio(extension: str, cells: Sequence[tuple[str, list[list[int]]]], **options: object) -> bytes:
     """A file of the cube as meshio writes it."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"cube.{extension}"
         meshio.write(path, meshio.Mesh(np.array(POINTS), list(cells)), **options)
         return path.read_bytes()
-
-
-def _inp() -> bytes:
-    nodes = "\n".join(f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(POINTS, start=1))
-    corners = ", ".join(str(corner + 1) for corner in HEXAHEDRON)
-    text = f"*NODE\n{nodes}\n*ELEMENT, TYPE=C3D8, ELSET=stones\n1, {corners}\n*ELSET, ELSET=all, GENERATE\n1, 1, 1\n"
-    return text.encode()
 
 
 def gltf_document() -> dict[str, object]:
@@ -119,12 +92,6 @@ def _glb() -> bytes:
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
-def _compas() -> bytes:
-    vertex = {str(n): {"x": x, "y": y, "z": z} for n, (x, y, z) in enumerate(POINTS)}
-    mesh = {"vertex": vertex, "face": {str(n): face for n, face in enumerate(QUADS)}}
-    return json.dumps([{"dtype": "compas.datastructures/Mesh", "data": mesh, "name": "stone"}]).encode()
-
-
 def _dxf() -> bytes:
     drawing = ezdxf.new()  # type: ignore[attr-defined]
     stone = drawing.blocks.new("stone")
@@ -137,23 +104,28 @@ def _dxf() -> bytes:
     return text.getvalue().encode()
 
 
+def _of_cube(write: Callable[[list[Stone]], Files]) -> bytes:
+    (content,) = write([Stone("stone", np.array(POINTS), tuple(map(tuple, QUADS)))]).values()
+    return content
+
+
 HEXAHEDRA = [("hexahedron", [HEXAHEDRON])]
 FACES = [("triangle", TRIANGLES)]
 MESHES: dict[str, bytes] = {
-    "obj": _obj(),
-    "ply": written_by_meshio("ply", FACES, binary=False),
-    "stl": _stl(),
+    "obj": _of_cube(obj),
+    "ply": _of_cube(ply_text),
+    "stl": _of_cube(stl_text),
     "vtu": written_by_meshio("vtu", HEXAHEDRA, binary=False),
     "msh": written_by_meshio("msh", HEXAHEDRA, file_format="gmsh", binary=False),
-    "inp": _inp(),
+    "inp": _of_cube(inp_surface),
     "gltf": json.dumps(gltf_document()).encode(),
     "glb": _glb(),
-    "json": _compas(),
+    "json": _of_cube(compas),
     "dxf": _dxf(),
 }
 """A valid file of every format that decks can name, by extension."""
 BINARY_MESHES: list[tuple[str, bytes]] = [
-    ("stl", binary_stl()),
+    ("stl", _of_cube(stl_binary)),
     ("ply", written_by_meshio("ply", FACES, binary=True)),
     ("vtu", written_by_meshio("vtu", HEXAHEDRA, binary=True)),
     ("msh", written_by_meshio("msh", HEXAHEDRA, file_format="gmsh", binary=True)),

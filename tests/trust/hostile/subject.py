@@ -12,10 +12,13 @@ from typing import Any
 
 from mbla.cli.check import check
 from mbla.deck import read_deck
+from mbla.deck.content import DeckContent
+from mbla.deck.section import built
 from mbla.errors import DeckError
 from mbla.model.generators import amounts
 from mbla.process.run_options import RunOptions
 from mbla.sweeps.command import SweepOptions, prepare
+from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.file.read import read_sweep
 from tests.line import WALL
 from tests.trust.hostile.samples import MESHES, NAMED_DECK
@@ -34,6 +37,12 @@ class Hang(BaseException):
 
 class Broken(AssertionError):
     """The program answered, but not as it promises."""
+
+
+def build_types() -> None:
+    """What reading a first deck and a first sweep file builds, once for all that are read."""
+    built(DeckContent)
+    built(SweepContent)
 
 
 def prepare_folder(folder: Path) -> None:

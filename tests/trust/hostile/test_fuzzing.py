@@ -1,36 +1,72 @@
-"""Files changed at random are refused in clear words, or are models; nothing else happens."""
+"""Files changed at random are refused in clear words, or are models; nothing else happens.
+
+What was found to break the program once is kept in ``corpus/``, a file each, named by what was wrong with the answer;
+it ends in its kind: ``.deck``, ``.sweep``, ``.obj``, ...
+"""
 
 from __future__ import annotations
 
-import json
-import os
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
+from tests.decks.folder import ROOT
 from tests.trust.counts import record_counts
 from tests.trust.hostile import subject
-from tests.trust.hostile.at_random import at_random, by_hypothesis, files, give_in_batches
-from tests.trust.hostile.finds import Finds
+from tests.trust.hostile.mutations import changed
+from tests.trust.hostile.samples import seeds, small_files
 
-AT_RANDOM = int(os.environ.get("MBLA_FUZZING_AT_RANDOM", "100000"))
-BY_HYPOTHESIS = int(os.environ.get("MBLA_FUZZING_BY_HYPOTHESIS", "5000"))
-GUIDED = int(os.environ.get("MBLA_FUZZING_GUIDED", "100000"))
+FILES, GUIDED = 100_000, 100_000
 """files that the full check gives"""
-FOLDER = os.environ.get("MBLA_FUZZING_FOLDER")
-"""where a run that was interrupted left its records, and where this one leaves its own"""
+CORPUS = sorted((Path(__file__).parent / "corpus").iterdir())
+SEEDS = seeds()
+DECKS = [seed for seed in SEEDS if seed[0] == "deck"]
+REFUSED = set(small_files(ROOT / "tests" / "invalid_decks"))
+VALID = [seed for seed in DECKS if seed[1] not in REFUSED]
+SWEEPS = [seed for seed in SEEDS if seed[0] == "sweep"]
+GEOMETRY = [seed for seed in SEEDS if seed[0] not in ("deck", "sweep")]
+FAMILIES = (VALID, DECKS, SWEEPS, GEOMETRY)
+"""what a file is made of: half of them are decks, and half of these are valid before they are changed"""
 
 
-@settings(max_examples=40, suppress_health_check=list(HealthCheck), derandomize=True)
-@given(file=files())
-def test_a_changed_file_is_refused_in_clear_words_or_is_a_model(tmp_path_factory: Any, file: tuple[str, bytes]) -> None:
-    folder = tmp_path_factory.mktemp("given")
+@st.composite
+def files(draw: st.DrawFn) -> tuple[str, bytes]:
+    """Kind and content of a file changed up to five times."""
+    kind, content = draw(st.sampled_from(draw(st.sampled_from(FAMILIES))))
+    for _ in range(draw(st.integers(1, 5))):
+        content = changed(kind, content, lambda options: draw(st.sampled_from(options)))
+    return kind, content
+
+
+def check_files(folder: Path, number: int) -> Counter[str]:
+    """How so many changed files ended; what breaks the program is shrunk and told."""
     subject.prepare_folder(folder)
-    assert subject.give(*file, folder) in ("DeckError", "accepted")
+    ended: Counter[str] = Counter()
+
+    @settings(
+        max_examples=number, deadline=None, database=None, derandomize=True, suppress_health_check=list(HealthCheck)
+    )
+    @given(file=files())
+    def is_answered(file: tuple[str, bytes]) -> None:
+        ended[subject.give(*file, folder)] += 1
+
+    is_answered()
+    return ended
+
+
+@pytest.mark.parametrize("path", CORPUS, ids=lambda path: path.name)
+def test_a_file_that_broke_the_program_once(path: Path, tmp_path: Path) -> None:
+    subject.prepare_folder(tmp_path)
+    assert subject.give(path.suffix[1:], path.read_bytes(), tmp_path) in ("DeckError", "accepted")
+
+
+def test_some_changed_files(tmp_path: Path) -> None:
+    assert set(check_files(tmp_path, 40)) == {"DeckError", "accepted"}
 
 
 def test_a_program_that_breaks_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -38,44 +74,25 @@ def test_a_program_that_breaks_is_found(tmp_path: Path, monkeypatch: pytest.Monk
         raise KeyError("stone")
 
     monkeypatch.setattr(subject, "read_deck", broken)
-    finds = give_in_batches(at_random, tmp_path, 40, 1)
-    assert next(iter(finds.found.values())).startswith("KeyError")
-    assert list((tmp_path / "finds").iterdir())
-
-
-def test_a_run_goes_on_where_its_record_ends(tmp_path: Path) -> None:
-    once = give_in_batches(at_random, tmp_path / "once", 20, 1)
-    give_in_batches(at_random, tmp_path / "twice", 10, 1)
-    again = give_in_batches(at_random, tmp_path / "twice", 20, 1)
-    assert (again.runs, again.ended) == (once.runs, once.ended) == (20, once.ended)
+    with pytest.raises(KeyError, match="stone"):
+        check_files(tmp_path, 40)
 
 
 @pytest.mark.trust
 def test_many_changed_files_and_a_fuzzer_that_looks_at_coverage(tmp_path: Path) -> None:
-    if GUIDED:
-        pytest.importorskip("atheris", reason="the fuzzer that looks at coverage needs the extra fuzz")
-    place = Path(FOLDER) if FOLDER else tmp_path
-    random_finds = give_in_batches(at_random, place, AT_RANDOM, 1)
-    drawn = give_in_batches(by_hypothesis, place, BY_HYPOTHESIS, 1)
-    assert not random_finds.found | drawn.found
-    guided = _guided(place) if GUIDED else Finds(place)
-    assert not guided.found
+    pytest.importorskip("atheris", reason="the fuzzer that looks at coverage needs the extra fuzz")
+    ended = check_files(tmp_path, FILES)
+    command = [sys.executable, "-m", "tests.trust.hostile.coverage_guided", str(tmp_path / "guided"), str(GUIDED)]
+    guided = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert guided.returncode == 0, guided.stderr[-3000:]
     record_counts(
         "hostile-fuzzing",
         32,
         "Decks, sweep files and geometry files changed at random are refused in one line per fault or read as models: "
         "no crash, no internal error, none takes more than 5 seconds of processor time",
         {
-            "files changed at random": random_finds.runs,
-            "files drawn by hypothesis": drawn.runs,
-            "files of a fuzzer that looks at coverage": guided.runs,
-            "of all taken as models": sum(finds.accepted() for finds in (random_finds, drawn, guided)),
+            "files drawn by hypothesis": ended.total(),
+            "of these taken as models": ended["accepted"],
+            "files of a fuzzer that looks at coverage": GUIDED,
         },
     )
-
-
-def _guided(place: Path) -> Finds:
-    """Let the fuzzer run, on from where it was interrupted."""
-    command = [sys.executable, "-m", "tests.trust.hostile.coverage_guided", str(place), str(GUIDED)]
-    subprocess.run(command, cwd=Path(__file__).parents[3], check=True, capture_output=True)
-    return Finds(**json.loads((place / "result.json").read_text(encoding="utf-8")))

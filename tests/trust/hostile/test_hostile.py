@@ -10,7 +10,7 @@ import pytest
 from tests.trust.counts import record_counts
 from tests.trust.hostile import hostile_amounts, hostile_files, hostile_meshes, hostile_sweeps, hostile_texts
 from tests.trust.hostile.case import Case
-from tests.trust.hostile.forks import Commands, Ended, commands
+from tests.trust.processes import Commands, Ended
 
 CASES: list[Case] = [
     *hostile_texts.DECKS,
@@ -34,12 +34,18 @@ FEW = (
 )
 """those of the short form"""
 SECONDS, MEGABYTES = 1.0, 200.0
+IMPORTED = (
+    *("ezdxf.path", "meshio", "pint", "mbla.cli.check", "mbla.results.listing.listing", "mbla.results.listing.summary"),
+    *("mbla.run", "mbla.sweeps.command", "tests.trust.hostile.subject:build_types"),
+)
+LIMITS = {"RLIMIT_AS": 8 * 1024**3, "RLIMIT_CPU": 60}
+"""addresses enough for what libraries reserve without ever using it"""
 MOST_LINES = 1010
 
 
 @pytest.fixture(scope="module")
 def running() -> Iterator[Commands]:
-    with commands() as process:
+    with Commands(IMPORTED, LIMITS) as process:
         yield process
 
 
@@ -48,7 +54,7 @@ def refused(case: Case, running: Commands, folder: Path) -> Ended:
     folder.mkdir()
     case.write(folder)
     before = sorted(folder.rglob("*"))
-    ended = running.run(folder, case.arguments)
+    ended = running.run(*case.arguments, folder=folder)
     assert ended.status == case.status, ended
     assert sorted(folder.rglob("*")) == before
     assert ended.out == ""

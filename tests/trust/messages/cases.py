@@ -122,31 +122,6 @@ def deck_in_latin_1(folder: Path, patch: Patch) -> object:
     return read_deck(folder / "deck.yaml")
 
 
-@brings("folder-given")
-def folder_for_a_deck(folder: Path, patch: Patch) -> object:
-    return command("run", str(folder))
-
-
-@brings("file-missing")
-def deck_for_a_folder_that_is_not_there(folder: Path, patch: Patch) -> object:
-    return command("new", str(folder / "none" / "deck"))
-
-
-@brings("file-unreadable")
-def deck_that_is_not_there(folder: Path, patch: Patch) -> object:
-    return command("run", str(folder / "none.yaml"))
-
-
-@brings("not-a-regular-file")
-def deck_that_is_a_device(folder: Path, patch: Patch) -> object:
-    return command("check", "/dev/null")
-
-
-@brings("file-not-written")
-def starter_below_a_file(folder: Path, patch: Patch) -> object:
-    return command("new", str(folder / ("n" * 300)))
-
-
 @brings("file-system")
 def disk_that_fails(folder: Path, patch: Patch) -> object:
     def fails(*arguments: object) -> None:
@@ -187,11 +162,6 @@ def folder_that_was_removed(folder: Path, patch: Patch) -> object:
     return command("schema")
 
 
-@brings("result-exists")
-def starter_over_an_earlier_deck(folder: Path, patch: Patch) -> object:
-    return command("new", str(write(folder, BLOCK)))
-
-
 @brings("damaged-result-file")
 def result_of_zeros(folder: Path, patch: Patch) -> object:
     (folder / "a.h5").write_bytes(bytes(1000))
@@ -216,29 +186,9 @@ def result(folder: Path) -> Path:
 # --- the command line -----------------------------------------------------------------------------------------------
 
 
-@brings("command-line")
-def command_without_a_deck(folder: Path, patch: Patch) -> object:
-    return command("run")
-
-
 @brings("same-result-files")
 def two_decks_of_one_name(folder: Path, patch: Patch) -> object:
     return command("run", str(write(folder, BLOCK)), str(write(folder, BLOCK, "b/deck.yaml")), "-o", str(folder))
-
-
-@brings("explain-unknown")
-def identifier_that_nothing_has(folder: Path, patch: Patch) -> object:
-    return command("explain", "xyzzy")
-
-
-@brings("unknown-load-case")
-def load_case_that_the_deck_lacks(folder: Path, patch: Patch) -> object:
-    return command("run", str(write(folder, BLOCK)), "--case", "pull")
-
-
-@brings("no-expectations")
-def nothing_expected(folder: Path, patch: Patch) -> object:
-    return command("run", str(write(folder, BLOCK)), "--expected", "-q")
 
 
 @brings("load-case-not-chosen")
@@ -254,21 +204,6 @@ def cluster_without_dask(folder: Path, patch: Patch) -> None:
     refuse_missing()
 
 
-@brings("output-format")
-def picture_as_a_text(folder: Path, patch: Patch) -> object:
-    return command("plot", str(result(folder)), "-o", str(folder / "a.bmp"))
-
-
-@brings("picture-option")
-def picture_of_an_unknown_kind(folder: Path, patch: Patch) -> object:
-    return command("plot", str(result(folder)), "--dpi", "9")
-
-
-@brings("several-pictures-one-file")
-def pictures_in_one_file(folder: Path, patch: Patch) -> object:
-    return command("plot", str(result(folder)), "--kind", "model,forces", "-o", str(folder / "a.png"))
-
-
 @brings("no-mechanism")
 def film_of_what_stands_still(folder: Path, patch: Patch) -> None:
     patch.setattr(animation, "scene_of", lambda *arguments: SimpleNamespace(motion=np.zeros(3)))
@@ -280,19 +215,45 @@ def table_that_is_none(folder: Path, patch: Patch) -> object:
     return tables_of(tower_results(), ["walls"], None)
 
 
-@brings("interact-option")
-def angles_of_directions(folder: Path, patch: Patch) -> object:
-    return command("interact", str(write(folder, BLOCK)), "--from", "10")
-
-
 @brings("interact-load")
 def load_without_a_horizontal_part(folder: Path, patch: Patch) -> object:
     return command("interact", str(write(folder, changed("[1, 0, 0]", "[0, 0, 1]"))))
 
 
-@brings("tradeoff-option")
-def knob_without_a_value(folder: Path, patch: Patch) -> object:
-    return command("tradeoff", str(write(folder, BLOCK)), "--knob", "analysis.accuracy")
+COMMANDS = {
+    "folder_for_a_deck": ("folder-given", "run {folder}"),
+    "deck_for_a_folder_that_is_not_there": ("file-missing", "new {folder}/none/deck"),
+    "deck_that_is_not_there": ("file-unreadable", "run {folder}/none.yaml"),
+    "deck_that_is_a_device": ("not-a-regular-file", "check /dev/null"),
+    "starter_below_a_file": ("file-not-written", "new {folder}/" + "n" * 300),
+    "starter_over_an_earlier_deck": ("result-exists", "new {deck}"),
+    "command_without_a_deck": ("command-line", "run"),
+    "identifier_that_nothing_has": ("explain-unknown", "explain xyzzy"),
+    "load_case_that_the_deck_lacks": ("unknown-load-case", "run {deck} --case pull"),
+    "nothing_expected": ("no-expectations", "run {deck} --expected -q"),
+    "picture_as_a_text": ("output-format", "plot {result} -o {folder}/a.bmp"),
+    "picture_of_an_unknown_kind": ("picture-option", "plot {result} --dpi 9"),
+    "pictures_in_one_file": ("several-pictures-one-file", "plot {result} --kind model,forces -o {folder}/a.png"),
+    "angles_of_directions": ("interact-option", "interact {deck} --from 10"),
+    "knob_without_a_value": ("tradeoff-option", "tradeoff {deck} --knob analysis.accuracy"),
+    "folder_without_a_table": ("sweep-table-damaged", "sweep-plot {folder}"),
+}
+"""commands that end with an error of their own: its identifier, and their words, with a deck, a result and a folder"""
+
+
+def calling(line: str) -> Bring:
+    """A command, with the files that it names."""
+
+    def bring(folder: Path, patch: Patch) -> object:
+        made = {"folder": str(folder)}
+        made |= {"deck": str(write(folder, BLOCK))} if "{deck}" in line else {}
+        made |= {"result": str(result(folder))} if "{result}" in line else {}
+        return command(*(word.format(**made) for word in line.split()))
+
+    return bring
+
+
+CASES |= {name: Case(identifier, calling(line)) for name, (identifier, line) in COMMANDS.items()}
 
 
 # --- models ---------------------------------------------------------------------------------------------------------
@@ -410,11 +371,6 @@ def sweep_that_is_running(folder: Path, patch: Patch) -> object:
     patch.setattr(journal_lock, "PATIENCE", 0.0)
     patch.setattr(fcntl, "flock", busy)
     return journal_lock._taken(folder / "journal.csv", folder / "lock", False, None)
-
-
-@brings("sweep-table-damaged")
-def folder_without_a_table(folder: Path, patch: Patch) -> object:
-    return command("sweep-plot", str(folder))
 
 
 @brings("nothing-to-draw")

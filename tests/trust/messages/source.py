@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -15,7 +14,6 @@ from mbla import errors
 from mbla.errors import DeckError, MblaError, Refusal
 
 PACKAGE = Path(mbla.__file__).parent
-SOURCES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
 BUILDERS = {"Message", "Finding"} | {
     name
     for name, kind in inspect.getmembers(errors, inspect.isclass)
@@ -37,40 +35,43 @@ class Site:
     handed_on: bool
 
 
-def builders() -> set[str]:
+@cache
+def sites() -> tuple[Site, ...]:
+    """Every place at which a message or an error is made."""
+    classes: list[ast.ClassDef] = []
+    calls: list[tuple[Path, set[str], ast.Call]] = []
+    for path in sorted(PACKAGE.rglob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        own = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}  # of the same name, not of errors
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ClassDef):
+                classes.append(node)
+            elif isinstance(node, ast.Call) and path != PACKAGE / "errors.py":  # it has the classes themselves
+                calls.append((path, own & BUILDERS, node))
+    names = _builders(classes)
+    return tuple(_site(path, call) for path, own, call in calls if _makes(path, call, names - own))
+
+
+def _builders(classes: list[ast.ClassDef]) -> set[str]:
     """Names of all classes that take an identifier, those derived in other modules too."""
     known = set(BUILDERS)
     while True:
-        found = {
-            node.name
-            for tree in SOURCES.values()
-            for node in ast.walk(tree)
-            if isinstance(node, ast.ClassDef) and any(_name(base) in known for base in node.bases)
-        } - {"DeckError"}
+        found = {node.name for node in classes if any(_name(base) in known for base in node.bases)} - {"DeckError"}
         if found <= known:
             return known
         known |= found
 
 
-@cache
-def sites() -> tuple[Site, ...]:
-    """Every place at which a message or an error is made."""
-    return tuple(_sites())
+def _makes(path: Path, call: ast.Call, names: set[str]) -> bool:
+    of_solution = path.is_relative_to(PACKAGE / "solution") and _name(call.func) == "Message"
+    return _name(call.func) in names and not of_solution
 
 
-def _sites() -> Iterator[Site]:
-    names = builders()
-    for path, tree in SOURCES.items():
-        if path.parent == PACKAGE and path.name == "errors.py":
-            continue  # it has the classes themselves
-        own = {node.name for node in tree.body if isinstance(node, ast.ClassDef)}  # of the same name, not of errors
-        for node in ast.walk(tree):
-            of_solution = path.is_relative_to(PACKAGE / "solution") and _name(getattr(node, "func", None)) == "Message"
-            if isinstance(node, ast.Call) and _name(node.func) in names - (own & BUILDERS) and not of_solution:
-                given = node.args[0] if node.args else None
-                literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
-                handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"
-                yield Site(str(path.relative_to(PACKAGE)), node.lineno, literal, handed_on)
+def _site(path: Path, call: ast.Call) -> Site:
+    given = call.args[0] if call.args else None
+    literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
+    handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"
+    return Site(str(path.relative_to(PACKAGE)), call.lineno, literal, handed_on)
 
 
 def _name(node: Any) -> str:

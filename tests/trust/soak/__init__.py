@@ -1,1 +1,0 @@
-"""A long sweep in one process loses nothing, repeats nothing and does not grow."""
