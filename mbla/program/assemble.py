@@ -20,7 +20,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.process.sharing import shared
 from mbla.program.program import Program, Scaling
-from mbla.program.reductions.guided import guide_projector, guided_program
+from mbla.program.reductions.restrict import guide_projector, guided_program
 from mbla.program.yield_conditions.limits import YieldLimits
 
 

@@ -11,13 +11,11 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.program import Program
-from mbla.program.reductions.guided import guided_program
 from mbla.program.reductions.mirror import SYMMETRIC, Mirror, half_of, mirror_about, mirror_candidates
-from mbla.program.reductions.parts import split_into_parts
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
-from mbla.program.reductions.restrict import tidy
-from mbla.program.reductions.scene import Scene, scene_of
+from mbla.program.reductions.restrict import guided_program, tidy
+from mbla.program.reductions.scene import Scene, scene_of, split_into_parts
 from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of
 
 

@@ -1,13 +1,25 @@
-"""Restriction of a program to fewer unknowns: u = S q, x = P y, and the exact way back."""
+"""Restriction of a program to fewer unknowns: u = S q, x = P y, and the exact way back.
+
+Guided blocks in a program: motions u = S q that the guides allow, and nothing but them.
+
+The columns of S are orthonormal in the units of the program, and S q are exactly the motions that the guides allow:
+equilibrium then has to hold against these alone, SᵀA x + Sᵀ(f_D + λ f_L) = 0. Smaller unknowns of reductions, u = B q,
+are restricted in the same way: Bᵀ S Sᵀ B is the projector on those of them that the guides allow wherever the guides
+share the symmetry that B stands for.
+"""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.model import Model
 from mbla.process.sharing import shared
-from mbla.program.program import Program, Reduction
+from mbla.program.program import Program, Reduction, Scaling
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -72,3 +84,72 @@ def tidy(matrix: sp.sparray) -> sp.csr_array:
     clean.data[np.abs(clean.data) < 1e-14 * largest] = 0.0
     clean.eliminate_zeros()
     return clean
+
+
+DEPENDENT = 1e-10
+"""Singular value, over the largest, below which a way of a body to move is the sum of others."""
+
+ALLOWED = 0.5
+"""Eigenvalue of a projector: 1 for motions that are allowed, 0 for the others."""
+
+
+def guide_projector(model: Model, free: IntArray, scaling: Scaling) -> sp.csr_array | None:
+    """S Sᵀ, (6 n_free, 6 n_free), in the units of the program; None where no block is guided."""
+    guides = model.guides
+    if not len(guides):
+        return None
+    row_of_block = np.full(len(model.blocks), -1, dtype=np.int64)
+    row_of_block[free] = np.arange(len(free))
+    rows = (6 * row_of_block[guides.blocks][:, None] + np.arange(6)).ravel()
+    # velocities in the deck's units are those of the program times row
+    ways = guides.motions / scaling.row.reshape(-1, 6)[row_of_block[guides.blocks]][:, :, None] / scaling.force
+    n = 6 * len(free)
+    allowed = np.ones(n)
+    allowed[rows] = 0.0
+    order = np.argsort(guides.bodies, kind="stable")
+    members = np.split(order, np.flatnonzero(np.diff(guides.bodies[order])) + 1)
+    entries = [_projector(ways[of_body].reshape(-1, 6)) for of_body in members]
+    places = [(6 * row_of_block[guides.blocks[of_body]][:, None] + np.arange(6)).ravel() for of_body in members]
+    row = np.concatenate([np.repeat(place, len(place)) for place in places])
+    column = np.concatenate([np.tile(place, len(place)) for place in places])
+    values = np.concatenate([entry.ravel() for entry in entries])
+    guided = sp.csr_array(sp.coo_array((values, (row, column)), shape=(n, n)))
+    return sp.csr_array(guided + sp.diags_array(allowed))
+
+
+def guided_program(program: Program, projector: sp.csr_array | None) -> Program:
+    """The program in the motions that a projector on its rows allows; the same one where it allows all."""
+    if projector is None:
+        return program
+    basis = _basis(projector)
+    forces = sp.eye_array(program.components * program.n_points, format="csr")
+    return replace(restricted(program, basis, sp.csr_array(forces), program.limits), guided=True)
+
+
+def _projector(ways: FloatArray) -> FloatArray:
+    """On the space of the columns of ``ways``."""
+    left, size, _ = np.linalg.svd(ways, full_matrices=False)
+    basis = left[:, size > DEPENDENT * size.max(initial=0.0)]
+    return np.asarray(basis @ basis.T)
+
+
+def _basis(projector: sp.csr_array) -> sp.csr_array:
+    """Orthonormal basis of the space on which a sparse projector projects, block by block of its pattern."""
+    n = projector.shape[0]
+    count, label = connected_components(projector, directed=False)
+    order = np.argsort(label, kind="stable")
+    sizes = np.bincount(label, minlength=count)
+    alone = order[np.repeat(sizes == 1, sizes)]
+    kept = np.sort(alone[projector.diagonal()[alone] > ALLOWED])
+    rows, columns, values, n_columns = [kept], [np.arange(len(kept))], [np.ones(len(kept))], len(kept)
+    starts = np.cumsum(sizes) - sizes
+    for part in np.flatnonzero(sizes > 1):
+        place = order[starts[part] : starts[part] + sizes[part]]
+        eigenvalues, vectors = np.linalg.eigh(projector[place][:, place].toarray())
+        allowed = vectors[:, eigenvalues > ALLOWED]
+        rows.append(np.repeat(place, allowed.shape[1]))
+        columns.append(np.tile(n_columns + np.arange(allowed.shape[1]), len(place)))
+        values.append(allowed.ravel())
+        n_columns += allowed.shape[1]
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return sp.csr_array(sp.coo_array(entries, shape=(n, n_columns)))

@@ -10,23 +10,23 @@ velocities of the blocks, and the motions of the interfaces.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.kinematic import ConeProgram
 from mbla.program.resultants.assemble import ConvexProgram
 from mbla.program.resultants.conditions import MN, T1, T2, ConeRows
 from mbla.program.resultants.crushing import crushing_cones
+from mbla.program.static import StaticForm, gravity_form
 
 LEAST_LIMIT = 1e-12
 """Least radius of a cone of given size, in mean block loads: a cone that is a point has no inside to walk in."""
 
 
 @dataclass(frozen=True)
-class ConvexStaticForm:
+class ConvexStaticForm(StaticForm):
     """The cone program of proximal steps, and how to read its solution.
 
     conditions : (n_rows, 6 n_interfaces) the rows of all conditions on resultants
@@ -34,21 +34,8 @@ class ConvexStaticForm:
     """
 
     convex: ConvexProgram
-    cone_program: ConeProgram
     conditions: sp.csr_array
     n_torsion: int
-
-    def forces(self, x: FloatArray) -> FloatArray:
-        """Contact forces, (n_points, 3)."""
-        return x[: 3 * self.convex.points.n_points].reshape(-1, 3)
-
-    def load_factor(self, x: FloatArray) -> float:
-        """Load factor of the program."""
-        return float(x[-1])
-
-    def velocities(self, z: FloatArray) -> FloatArray:
-        """Velocities of the free blocks, (n_block_rows,)."""
-        return z[: self.convex.n_block_rows]
 
     def motions(self, z: FloatArray) -> FloatArray:
         """Motions of the interfaces by torsion and by crushing, (n_interfaces, 2, 6)."""
@@ -61,41 +48,31 @@ class ConvexStaticForm:
 
 def convex_proximal_form(convex: ConvexProgram, rho: float) -> ConvexStaticForm:
     """The proximal step; its anchor and limits come with ``convex_proximal_data``."""
-    program, limits = convex.points, convex.points.limits
-    rows, size = ConeRows(), 3 * program.n_points
+    program, none, rows = convex.points, np.zeros(convex.points.n_points), ConeRows()
+    given = replace(program, limits=replace(program.limits, friction=none, cohesion=none))
+    form = gravity_form(given)
+    base, size = form.cone_program, form.expand.shape[1]
     _torsion(convex, rows)
     n_torsion = rows.n_rows
     crushing_cones(convex.crushing, rows)
     conditions = rows.resultants(convex.n_interfaces)
-    identity = sp.eye_array(size, format="csr")
-    crushable = np.flatnonzero(np.isfinite(limits.compression))
-    normal = sp.vstack([identity[::3], -identity[3 * crushable]])
-    n_normal = normal.shape[0]
-    shear = sp.diags_array(np.tile([0.0, 1.0, 1.0], program.n_points), format="csr")
-    n_conditions = rows.n_rows
-    matrix = sp.block_array(
-        [
-            [program.equilibrium_matrix, None, sp.csr_array(program.live_load[:, None])],
-            [-normal, sp.csr_array((n_normal, rows.n_helpers)), None],
-            [-shear, None, None],
-            [-(conditions @ convex.resultants), -rows.helpers, sp.csr_array((n_conditions, 1))],
-        ]
-    )
-    room = np.concatenate([limits.tension, limits.compression[crushable]])
-    tidy = sp.csc_array(matrix)
-    tidy.eliminate_zeros()
-    tidy.sort_indices()
-    cone_program = ConeProgram(
+    load = np.append(program.live_load, np.zeros(base.matrix.shape[0] - len(program.live_load)))
+    blocks = [
+        [base.matrix, sp.csr_array((base.matrix.shape[0], rows.n_helpers)), sp.csr_array(load[:, None])],
+        [-(conditions @ convex.resultants), -rows.helpers, None],
+    ]
+    matrix = sp.csc_array(sp.block_array(blocks))
+    matrix.eliminate_zeros()
+    matrix.sort_indices()
+    cone_program = replace(
+        base,
         cost=np.append(np.zeros(size + rows.n_helpers), -1.0),
-        matrix=tidy,
-        rhs=np.concatenate([-program.dead_load, room, np.zeros(size), rows.constants]),
-        n_half_lines=n_normal,
-        n_cones=program.n_points,
-        n_equations=len(program.dead_load),
+        matrix=matrix,
+        rhs=np.concatenate([base.rhs, rows.constants]),
         quadratic=np.concatenate([np.full(size, rho), np.zeros(rows.n_helpers + 1)]),
         further_cones=tuple(rows.cone_sizes.tolist()),
     )
-    return ConvexStaticForm(convex, cone_program, conditions, n_torsion)
+    return ConvexStaticForm(program, form.expand, form.offset, cone_program, convex, conditions, n_torsion)
 
 
 def convex_proximal_data(

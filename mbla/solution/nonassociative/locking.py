@@ -33,7 +33,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.program.reductions.guided import guided_program
+from mbla.program.reductions.restrict import guided_program
 from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.associative.repair import repaired_forces

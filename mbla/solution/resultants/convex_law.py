@@ -14,6 +14,8 @@ Equilibrium A x + f_D + λ f_L = 0, the interfaces y = S x and z = R x, and f_L�
 semismooth Newton. With the tangent C of the points, P and Z of the interfaces, G the derivative of y by x::
 
     J = −(B + G) C Bᵀ − (P, Z)/ρ,    B = [A; −S; −R]
+
+Then how badly a state fits that law.
 """
 
 from __future__ import annotations
@@ -28,11 +30,12 @@ from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram
 from mbla.program.resultants.conditions import RESULTANTS
 from mbla.program.resultants.crushing import crushing_violation
-from mbla.program.resultants.friction_limit import friction_limit, nearest
+from mbla.program.resultants.friction_limit import curve_size, curve_support, friction_limit, nearest
+from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION, joint_tangents, return_map
-from mbla.solution.resultants.convex_state import with_motions
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.resultants.stress_fields import StressFields, nearest_stress
 
 MOST_STEPS = 80
@@ -226,3 +229,62 @@ def _columns(vectors: FloatArray, n: int) -> sp.csr_array:
     """Vectors (n, 3) as the blocks of a (3 n, n) matrix."""
     rows, columns = np.arange(3 * n), np.repeat(np.arange(n), 3)
     return sp.csr_array(sp.coo_array((vectors.ravel(), (rows, columns)), shape=(3 * n, n)))
+
+
+def with_motions(program: Program, motions: sp.csr_array) -> Program:
+    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w."""
+    none = np.zeros(motions.shape[0])
+    return replace(
+        program,
+        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motions])),
+        dead_load=np.concatenate([program.dead_load, none]),
+        live_load=np.concatenate([program.live_load, none]),
+    )
+
+
+def state_without_dilatancy(
+    convex: ConvexProgram, forces: FloatArray, velocities: FloatArray, motions: FloatArray, load_factor: float
+) -> LawState:
+    """A state with its residual, the largest of three.
+
+    Excess over the conditions of points and interfaces, in mean block loads; closing velocity of points by their own
+    motion over the largest contact speed; share of the power balance that the law leaves unexplained.
+    """
+    program, limits = convex.points, convex.torsion
+    moved = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+    own = moved - (convex.resultants.T @ motions.sum(axis=1).ravel()).reshape(-1, 3)
+    speed = max(float(np.linalg.norm(moved, axis=1).max(initial=0.0)), 1e-300)
+    closing = float(np.where(np.isfinite(program.limits.compression), 0.0, -own[:, 0]).max(initial=0.0)) / speed
+    of_points, at_points = _unexplained_at_points(program.limits, forces, own)
+
+    resultants = convex.resultants_of(forces)
+    size = friction_limit(limits, resultants)
+    r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
+    slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
+    rest = np.maximum(size.total - size.share, 0.0)
+    of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
+    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
+    twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
+    rows, of_crushing = convex.crushing.interfaces, np.zeros(convex.n_interfaces)
+    fields = StressFields.of(convex.shapes, rows, convex.crushing.strength)
+    crushed = motions[rows[:, None], 1, RESULTANTS]
+    of_crushing[rows] = fields.power(-crushed / fields.scale) + convex.crushing.tension * crushed[:, 0]
+
+    unexplained = at_points + float(np.abs(of_torsion + (r * motion).sum(axis=1)).sum())
+    unexplained += float(np.abs(of_crushing + (resultants * motions[:, 1]).sum(axis=1)).sum())
+    dead_power = abs(float(program.dead_load @ velocities))
+    balance = max(abs(load_factor), dead_power, of_points + float(of_torsion.sum()), 1e-300)
+    excess = [yield_violation(forces, program.limits), twisting, crushing_violation(convex.crushing, resultants)]
+    worst = max(float(part.max(initial=0.0)) for part in excess)
+    return LawState(forces, velocities, load_factor, max(worst, closing, unexplained / balance), motions)
+
+
+def _unexplained_at_points(limits: YieldLimits, forces: FloatArray, own: FloatArray) -> tuple[float, float]:
+    """Power dissipated by sliding, and power that opening, sliding and crushing of points leave unexplained."""
+    sliding = np.hypot(own[:, 1], own[:, 2])
+    strength = limits.friction * forces[:, 0] + limits.cohesion
+    capacity = np.where(np.isfinite(limits.compression), limits.compression, forces[:, 0])
+    unexplained = np.abs(strength * sliding + (forces[:, 1:] * own[:, 1:]).sum(axis=1))
+    unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(own[:, 0], 0.0))
+    unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-own[:, 0], 0.0))
+    return float(np.abs(strength) @ sliding), float(unexplained.sum())

@@ -29,7 +29,7 @@ from mbla.program.resultants.torsion import TorsionLimits
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
-from mbla.solution.resultants.convex_state import with_motions
+from mbla.solution.resultants.convex_law import with_motions
 from mbla.solution.resultants.convex_units import in_units, unit_at_collapse, units_of_unknowns
 from mbla.solution.resultants.least_step import Equilibrium, StepOf, augmented_step, normal_step
 

@@ -12,7 +12,7 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import reduce_program, unreduced
-from mbla.program.reductions.guided import _projector
+from mbla.program.reductions.restrict import _projector
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.reductions import reduce_program
-from mbla.program.reductions.parts import _unit_of_force, part_of_blocks, split_into_parts
+from mbla.program.reductions.scene import _unit_of_force, part_of_blocks, split_into_parts
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
