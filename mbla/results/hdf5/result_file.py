@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,6 +37,7 @@ from mbla.results.hdf5.layout import (
 )
 from mbla.results.hdf5.restore import results_from
 from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
+from mbla.results.record.scene import as_text
 from mbla.results.results import Results
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeEr
 class Labelled:
     """An array of a labelled file; text as objects.
 
-    dimensions : names of scales, one for each dimension
+    dimensions : paths of scales, one for each dimension
     attributes : ``units``, ``long_name`` and others
     missing    : the value of whole numbers that stands for none; None where there is no such
     """
@@ -69,7 +70,7 @@ class Labelled:
 
 @dataclass(frozen=True)
 class LabelledFile:
-    """Arrays by name along shared dimensions; the scale of each says what is along it."""
+    """Arrays and scales by path; the scale of a dimension says what is along it."""
 
     attributes: Mapping[str, str | int]
     scales: Mapping[str, Labelled]
@@ -81,17 +82,16 @@ def write_results_hdf5(results: Results) -> bytes:
 
     Layout: schemas/results.md. It cannot fail for want of disk space; the caller writes the bytes.
     """
-    content = content_of(results)
-    with _image() as (image, file):
-        for name, value in root_attributes(results).items():
-            _set_attribute(file, name, value)
-        scales: dict[str, h5py.Dataset] = {}
-        for path, field in fields_of(case.name for case in results.model.load_cases):
-            if path in content:
-                _write_field(file, scales, path, field, content.pop(path), results.model.units)
-        if content:
-            raise AssertionError(f"not in the layout: {sorted(content)}")
-    return image.getvalue()
+    content, units = content_of(results), results.model.units
+    scales: dict[str, Labelled] = {}
+    arrays = {
+        path: _labelled(scales, path, field, content.pop(path), units)
+        for path, field in fields_of(case.name for case in results.model.load_cases)
+        if path in content
+    }
+    if content:
+        raise AssertionError(f"not in the layout: {sorted(content)}")
+    return write_labelled_hdf5(LabelledFile(root_attributes(results), scales, arrays))
 
 
 @contextmanager
@@ -171,13 +171,13 @@ def write_labelled_hdf5(content: LabelledFile) -> bytes:
     with _image() as (image, file):
         for name, value in content.attributes.items():
             _set_attribute(file, name, value)
-        scales = {name: _create_labelled(file, name, scale) for name, scale in content.scales.items()}
-        for name, scale in scales.items():
-            scale.make_scale(name)
-        for name, array in content.arrays.items():
-            dataset = _create_labelled(file, name, array)
+        scales = {path: _create_labelled(file, path, scale) for path, scale in content.scales.items()}
+        for path, scale in scales.items():
+            scale.make_scale(path.rpartition("/")[2])
+        for path, array in content.arrays.items():
+            dataset = _create_labelled(file, path, array)
             for axis, dimension in enumerate(array.dimensions):
-                dataset.dims[axis].label = dimension
+                dataset.dims[axis].label = dimension.rpartition("/")[2]
                 dataset.dims[axis].attach_scale(scales[dimension])
     return image.getvalue()
 
@@ -187,11 +187,11 @@ def _create_labelled(file: h5py.File, name: str, content: Labelled) -> h5py.Data
     values = content.values
     if text:
         values = np.reshape(_text_array([str(value) for value in values.ravel()]), values.shape)
-    dataset = _create(file, name, np.ascontiguousarray(values))
+    dataset = _create(file, name, np.asarray(values, order="C"))
     for attribute, value in content.attributes.items():
         _set_attribute(dataset, attribute, value)
     if text:
-        _set_attribute(dataset, "_Encoding", "utf-8")
+        _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
     if content.missing is not None:
         dataset.attrs.create("_FillValue", np.array([content.missing], dtype=values.dtype))
     return dataset
@@ -212,7 +212,7 @@ def _set_attribute(owner: h5py.HLObject, name: str, value: str | int) -> None:
     h5py.h5a.create(owner.id, name.encode(), kind, space).write(array, mtype=h5py.h5t.py_create(array.dtype))
 
 
-def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[Any]:
+def _text_array(value: str | Sequence[str]) -> np.typing.NDArray[Any]:
     """UTF-8 text of fixed length as h5py wants it; at least 2 bytes, as netCDF joins arrays of single letters."""
     import h5py
 
@@ -222,31 +222,31 @@ def _text_array(value: str | list[str] | tuple[str, ...]) -> np.typing.NDArray[A
     return array.reshape(()) if isinstance(value, str) else array
 
 
-def _as_array(value: Value, field: Quantity) -> np.typing.NDArray[Any]:
+def _labelled(scales: dict[str, Labelled], path: str, field: Quantity, value: Value, units: Units) -> Labelled:
+    """An entry as the layout has it; scales that it needs are added to those of the file so far, by their paths."""
     if field.kind == "text":
-        return _text_array(value)  # type: ignore[arg-type]
-    kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8, "byte": np.uint8}
-    array = np.ascontiguousarray(value, dtype=kinds[field.kind]) if field.dims else np.array(value, kinds[field.kind])
+        array = as_text([value] if isinstance(value, str) else value)  # type: ignore[arg-type]
+        array = array if field.dims else array.reshape(())
+    else:
+        kinds = {"float": np.float64, "int": np.int64, "bool": np.uint8, "byte": np.uint8}
+        array = np.array(value, kinds[field.kind])
     if array.ndim != len(field.dims):
         raise AssertionError(f"{field.path}: {array.ndim} dimensions, the layout has {len(field.dims)}")
-    return array
-
-
-def _write_field(
-    file: h5py.File, scales: dict[str, h5py.Dataset], path: str, field: Quantity, value: Value, units: Units
-) -> None:
-    array = _as_array(value, field)
-    dataset = _create(file, path, array)
-    _set_attribute(dataset, "units", unit_text(field.unit, units))
-    _set_attribute(dataset, "long_name", field.words)
+    attributes = {"units": unit_text(field.unit, units), "long_name": field.words}
     if told := field.told_of(value):
-        _set_attribute(dataset, "verification", NOT_VERIFIED.format(told))
-    if field.kind == "text":
-        _set_attribute(dataset, "_Encoding", "utf-8")  # netCDF's word for it: xarray gives text, not bytes
-    for axis, name in enumerate(field.dims):
-        scale, dimension = _scale(file, scales, path, name, array.shape[axis]), dataset.dims[axis]
-        dimension.label = name
-        dimension.attach_scale(scale)
+        attributes["verification"] = NOT_VERIFIED.format(told)
+    sizes = zip(field.dims, array.shape, strict=True)
+    return Labelled(array, tuple(_scale(scales, path, name, size) for name, size in sizes), attributes)
+
+
+def _scale(scales: dict[str, Labelled], path: str, name: str, size: int) -> str:
+    """Path of the dimension scale of that name: in the root group if it is shared, else beside the dataset."""
+    place = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
+    words = {"units": "1", "long_name": f"dimension: {name.replace('_', ' ')}"}
+    known = scales.setdefault(place, Labelled(np.arange(size, dtype=np.int64), (place,), words))
+    if len(known.values) != size:
+        raise AssertionError(f"{path}: {size} along {name}, which has {len(known.values)}")
+    return place
 
 
 def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.Dataset:
@@ -268,23 +268,6 @@ def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.D
     row_bytes = max(1, array.nbytes // len(array))
     chunk = (max(1, min(len(array), CHUNK_BYTES // row_bytes)), *array.shape[1:])
     return file.create_dataset(path, data=array, chunks=chunk, compression="gzip", compression_opts=4, shuffle=True)
-
-
-def _scale(file: h5py.File, scales: dict[str, h5py.Dataset], path: str, name: str, size: int) -> h5py.Dataset:
-    """The dimension scale of that name: in the root group if the dimension is shared, else beside the dataset.
-
-    scales : those of this file so far, by their paths
-    """
-    place = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
-    scale = scales.get(place)
-    if scale is None:
-        scale = scales[place] = _create(file, place, np.arange(size, dtype=np.int64))
-        _set_attribute(scale, "units", "1")
-        _set_attribute(scale, "long_name", f"dimension: {name.replace('_', ' ')}")
-        scale.make_scale(name)
-    if len(scale) != size:
-        raise AssertionError(f"{path}: {size} along {name}, which has {len(scale)}")
-    return scale
 
 
 # --- reading ------------------------------------------------------------------------------------------------------
