@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
+from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.outcome import reaction_of
 from mbla.results.results import CaseResult, Results
 from mbla.run import RunOptions, run
@@ -150,10 +150,7 @@ def test_supports_and_guides_balance_the_loads(tmp_path: Path) -> None:
             mechanics = case.solution.mechanics
             assert mechanics is not None
             model = results.model
-            found = (
-                *support_reactions(model, results.contacts, mechanics.contact_forces),
-                *guide_reactions(model, results.contacts, case.load_case, mechanics),
-            )
+            found = reactions_of(model, results.contacts, case.load_case, mechanics)
             load = load_on_structure(model, case.load_case, mechanics.load_factor)
             total = np.sum([each.wrench for each in found], axis=0)
             np.testing.assert_allclose(total, -load, atol=1e-6 * np.abs(load).max())

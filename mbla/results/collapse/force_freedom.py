@@ -37,6 +37,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
+from mbla.program.assemble import yield_limits
 from mbla.results.collapse.collapse import kept
 from mbla.results.collapse.interface_modes import interface_radii
 from mbla.solution.linear_algebra.pattern import stored_lower_triangle
@@ -131,8 +132,7 @@ def _directions(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[
     """Directions of force in the frames of points, (n, 3), and the points that may carry them."""
     rests = np.flatnonzero(mechanics.modes == ContactMode.STICK)
     slides = np.flatnonzero(mechanics.modes == ContactMode.SLIDE)
-    friction = np.array([model.joints[name].friction for name in contacts.joint_names], dtype=float)
-    limit = friction[contacts.joints[contacts.interface_of_point[slides]]]
+    limit = yield_limits(model, contacts).friction[slides]
     velocity = mechanics.contact_velocities[slides]
     speed = np.hypot(velocity[:, 1], velocity[:, 2])
     along = np.hstack(

@@ -13,6 +13,7 @@ compression positive.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,29 +139,54 @@ class Reaction:
     wrench: FloatArray
 
 
+def reactions_of(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, *, by_group: bool = False
+) -> tuple[Reaction, ...]:
+    """Reactions of supports, then what guides take: what leaves guided blocks in balance.
+
+    Fixed and guided blocks stand one by one where they are few, else, or ``by_group``, their groups do.
+    """
+    blocks = model.guides.blocks
+    acting = contact_resultants(model, contacts, mechanics.contact_forces)
+    taken = -(acting + load_case.dead_load + mechanics.load_factor * load_case.live_load)[blocks]
+    taken[:, 3:] += np.cross(model.blocks.centroids[blocks], taken[:, :3])
+    single = len(blocks) <= MOST_SINGLE_SUPPORTS and not by_group
+    names = [
+        f"guide of {model.body_name(block)}" if single else f"guides of {model.blocks.groups[block]}"
+        for block in blocks.tolist()
+    ]
+    supports = support_reactions(model, contacts, mechanics.contact_forces, by_group=by_group)
+    return (*supports, *_by_name(names, taken))
+
+
 def support_reactions(
     model: Model, contacts: Contacts, contact_forces: FloatArray, *, by_group: bool = False
 ) -> tuple[Reaction, ...]:
-    """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out.
-
-    Fixed blocks stand one by one where they are few, else, or ``by_group``, their groups do.
-    """
+    """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out."""
     supports, _, onto_structure = _onto_structure(model, contacts, contact_forces)
-    touched, row = np.unique(supports, return_inverse=True)
-    total = np.zeros((len(touched), 6))
-    np.add.at(total, row, onto_structure)
-    return _named_reactions(model, touched, total, by_group)
+    blocks = supports < len(model.blocks)
+    single = len(np.unique(supports[blocks])) <= MOST_SINGLE_SUPPORTS and not by_group
+    order = np.lexsort((supports, blocks))
+    names = [
+        model.body_name(body) if single or body >= len(model.blocks) else f"{model.blocks.groups[body]} (fixed blocks)"
+        for body in supports[order].tolist()
+    ]
+    return _by_name(names, onto_structure[order])
 
 
 def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
-    """The same by the group of the free blocks that the supports act on, in the order in which groups are met.
+    """Reactions by the group of the free blocks that supports act on, in the order in which groups are met.
 
     Forces of guides are not among them.
     """
     _, carried, onto_structure = _onto_structure(model, contacts, contact_forces)
+    return _by_name([model.blocks.groups[block] for block in carried.tolist()], onto_structure)
+
+
+def _by_name(names: Sequence[str], wrenches: FloatArray) -> tuple[Reaction, ...]:
+    """Sums over wrenches of one name, (n, 6)."""
     sums: dict[str, FloatArray] = {}
-    for block, wrench in zip(carried.tolist(), onto_structure, strict=True):
-        name = model.blocks.groups[block]
+    for name, wrench in zip(names, wrenches, strict=True):
         sums[name] = sums.get(name, np.zeros(6)) + wrench
     return tuple(Reaction(name, wrench) for name, wrench in sums.items())
 
@@ -177,43 +203,6 @@ def _onto_structure(
     supports = np.where(support_a, contacts.bodies[:, 0], contacts.bodies[:, 1])[one]
     carried = np.where(support_a, contacts.bodies[:, 1], contacts.bodies[:, 0])[one]
     return supports, carried, np.where(support_a, 1.0, -1.0)[one, None] * wrenches[one]
-
-
-def guide_reactions(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, *, by_group: bool = False
-) -> tuple[Reaction, ...]:
-    """What guides take: the forces and moments that leave guided blocks in balance.
-
-    They stand one by one where they are few, else, or ``by_group``, their groups do.
-    """
-    blocks = model.guides.blocks
-    if not len(blocks):
-        return ()
-    acting = contact_resultants(model, contacts, mechanics.contact_forces)
-    acting += load_case.dead_load + mechanics.load_factor * load_case.live_load
-    taken = -acting[blocks]
-    taken[:, 3:] += np.cross(model.blocks.centroids[blocks], taken[:, :3])
-    sums: dict[str, FloatArray] = {}
-    for block, wrench in zip(blocks.tolist(), taken, strict=True):
-        few = len(blocks) <= MOST_SINGLE_SUPPORTS and not by_group
-        name = f"guide of {model.body_name(block)}" if few else f"guides of {model.blocks.groups[block]}"
-        sums[name] = sums.get(name, np.zeros(6)) + wrench
-    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
-
-
-def _named_reactions(model: Model, bodies: IntArray, wrenches: FloatArray, by_group: bool) -> tuple[Reaction, ...]:
-    """Reactions by name, from the supporting bodies, (n,), and what each adds, (n, 6)."""
-    n_blocks = len(model.blocks)
-    one_by_one = not by_group and int(np.sum(bodies < n_blocks)) <= MOST_SINGLE_SUPPORTS
-    sums: dict[str, FloatArray] = {}
-    for i in np.argsort(bodies < n_blocks, kind="stable"):
-        body = int(bodies[i])
-        if body >= n_blocks or one_by_one:
-            name = model.body_name(body)
-        else:
-            name = f"{model.blocks.groups[body]} (fixed blocks)"
-        sums[name] = sums.get(name, np.zeros(6)) + wrenches[i]
-    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
 
 
 def load_on_structure(model: Model, load_case: LoadCase, load_factor: float) -> FloatArray:

@@ -24,6 +24,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
+from mbla.program.assemble import yield_limits
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import interface_resultants
 
@@ -116,14 +117,10 @@ def allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArr
 
     Tension takes from cohesion what pressure adds to it.
     """
-    laws = [model.joints[name] for name in contacts.joint_names]
-    joint = contacts.joints[contacts.interface_of_point]
-    friction = np.array([law.friction for law in laws], dtype=float)[joint]
-    cohesion = np.array([law.cohesion for law in laws], dtype=float)[joint]
-    normal = contact_forces[:, 0]
+    limits, normal = yield_limits(model, contacts), contact_forces[:, 0]
     # unlimited friction allows none where nothing presses
-    by_friction = np.where((normal > 0) | np.isfinite(friction), friction, 0.0) * normal
-    return np.asarray(np.maximum(by_friction + cohesion * contacts.point_areas, 0.0))
+    by_friction = np.where((normal > 0) | np.isfinite(limits.friction), limits.friction, 0.0) * normal
+    return np.asarray(np.maximum(by_friction + limits.cohesion, 0.0))
 
 
 def shear_use(shear: FloatArray, allowed: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.mechanics import guide_reactions, load_on_structure, support_reactions
+from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.diff.matching import Factors, Matching
 from mbla.results.diff.motion import ModeComparison, angle_between, compare_modes
 from mbla.results.outcome import law_residual, result_of
@@ -258,8 +258,5 @@ def _reactions(
 
 def _forces(results: Results, case: CaseResult, mechanics: Mechanics) -> dict[str, FloatArray]:
     """Force of each support on the structure, (3,), by its name."""
-    reactions = (
-        *support_reactions(results.model, results.contacts, mechanics.contact_forces),
-        *guide_reactions(results.model, results.contacts, case.load_case, mechanics),
-    )
+    reactions = reactions_of(results.model, results.contacts, case.load_case, mechanics)
     return {reaction.support: reaction.wrench[:3] for reaction in reactions}

@@ -13,12 +13,11 @@ from mbla.results.collapse.mechanics import (
     Work,
     dissipated_by_joint,
     group_reactions,
-    guide_reactions,
-    interface_resultants,
     load_on_structure,
     loads_by_group,
-    support_reactions,
+    reactions_of,
 )
+from mbla.results.collapse.thrust import thrust_of
 from mbla.results.listing.text import MOST_ROWS, counted, number, sentence, table, vector
 from mbla.results.outcome import UNIQUE, result_of
 from mbla.results.results import CaseResult
@@ -27,10 +26,7 @@ from mbla.solution.solution import Mechanics
 
 def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
     """Forces of the supports on the structure, and how they balance the loads on the free blocks."""
-    reactions = (
-        *support_reactions(model, contacts, mechanics.contact_forces),
-        *guide_reactions(model, contacts, load_case, mechanics),
-    )
+    reactions = reactions_of(model, contacts, load_case, mechanics)
     total = np.sum([reaction.wrench for reaction in reactions], axis=0) if reactions else np.zeros(6)
     load = load_on_structure(model, load_case, mechanics.load_factor)
     named = [(reaction.support, reaction.wrench) for reaction in reactions]
@@ -65,10 +61,8 @@ def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
 
 def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
     """Forces that balance the live load alone, the largest interfaces first."""
-    resultants = interface_resultants(contacts, lock)[:, :3]
-    normal = np.einsum("ij,ij->i", resultants, contacts.normals)
-    shear = np.linalg.norm(resultants - normal[:, None] * contacts.normals, axis=1)
-    sizes = np.linalg.norm(resultants, axis=1)
+    thrust = thrust_of(model, contacts, lock)
+    normal, shear, sizes = thrust.normal_forces, thrust.shear_forces, np.linalg.norm(thrust.forces, axis=1)
     loaded = int(np.sum(sizes > 1e-6 * sizes.max(initial=0.0)))
     order = np.argsort(-sizes, kind="stable")[: min(loaded, MOST_ROWS)]
     rows = [[*_interface(model, contacts, int(i)), number(float(normal[i])), number(float(shear[i]))] for i in order]

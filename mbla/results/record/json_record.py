@@ -15,7 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.collapse.mechanics import guide_reactions, support_reactions
+from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.hdf5.content import as_told
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
@@ -239,10 +239,7 @@ def _reactions(scene: Scene, case: CaseResult, mechanics: Mechanics) -> dict[str
 
     Guides are among them: what they take is a support too.
     """
-    found = [
-        *support_reactions(scene.model, scene.contacts, mechanics.contact_forces, by_group=True),
-        *guide_reactions(scene.model, scene.contacts, case.load_case, mechanics, by_group=True),
-    ]
+    found = reactions_of(scene.model, scene.contacts, case.load_case, mechanics, by_group=True)
     total = np.sum([reaction.wrench for reaction in found], axis=0) if found else np.zeros(6)
     return {
         "total": _wrench_json(total),

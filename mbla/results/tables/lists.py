@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.errors import Notice
 from mbla.model.model import TravelPosition
-from mbla.results.collapse.mechanics import Reaction, guide_reactions, support_reactions
+from mbla.results.collapse.mechanics import Reaction, reactions_of
 from mbla.results.outcome import notices_of
 from mbla.results.record.quantity import STORED, Kind, Quantity, UnitKind, real
 from mbla.results.record.scene import FIGURES_TOLD, Scene, Values, as_text
@@ -59,10 +59,7 @@ def _reactions(scene: Scene) -> tuple[Reaction, ...]:
     """Of supports, then of guides, in the order of the listing."""
     if scene.mechanics is None or scene.case is None:
         return ()
-    return (
-        *support_reactions(scene.model, scene.contacts, scene.mechanics.contact_forces),
-        *guide_reactions(scene.model, scene.contacts, scene.case.load_case, scene.mechanics),
-    )
+    return reactions_of(scene.model, scene.contacts, scene.case.load_case, scene.mechanics)
 
 
 def _wrenches(scene: Scene) -> Values:
