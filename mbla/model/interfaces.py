@@ -1,9 +1,7 @@
 """Prescribed interfaces: a deck gives them as a table of their corners, instead of having them found.
 
 Each must lie on a face of either body, within the tolerance of contacts: what lies beside a face is no interface. Nor
-may two of one pair of bodies lie on each other. Outlines are fans of triangles about their first corner, each with the
-sign of its turn, so that the area that two outlines have in common is the sum of the signed common areas of their
-triangles, convex or not.
+may two of one pair of bodies lie on each other.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ from mbla.errors import DeckError, Message
 from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import intersections, plane_axes, signed_areas
+from mbla.model.solids.plane import plane_axes
 from mbla.model.tables import Table, TableRefused, read_table
 
 GROUND = "ground"
@@ -202,31 +200,19 @@ def _lies_on(
         return bool(
             ground.normal @ normal > FACING and (np.abs((points - ground.point) @ ground.normal) <= reach).all()
         )
+    import shapely
+
     faces = np.arange(blocks.face_start[body], blocks.face_start[body + 1])
     faces = faces[blocks.face_normals[faces] @ normal > FACING]
-    for facet in np.unique(blocks.facet_of_face[faces]):
-        outlines = [
-            blocks.vertices[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]]
-            for face in faces[blocks.facet_of_face[faces] == facet]
-        ]
-        if all(any(_within(point, outline, normal, reach) for outline in outlines) for point in points):
-            return True
-    return False
-
-
-def _within(point: FloatArray, outline: FloatArray, normal: FloatArray, reach: float) -> bool:
-    """Whether a point lies in a face: near its plane, and inside its outline or near a side of it."""
-    arms = point - outline
-    if np.abs(arms @ normal).min() > reach:
-        return False
-    sides = np.roll(outline, -1, axis=0) - outline
-    share = np.clip(np.einsum("ij,ij->i", arms, sides) / np.einsum("ij,ij->i", sides, sides), 0, 1)
-    if np.linalg.norm(arms - share[:, None] * sides, axis=1).min() <= reach:
-        return True
-    flat = arms - np.outer(arms @ normal, normal)  # the angle that the outline spans about a point inside is a turn
-    following = np.roll(flat, -1, axis=0)
-    angles = np.arctan2(np.cross(flat, following) @ normal, np.einsum("ij,ij->i", flat, following))
-    return bool(abs(angles.sum()) > np.pi)
+    frame = plane_axes(normal[None])[0].T
+    places = shapely.points(points @ frame)
+    facets = blocks.facet_of_face[faces]
+    covered = np.zeros((len(faces), len(points)), dtype=bool)
+    for row, face in enumerate(faces):
+        outline = blocks.vertices[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]]
+        near = np.abs((points[:, None] - outline) @ normal).min(axis=1) <= reach
+        covered[row] = near & shapely.dwithin(shapely.polygons(outline @ frame), places, reach)
+    return any(covered[facets == facet].any(axis=0).all() for facet in np.unique(facets))
 
 
 SAME_PLANE = 0.99
@@ -259,19 +245,12 @@ def overlapping(
 
 
 def common_area(outline: FloatArray, other: FloatArray, normal: FloatArray) -> float:
-    """Area that two outlines (n, 3), both counter-clockwise about a unit normal, have in common as seen along it."""
+    """Area that two outlines (n, 3) have in common as seen along a unit normal, (3,)."""
+    import shapely
+
     frame = plane_axes(normal[None])[0].T
-    origin = outline.mean(axis=0)
-    own, others = _fan((outline - origin) @ frame), _fan((other - origin) @ frame)
-    signs = np.sign(signed_areas(others))
-    others[signs < 0] = others[signs < 0][:, ::-1]
-    pairs = np.repeat(own, len(others), axis=0), np.tile(others, (len(own), 1, 1))
-    return float(signed_areas(intersections(*pairs)) @ np.tile(signs, len(own)))
-
-
-def _fan(corners: FloatArray) -> FloatArray:
-    """Triangles about the first corner, (n - 2, 3, 2)."""
-    return np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)
+    one, two = shapely.make_valid([shapely.Polygon(each @ frame) for each in (outline, other)])
+    return float(shapely.intersection(one, two).area)
 
 
 def _half_perimeter(*outlines: FloatArray) -> float:

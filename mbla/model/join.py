@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.blocks import BlockLabels, Blocks
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra, turn_faces
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
 from mbla.model.solids.ragged import items_of_rows
 
 
@@ -80,14 +80,6 @@ def _numbered(facets: IntArray) -> IntArray:
 def polyhedra_of(blocks: Blocks) -> Polyhedra:
     """The polyhedra that blocks were made of, faces outwards."""
     return Polyhedra(blocks.vertices, blocks.vertex_start, blocks.loops, blocks.loop_start, blocks.face_start)
-
-
-def reflected(polyhedra: Polyhedra, point: FloatArray, normal: FloatArray) -> Polyhedra:
-    """Mirror images in the plane through a point (3,) with a unit normal (3,), faces outwards."""
-    heights = (polyhedra.vertices - point) @ normal
-    vertices = polyhedra.vertices - 2.0 * heights[:, None] * normal
-    image = Polyhedra(vertices, polyhedra.vertex_start, polyhedra.loops, polyhedra.loop_start, polyhedra.face_start)
-    return turn_faces(image, np.ones(len(polyhedra.block_of_face), dtype=bool))
 
 
 def halves_joined(

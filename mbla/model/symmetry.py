@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
-from mbla.model.join import halves_joined, polyhedra_of, reflected
+from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.load_kind import entries_of
 from mbla.model.model import Ground, LoadCase, Model, Settlement
@@ -28,10 +29,11 @@ from mbla.model.selectors import Roster, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
 from mbla.model.solids.build import Labels, build_blocks
-from mbla.model.solids.plane import unit
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
+from mbla.model.supports.build import plane_of
 from mbla.model.supports.guides import Guides
+from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 
 ON_MASSES = ("gravity", "acceleration")
@@ -126,7 +128,7 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     """The model with its image."""
     blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
     own = polyhedra_of(blocks)
-    image = reflected(own, mirror.point, mirror.normal)
+    image = moved(own, mirror.reflection)
     whole = halves_joined(own, image, mirror.halves, mirror.point, mirror.normal, tolerance * blocks.sizes)
     polyhedra = join_polyhedra([whole, take_polyhedra(image, others)])
     built = build_blocks(polyhedra, _labels(model, others), tolerance)
@@ -152,8 +154,7 @@ def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
     """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
     masses, points = np.zeros(len(whole)), own.added_mass_points
     moments = np.zeros((len(whole), 3))
-    images = points - 2.0 * ((points - mirror.point) @ mirror.normal)[:, None] * mirror.normal
-    for rows, places in ((np.arange(len(own)), points), (mirror.image_of, images)):
+    for rows, places in ((np.arange(len(own)), points), (mirror.image_of, mirror.reflection.points(points))):
         masses[rows] += own.added_masses
         moments[rows] += own.added_masses[:, None] * (places - whole.centroids[rows])
     arms = moments / np.where(masses > 0.0, masses, 1.0)[:, None]
@@ -192,8 +193,7 @@ def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
             result.append(replace(ground, blocks=both))
             continue
         result.append(ground)
-        point = ground.point - 2.0 * float((ground.point - mirror.point) @ mirror.normal) * mirror.normal
-        normal = mirror.reflection @ ground.normal
+        point, normal = mirror.reflection.points(ground.point), mirror.reflection.directions(ground.normal)
         images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}"))
     return (*result, *images)
 
@@ -256,32 +256,21 @@ class Mirror:
     halves: BoolArray
     image_of: IntArray
 
-    @property
-    def reflection(self) -> FloatArray:
-        """R, (3, 3)."""
-        return np.asarray(np.eye(3) - 2.0 * np.outer(self.normal, self.normal))
+    @cached_property
+    def reflection(self) -> AffineMap:
+        """R about the plane."""
+        return reflection(self.point, self.normal)
 
     def motions(self, values: FloatArray) -> FloatArray:
         """Images of velocities and angular velocities, or of forces and moments, in the second axis of (n, 6, ...)."""
-        image = np.empty_like(values)
-        image[:, :3] = np.einsum("ij,nj...->ni...", self.reflection, values[:, :3])
-        image[:, 3:] = -np.einsum("ij,nj...->ni...", self.reflection, values[:, 3:])
-        return image
-
-
-def _plane(plane: SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
-    for axis, key in enumerate("xyz"):
-        coordinate = getattr(plane, key)
-        if coordinate is not None:
-            return coordinate * np.eye(3)[axis], np.eye(3)[axis], f"{key} = {coordinate:g}"
-    assert plane.point is not None  # a rule of the deck: x, y, z, or a point with a normal
-    assert plane.normal is not None
-    return np.array(plane.point), unit(plane.normal), "the plane of symmetry"
+        matrix = self.reflection.matrix
+        return np.einsum("ij,nj...->ni...", np.block([[matrix, np.zeros((3, 3))], [np.zeros((3, 3)), -matrix]]), values)
 
 
 def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> Mirror:
     """The plane as it stands to the blocks; DeckError where blocks reach across it."""
-    blocks, (point, normal, label) = model.blocks, _plane(plane)
+    blocks, (point, normal, label) = model.blocks, plane_of(plane)
+    label = label or "the plane of symmetry"
     heights = (blocks.vertices - point) @ normal
     allowed = deck.contacts.tolerance * blocks.sizes
     above, below = (row_maxima(sign * heights, blocks.vertex_start) for sign in (1.0, -1.0))

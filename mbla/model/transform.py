@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.item import Reflection, Repetition, Rotation, TransformStep
-from mbla.model.generators.generator import Generated, GroundPart, Part
+from mbla.deck.items.item import Repetition, Rotation, TransformStep
+from mbla.model.generators.generator import Generated
 from mbla.model.solids.plane import unit
 from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 
@@ -98,25 +98,25 @@ def _onwards(step: Repetition) -> Copies:
 
 def transform_item(generated: Generated, transform: AffineMap) -> Generated:
     """Everything that a generator made, moved; faces keep pointing the way they did."""
-    parts = tuple(replace(part, polyhedra=_moved(part, transform)) for part in generated.parts)
-    grounds = tuple(_moved_ground(ground, transform) for ground in generated.grounds)
+    parts = tuple(replace(part, polyhedra=moved(part.polyhedra, transform)) for part in generated.parts)
+    grounds = tuple(
+        replace(ground, point=transform.points(ground.point), normal=transform.directions(ground.normal))
+        for ground in generated.grounds
+    )
     return replace(generated, parts=parts, grounds=grounds)
 
 
-def _moved(part: Part, transform: AffineMap) -> Polyhedra:
-    moved = replace(part.polyhedra, vertices=transform.points(part.polyhedra.vertices))
-    return turn_faces(moved, np.ones(len(moved.block_of_face), dtype=bool)) if transform.mirrors else moved
-
-
-def _moved_ground(ground: GroundPart, transform: AffineMap) -> GroundPart:
-    return replace(ground, point=transform.points(ground.point), normal=transform.directions(ground.normal))
+def moved(polyhedra: Polyhedra, transform: AffineMap) -> Polyhedra:
+    """Images of polyhedra; faces keep pointing the way they did."""
+    images = replace(polyhedra, vertices=transform.points(polyhedra.vertices))
+    return turn_faces(images, np.ones(len(images.block_of_face), dtype=bool)) if transform.mirrors else images
 
 
 def _step(step: TransformStep) -> AffineMap:
     if step.rotate is not None:
         return _rotation(step.rotate)
     if step.mirror is not None:
-        return _reflection(step.mirror)
+        return reflection(np.array(step.mirror.point), unit(step.mirror.normal))
     if step.scale is not None:
         return AffineMap(step.scale * np.eye(3), np.zeros(3))
     return AffineMap(np.eye(3), np.array(step.translate or (0.0, 0.0, 0.0)))
@@ -126,16 +126,16 @@ def _rotation(rotation: Rotation) -> AffineMap:
     x, y, z = unit(rotation.axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     sine, cosine = _sine_and_cosine(rotation.angle)
-    return _about(np.eye(3) + sine * cross + (1 - cosine) * cross @ cross, rotation.about)
+    return _about(np.eye(3) + sine * cross + (1 - cosine) * cross @ cross, np.array(rotation.about))
 
 
-def _reflection(reflection: Reflection) -> AffineMap:
-    normal = unit(reflection.normal)
-    return _about(np.eye(3) - 2 * np.outer(normal, normal), reflection.point)
+def reflection(point: FloatArray, normal: FloatArray) -> AffineMap:
+    """Mirror images in the plane through a point, (3,), with a unit normal, (3,)."""
+    return _about(np.eye(3) - 2 * np.outer(normal, normal), point)
 
 
-def _about(matrix: FloatArray, point: tuple[float, float, float]) -> AffineMap:
-    return AffineMap(matrix, np.array(point) - matrix @ np.array(point))
+def _about(matrix: FloatArray, point: FloatArray) -> AffineMap:
+    return AffineMap(matrix, point - matrix @ point)
 
 
 def _sine_and_cosine(degrees: float) -> tuple[float, float]:

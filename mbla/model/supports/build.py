@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
-from mbla.deck.sections.supports import GroundPlane
+from mbla.deck.sections.supports import GroundPlane, SymmetryPlane
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.model import Ground
@@ -56,7 +56,8 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Suppo
                 complete = False
                 continue
         if support.ground is not None:
-            point, normal, label = plane(support.ground)
+            point, normal, place = plane_of(support.ground)
+            label = f"ground {place or f'at {vector(point)} with normal {vector(normal)}'}"
             joint = support.joint or deck.contacts.joint
             grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
         elif chosen is not None and is_guide(support):
@@ -117,16 +118,15 @@ FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
 
 
-def plane(ground: GroundPlane) -> tuple[FloatArray, FloatArray, str]:
-    """Point (3,), unit normal (3,) and label of a ground plane."""
+def plane_of(section: GroundPlane | SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
+    """Point (3,) and unit normal (3,) of a plane, and ``z = 0``; nothing for one by point and normal."""
     for axis, key in enumerate("xyz"):
-        coordinate = getattr(ground, key)
+        coordinate = getattr(section, key)
         if coordinate is not None:
             normal = np.eye(3)[axis]
-            return coordinate * normal, normal, f"ground {key} = {coordinate:g}"
-    assert ground.point is not None and ground.normal is not None  # noqa: PT018 - one rule of the deck
-    point, normal = np.array(ground.point), unit(ground.normal)
-    return point, normal, f"ground at {vector(point)} with normal {vector(normal)}"
+            return coordinate * normal, normal, f"{key} = {coordinate:g}"
+    assert section.point is not None and section.normal is not None  # noqa: PT018 - one rule of the deck
+    return np.array(section.point), unit(section.normal), ""
 
 
 def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float) -> None:
