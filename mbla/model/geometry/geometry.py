@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -98,6 +99,24 @@ def empty_objects(names: Sequence[str]) -> tuple[Notice, ...]:
     called = listed([name or "without a name" for name in names], "and")
     words = f"{counted(len(names), 'object')} {was(len(names))} left out, without faces: {called}"
     return (Notice("warning", "objects-empty", words),)
+
+
+def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, ...]:
+    """What becomes no block, in words, from the type of each; nothing where there is none."""
+    counts = Counter(kinds)
+    if not counts:
+        return ()
+    words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
+    reason = "beside volume cells only those are blocks" if beside_volumes else "these cells are not blocks"
+    return (Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}"),)
+
+
+def check_rows(rows: IntArray, count: int) -> None:
+    """GeometryFileError where a cell names a point, by its row, that is none of so many."""
+    wrong = rows[(rows < 0) | (rows >= count)]
+    if wrong.size:
+        words = f"a cell names point {wrong.flat[0]}, which does not exist; there are {count}, from 0 on"
+        raise GeometryFileError("geometry-file", words)
 
 
 def unused_points(count: int, used: IntArray) -> tuple[Notice, ...]:

@@ -17,7 +17,14 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed, refuse_long_line, unused_points
+from mbla.model.geometry.geometry import (
+    Geometry,
+    GeometryFileError,
+    cells_left_out,
+    malformed,
+    refuse_long_line,
+    unused_points,
+)
 from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells, take_polyhedra
@@ -94,7 +101,8 @@ def read_inp(path: Path) -> Geometry:
     shells = {} if solids else {n: e for n, e in content.elements.items() if SHELLS.match(e[0])}
     used = solids or shells
     nodes = [rows[node] for _, numbers, _ in content.elements.values() for node in numbers if node in rows]
-    notices = _left_out(content, used, bool(solids)) + unused_points(len(rows), np.array(nodes, dtype=np.int64))
+    left_out = (kind for number, (kind, _, _) in content.elements.items() if number not in used)
+    notices = cells_left_out(left_out, bool(solids)) + unused_points(len(rows), np.array(nodes, dtype=np.int64))
     try:
         if solids:
             cells, order = _solids(solids, rows, points)
@@ -284,17 +292,3 @@ def _surfaces(
         owners.append(names.get(number, ""))
     surfaces, present = surfaces_by_label(points, faces, owners)
     return Geometry(surfaces, notices, tuple(present) if any(present) else ())
-
-
-def _left_out(
-    content: _Content, used: dict[int, tuple[str, list[int], str]], beside_solids: bool
-) -> tuple[Notice, ...]:
-    counts: dict[str, int] = {}
-    for number, (kind, _, _) in content.elements.items():
-        if number not in used:
-            counts[kind] = counts.get(kind, 0) + 1
-    if not counts:
-        return ()
-    words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
-    reason = "beside volume cells only those are blocks" if beside_solids else "these cells are not blocks"
-    return (Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}"),)

@@ -20,14 +20,13 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, unused_points
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, cells_left_out, check_rows, unused_points
 from mbla.model.geometry.meshio_guards import (
     CELLS,
     VARIABLE,
     announced_in_vtu,
     checked_cells,
-    counts_of,
-    refuse_other_counts,
+    refuse_other_count,
     refuse_other_faces,
     refuse_other_sections,
 )
@@ -58,14 +57,13 @@ def read_vtu(path: Path) -> Geometry:
     GeometryFileError
         for malformed files, and those that announce far more than their size can hold
     """
-    announced = announced_in_vtu(path)
-    if announced.points * BYTES_OF_A_POINT > MOST_PACKED * path.stat().st_size:
-        words = (
-            f"announces {announced.points:,} points, far more than its size can hold: damaged or packed; export it anew"
-        )
+    points, cells = announced_in_vtu(path)
+    if points * BYTES_OF_A_POINT > MOST_PACKED * path.stat().st_size:
+        words = f"announces {points:,} points, far more than its size can hold: damaged or packed; export it anew"
         raise GeometryFileError("geometry-too-large", words)
     geometry, mesh = _read(str(path), "vtu")
-    refuse_other_counts(WORDS["vtu"], announced, counts_of(mesh))
+    refuse_other_count("VTU", "point", points, len(mesh.points))
+    refuse_other_count("VTU", "cell", cells, sum(len(block.data) for block in mesh.cells))
     return geometry
 
 
@@ -91,13 +89,14 @@ def _read(path: str, file_format: str) -> tuple[Geometry, Any]:
     ]
     surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
     used = volumes or surfaces
-    left_out = [block for block in mesh.cells if not any(block is other for other in used)]
-    notices = [*remarks, *_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
+    others = [block for block in mesh.cells if not any(block is other for other in used) and block.type != "vertex"]
+    left_out = (block.type for block in others for _ in range(len(block.data)))  # single points are not worth a word
+    notices = [*remarks, *cells_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
         return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True), mesh
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
-    _check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), points)
+    check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), len(points))
     names = _physical_groups(mesh, surfaces)
     surface, present = surfaces_by_label(points, faces, names or ("",) * len(faces))
     return Geometry(surface, tuple(notices), tuple(present) if names else ()), mesh
@@ -195,7 +194,7 @@ def _volume_cells(points: FloatArray, block: Any) -> Polyhedra:
     if rows.ndim != 2 or rows.shape[1] < count:
         raise GeometryFileError("geometry-file", f"a cell of type {block.type} has fewer than {count} points")
     rows = rows[:, :count]
-    _check_rows(rows, points)
+    check_rows(rows, len(points))
     return polyhedra_from_cells(points[rows], faces)
 
 
@@ -205,7 +204,7 @@ def _polyhedron_cells(points: FloatArray, cells: Any) -> Polyhedra:
     block = np.repeat(np.arange(len(cells)), [len(cell) for cell in cells])
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.concatenate(faces)
-    _check_rows(corners, points)
+    check_rows(corners, len(points))
     return own_vertices(points, corners, starts(counts), block)
 
 
@@ -213,26 +212,6 @@ def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
     rows = np.asarray(block.data, dtype=np.int64)
     count = SURFACE_CELLS.get(_shape(block.type), 0)
     yield from (rows[:, :count] if count else rows).tolist()
-
-
-def _check_rows(rows: np.typing.NDArray[np.int64], points: FloatArray) -> None:
-    if rows.size and not (rows.min() >= 0 and rows.max() < len(points)):
-        wrong = rows[(rows < 0) | (rows >= len(points))].flat[0]
-        words = f"a cell names point {wrong}, which does not exist; there are {len(points)}, from 0 on"
-        raise GeometryFileError("geometry-file", words)
-
-
-def _left_out(blocks: Sequence[Any], beside_volumes: bool) -> list[Notice]:
-    """What becomes no block, in words; single points are not worth any."""
-    counts: dict[str, int] = {}
-    for block in blocks:
-        if block.type != "vertex":
-            counts[block.type] = counts.get(block.type, 0) + len(block.data)
-    if not counts:
-        return []
-    words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
-    reason = "beside volume cells only those are blocks" if beside_volumes else "these cells are not blocks"
-    return [Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}")]
 
 
 def write_mesh(

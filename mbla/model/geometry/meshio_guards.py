@@ -10,9 +10,7 @@ Source: VTK file formats, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -99,27 +97,14 @@ DIGITS = 18
 """most of a number that is looked at: Python itself reads none of more than 4,300"""
 
 
-@dataclass(frozen=True)
-class Counts:
-    """Numbers of points and cells."""
-
-    points: int
-    cells: int
-
-
-def counts_of(mesh: Any) -> Counts:
-    """What meshio has read."""
-    return Counts(len(mesh.points), sum(len(block.data) for block in mesh.cells))
-
-
-def announced_in_vtu(path: Path) -> Counts:
-    """What all pieces of a VTU file announce."""
+def announced_in_vtu(path: Path) -> tuple[int, int]:
+    """Numbers of points and of cells that all pieces of a VTU file announce."""
     pieces = re.findall(rb"<Piece\b[^>]*>", path.read_bytes())
     points, cells = (
         sum(_number(text, "VTU") for piece in pieces for text in re.findall(name + rb"\s*=\s*[\"'](-?\d+)", piece))
         for name in (b"NumberOfPoints", b"NumberOfCells")
     )
-    return Counts(points, cells)
+    return points, cells
 
 
 def _number(text: bytes, words: str) -> int:
@@ -129,11 +114,10 @@ def _number(text: bytes, words: str) -> int:
     return int(text)
 
 
-def refuse_other_counts(words: str, announced: Counts, read: Counts) -> None:
+def refuse_other_count(words: str, noun: str, announced: int, read: int) -> None:
     """GeometryFileError where not all was read that is announced."""
-    for noun, one, other in (("point", announced.points, read.points), ("cell", announced.cells, read.cells)):
-        if one != other:
-            raise malformed(words, f"it announces {counted(one, noun)}, {other} can be read")
+    if announced != read:
+        raise malformed(words, f"it announces {counted(announced, noun)}, {read} can be read")
 
 
 def refuse_other_sections(path: Path) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import starts
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed, unused_points
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, check_rows, malformed, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.wording import counted
 
@@ -65,10 +65,7 @@ def read_ply(path: Path) -> Geometry:
     points, faces = _points(found.get("vertex", {})), _faces(found.get("face"))
     counts = np.array([len(face) for face in faces], dtype=np.int64)
     corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
-    wrong = corners[(corners < 0) | (corners >= len(points))]
-    if len(wrong):
-        words = f"a cell names point {wrong[0]}, which does not exist; there are {len(points)}, from 0 on"
-        raise GeometryFileError("geometry-file", words)
+    check_rows(corners, len(points))
     surface = own_vertices(points, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))
     return Geometry(surface, unused_points(len(points), corners))
 

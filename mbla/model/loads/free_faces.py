@@ -1,34 +1,32 @@
 """Which parts of faces are free, and which lie against another block or on the ground.
 
-Each face becomes a set of signed triangles, a fan from its first corner: their sum is the face, whatever its shape.
-What another block covers of it are the common parts of its triangles with those of the face that lies against it, with
-the product of the signs, taken away. As blocks do not overlap, nothing is taken away twice.
+Each face is a polygon in coordinates of its own plane. The faces of other blocks that lie against it are taken away
+from it; what is left is told by its rings, holes among them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import intersections, meeting_boxes, plane_axes, signed_areas
+from mbla.model.solids.plane import meeting_boxes, plane_axes, signed_areas
 from mbla.model.solids.ragged import items_of_rows, row_maxima
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""
-BARELY = 1e-9
-"""share of a face below which a common part is the rounding of a shared edge"""
 
 
 @dataclass(frozen=True)
 class FaceParts:
     """Loops whose signed integrals add up to what is loaded.
 
-    loops : (n, k, 3) corners on the planes of their faces; signs +1 as the face is seen from outside, -1 taken away
-    signs : (n,)
+    loops : (n, k, 3) corners on the planes of their faces, the last one repeated where there are fewer
+    signs : (n,) that make areas of outlines positive as the face is seen from outside, and those of holes negative
     faces : (n,) position of the face in the list asked for
     areas : (n_faces,) area of each face; covered : (n_faces,) the part of it that other blocks and grounds cover
     """
@@ -47,54 +45,52 @@ class _Frames:
     origins: FloatArray
     axes: FloatArray
 
-    def flat(self, rows: IntArray, points: FloatArray) -> FloatArray:
-        """Plane coordinates, (n, k, 2) from (n, k, 3)."""
-        return np.asarray(np.einsum("nkj,nij->nki", points - self.origins[rows, None], self.axes[rows]))
+    def polygons(self, rows: IntArray, faces: IntArray, blocks: Blocks) -> Any:
+        """Faces (n,) as polygons, (n,), each in the plane of one of the frames."""
+        import shapely
 
-    def back(self, rows: IntArray, flat: FloatArray) -> FloatArray:
-        """Points on the planes, (n, k, 3) from (n, k, 2)."""
-        return np.asarray(np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None])
+        ring = np.repeat(np.arange(len(faces)), np.diff(blocks.loop_start)[faces])
+        points = blocks.vertices[blocks.loops[items_of_rows(blocks.loop_start, faces)]]
+        flat = np.einsum("nj,nij->ni", points - self.origins[rows][ring], self.axes[rows][ring])
+        found = np.atleast_1d(shapely.polygons(shapely.linearrings(flat, indices=ring)))
+        return np.where(shapely.is_valid(found), found, shapely.make_valid(found))
+
+    def loops(self, polygons: Any) -> tuple[FloatArray, FloatArray, IntArray]:
+        """Rings of polygons (n,), one for each frame: corners (m, k, 3), signs (m,), and their polygons (m,)."""
+        import shapely
+
+        parts, owner = shapely.get_parts(polygons, return_index=True)
+        rings, part = shapely.get_rings(parts, return_index=True)
+        points, ring = shapely.get_coordinates(rings, return_index=True)
+        if not len(rings):
+            return np.zeros((0, 3, 3)), np.zeros(0), np.zeros(0, dtype=np.int64)
+        start = starts(np.bincount(ring, minlength=len(rings)))
+        width = np.arange(np.diff(start).max())
+        flat = points[np.minimum(start[:-1, None] + width, start[1:, None] - 1)]
+        turns = np.sign(signed_areas(flat))
+        rows = owner[part].astype(np.int64)
+        corners = np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None]
+        return corners, np.where(np.diff(part, prepend=-1) != 0, turns, -turns), rows
 
 
 def face_parts(
     faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float, free_only: bool
 ) -> FaceParts:
     """The faces (n,), or what of them is free; ``tolerance`` relative to block size, as that of contacts."""
-    frames = _frames(faces, blocks)
-    row, fan = _fan(faces, blocks)
-    flat = frames.flat(row, fan)
-    areas: FloatArray = np.bincount(row, signed_areas(flat), len(faces)).astype(np.float64)
-    loops, signs, owner = frames.back(row, flat), np.ones(len(row)), row
-    covered: FloatArray = np.zeros(len(faces))
+    import shapely
+
+    frames = _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
+    polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
+    areas = left = np.asarray(shapely.area(polygons))
     if free_only:
-        grounded = _on_ground(faces, blocks, grounds, tolerance)
-        taken_loops, taken_signs, taken_owner = _covers(faces, frames, row, flat, blocks, tolerance)
-        lost = taken_signs * signed_areas(taken_loops)
-        covered = np.bincount(taken_owner, lost, len(faces)).astype(np.float64)
-        covered[grounded] = areas[grounded]
-        free = covered < areas * (1.0 - 2.0 * tolerance)  # what is left beside is the rounding of outlines
-        used = free[taken_owner] & (np.abs(lost) > BARELY * areas[taken_owner])
-        flat_taken = frames.back(taken_owner[used], taken_loops[used])
-        padded = np.concatenate([loops, np.repeat(loops[:, -1:], flat_taken.shape[1] - 3, axis=1)], axis=1)
-        loops = np.concatenate([padded[free[row]], flat_taken])
-        signs = np.concatenate([signs[free[row]], -taken_signs[used]])
-        owner = np.concatenate([owner[free[row]], taken_owner[used]])
-        covered = np.asarray(np.where(free, covered, areas), dtype=np.float64)
-    return FaceParts(loops, signs, owner, areas, covered)
-
-
-def _frames(faces: IntArray, blocks: Blocks) -> _Frames:
-    origins = blocks.vertices[blocks.loops[blocks.loop_start[faces]]]
-    return _Frames(origins, plane_axes(blocks.face_normals[faces]))
-
-
-def _fan(faces: IntArray, blocks: Blocks) -> tuple[IntArray, FloatArray]:
-    """Triangles from the first corner of each face: their faces, as positions in ``faces``, and corners, (n, 3, 3)."""
-    corners = blocks.loop_start[faces + 1] - blocks.loop_start[faces]
-    row = np.repeat(np.arange(len(faces)), corners - 2)
-    position = np.arange(len(row)) - np.repeat(np.cumsum(corners - 2) - (corners - 2), corners - 2)
-    first = blocks.loop_start[faces][row]
-    return row, blocks.vertices[blocks.loops[np.stack([first, first + position + 1, first + position + 2], axis=1)]]
+        mine, others = _facing_pairs(faces, blocks, tolerance)
+        groups = np.split(frames.polygons(mine, others, blocks), np.flatnonzero(np.diff(mine)) + 1)
+        for row, against in zip(np.unique(mine).tolist(), groups, strict=False):
+            polygons[row] = shapely.difference(polygons[row], shapely.union_all(against))
+        left = np.where(_on_ground(faces, blocks, grounds, tolerance), 0.0, shapely.area(polygons))
+        left[left <= 2.0 * tolerance * areas] = 0.0  # what is left beside is the rounding of outlines
+        polygons[left == 0.0] = shapely.Polygon()
+    return FaceParts(*frames.loops(polygons), areas, areas - left)
 
 
 def _on_ground(faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float) -> BoolArray:
@@ -102,35 +98,13 @@ def _on_ground(faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tol
     found = np.zeros(len(faces), dtype=bool)
     owner = blocks.block_of_face[faces]
     corners = items_of_rows(blocks.loop_start, faces)
-    start = np.append(0, np.cumsum(blocks.loop_start[faces + 1] - blocks.loop_start[faces]))
+    start = starts(np.diff(blocks.loop_start)[faces])
     for ground in grounds:
         heights = np.abs((blocks.vertices[blocks.loops[corners]] - ground.point) @ ground.normal)
         on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
         on &= blocks.face_normals[faces] @ ground.normal <= -FACING
         found |= on if ground.blocks is None else on & np.isin(owner, ground.blocks)
     return found
-
-
-def _covers(
-    faces: IntArray, frames: _Frames, row: IntArray, flat: FloatArray, blocks: Blocks, tolerance: float
-) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Common parts with faces of other blocks: loops on the plane of the covered face, signs, covered faces."""
-    mine, others = _facing_pairs(faces, blocks, tolerance)
-    partners, other_row = np.unique(others, return_inverse=True)
-    fan_row, fan = _fan(partners, blocks)
-    # every triangle of the one face with every triangle of the other
-    counts, fan_counts = np.bincount(row, minlength=len(faces)), np.bincount(fan_row, minlength=len(partners))
-    of_mine = items_of_rows(np.append(0, np.cumsum(counts)), mine)
-    pair = np.repeat(np.arange(len(mine)), counts[mine])
-    of_other = items_of_rows(np.append(0, np.cumsum(fan_counts)), other_row[pair])
-    repeat = np.repeat(np.arange(len(pair)), fan_counts[other_row[pair]])
-    own = mine[pair[repeat]]
-    a, b = flat[of_mine[repeat]], frames.flat(own, fan[of_other])
-    turn_b = np.sign(signed_areas(b))
-    b = np.where((turn_b < 0)[:, None, None], b[:, ::-1], b)
-    # the other face is seen from behind: a fan triangle that adds to it turns clockwise here
-    loops = intersections(a, b)
-    return loops, -turn_b, own
 
 
 def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float) -> tuple[IntArray, IntArray]:

@@ -175,12 +175,11 @@ def volumes_and_centroids(polyhedra: Polyhedra) -> tuple[FloatArray, FloatArray]
     return volumes, polyhedra.origins + centroids
 
 
-LARGE = 20_000
-"""products faces x vertices above which a polyhedron is compared by itself, with a matrix product"""
-HUGE = 20_000_000
-"""products above which not every vertex is compared with every face: of a million triangles that would take hours"""
+LARGE = 2_000_000
+"""products faces x vertices above which not every vertex is compared with every face: of a million triangles that would
+take hours"""
 SHARE = 0.01
-"""part of what is allowed by which the comparison of huge polyhedra may miss it"""
+"""part of what is allowed by which the comparison of large polyhedra may miss it"""
 AT_ONCE = 2_000_000
 """products held in memory together"""
 
@@ -200,8 +199,7 @@ def find_convex(polyhedra: Polyhedra, faces: FaceGeometry, allowed: FloatArray) 
     for block in np.flatnonzero(products > LARGE):
         vertices = polyhedra.local_vertices[polyhedra.vertex_start[block] : polyhedra.vertex_start[block + 1]]
         rows = slice(polyhedra.face_start[block], polyhedra.face_start[block + 1])
-        compare = _all_behind if products[block] <= HUGE else _none_ahead
-        convex[block] = compare(vertices, faces.centres[rows], faces.normals[rows], float(allowed[block]))
+        convex[block] = _none_ahead(vertices, faces.centres[rows], faces.normals[rows], float(allowed[block]))
     return convex
 
 
@@ -218,19 +216,8 @@ def _greatest_lead(polyhedra: Polyhedra, faces: FaceGeometry, blocks: IntArray) 
     return np.asarray(np.maximum.reduceat(leads, np.cumsum(products) - products), dtype=np.float64)
 
 
-def _all_behind(vertices: FloatArray, centres: FloatArray, normals: FloatArray, allowed: float) -> bool:
-    """Same for one large polyhedron; stops at the first slab of faces that a vertex leads."""
-    offsets = np.einsum("ij,ij->i", centres, normals)
-    slab = max(AT_ONCE // len(vertices), 1)
-    for first in range(0, len(normals), slab):
-        rows = slice(first, first + slab)
-        if ((vertices @ normals[rows].T) - offsets[rows]).max() > allowed:
-            return False
-    return True
-
-
 def _none_ahead(vertices: FloatArray, centres: FloatArray, normals: FloatArray, allowed: float) -> bool:
-    """Same for one huge polyhedron: no vertex in a great ball that rests on each face, ``allowed`` above it.
+    """Whether one large polyhedron is convex: no vertex in a great ball that rests on each face, ``allowed`` above it.
 
     A ball of radius r holds what leads by more than ``allowed`` + L²/2r at a distance L along the face; r makes that
     at most ``SHARE`` of ``allowed`` more across the whole polyhedron.

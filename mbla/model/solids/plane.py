@@ -52,20 +52,6 @@ def cut(loops: FloatArray, heights: FloatArray) -> FloatArray:
     return np.where(np.any(kept, axis=1, keepdims=True)[..., None], found, 0.0)
 
 
-def intersections(triangles: FloatArray, others: FloatArray) -> FloatArray:
-    """Common part of pairs of triangles in the plane, as loops, (n, 24, 2) from (n, 3, 2) each.
-
-    ``others`` turn counter-clockwise.
-    """
-    loops = triangles
-    for i in range(3):
-        a, b = others[:, i], others[:, (i + 1) % 3]
-        edge = b - a
-        to = loops - a[:, None]
-        loops = cut(loops, edge[:, None, 0] * to[..., 1] - edge[:, None, 1] * to[..., 0])
-    return loops
-
-
 def signed_areas(loops: FloatArray) -> FloatArray:
     """Signed areas of plane loops, (n,) from (n, k, 2)."""
     to = loops - loops[:, :1]

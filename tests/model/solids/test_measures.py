@@ -204,7 +204,7 @@ def test_dents_within_the_tolerance_do_not_count(dent: float, convex: bool) -> N
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
-def test_huge_polyhedra_are_judged_as_large_ones(monkeypatch: pytest.MonkeyPatch, scale: float) -> None:
+def test_large_polyhedra_are_judged_as_small_ones(monkeypatch: pytest.MonkeyPatch, scale: float) -> None:
     points = np.random.default_rng(0).normal(size=(400, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
     faces = ConvexHull(points).simplices.tolist()
@@ -213,15 +213,14 @@ def test_huge_polyhedra_are_judged_as_large_ones(monkeypatch: pytest.MonkeyPatch
         dented = points.copy()
         dented[7] *= 1 - dent
         shapes.append(moved((dented.tolist(), faces), scale * rotation(0)))
-    large = build(*shapes).blocks.convex.tolist()
-    assert set(large) == {True, False}
-    monkeypatch.setattr("mbla.model.solids.measures.HUGE", 0)
-    assert build(*shapes).blocks.convex.tolist() == large
+    small = build(*shapes).blocks.convex.tolist()
+    assert set(small) == {True, False}
+    monkeypatch.setattr("mbla.model.solids.measures.LARGE", 0)
+    assert build(*shapes).blocks.convex.tolist() == small
 
 
-def test_huge_polyhedra_are_not_called_convex_where_nothing_is_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_large_polyhedra_are_not_called_convex_where_nothing_is_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
     polyhedra = raw(box(), box())
     monkeypatch.setattr("mbla.model.solids.measures.LARGE", 0)
-    monkeypatch.setattr("mbla.model.solids.measures.HUGE", 0)
     convex = find_convex(polyhedra, face_geometry(polyhedra), np.array([0.0, 1e-3]))
     assert convex.tolist() == [False, True]
