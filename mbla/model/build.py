@@ -27,7 +27,7 @@ from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
-from mbla.model.solids.blocks import Blocks, distance_outside
+from mbla.model.solids.blocks import Blocks, carried_masses, distance_outside
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
@@ -217,7 +217,7 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
     fixed : (n_blocks,) blocks that do not move
     """
     blocks = roster.blocks
-    total, moment = np.zeros(len(blocks)), np.zeros((len(blocks), 3))
+    rows, shares, points = [np.empty(0, dtype=np.int64)], [np.empty(0)], [np.empty((0, 3))]
     for number, added in enumerate(masses):
         path: KeyPath = ("masses", number)
         chosen = select_blocks(added.on, (*path, "on"), roster)
@@ -227,10 +227,9 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
             message = f"applies to a mass on one block, {len(chosen)} are selected: give an index, or one mass for each"
             roster.refuse(Finding("one-block-only", message, *path, "at"))
             continue
-        shares = added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0)
-        arms = np.zeros((len(chosen), 3)) if added.at is None else np.array([added.at]) - blocks.centroids[chosen]
-        total[chosen] += shares
-        moment[chosen] += shares[:, None] * arms
+        rows.append(chosen)
+        shares.append(added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0))
+        points.append(blocks.centroids[chosen] if added.at is None else np.array([added.at]))
         if added.at is not None:
             off = distance_outside(np.array(added.at), int(chosen[0]), blocks)
             name = blocks.name(int(chosen[0]))
@@ -240,5 +239,5 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
         if fixed[chosen].all() and not fixed.all():
             words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
             roster.remark(Notice("warning", "mass-on-support", words))
-    arms = moment / np.where(total > 0.0, total, 1.0)[:, None]
-    return replace(blocks, added_masses=total, added_mass_points=blocks.centroids + arms)
+    masses, centres = carried_masses(blocks.centroids, *map(np.concatenate, (rows, shares, points)))
+    return replace(blocks, added_masses=masses, added_mass_points=centres)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
 from mbla.model.solids.ragged import items_of_rows
 
@@ -33,9 +33,7 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
     densities = _sums(blocks.volumes * blocks.densities, joined, count) / volumes
     # what stands alone keeps its numbers to the last digit
     centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
-    added = _sums(blocks.added_masses, joined, count)
-    arms = blocks.added_mass_points - centroids[joined]
-    arms = _sums(blocks.added_masses[:, None] * arms, joined, count) / np.where(added > 0.0, added, 1.0)[:, None]
+    added, centres = carried_masses(centroids, joined, blocks.added_masses, blocks.added_mass_points)
     labels = blocks.labels
     return Blocks(
         vertices=blocks.vertices[vertices],
@@ -50,7 +48,7 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
         centroids=centroids,
         densities=densities,
         added_masses=added,
-        added_mass_points=centroids + arms,
+        added_mass_points=centres,
         groups=tuple(blocks.groups[block] for block in first),
         group_indices=blocks.group_indices[first],
         labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),

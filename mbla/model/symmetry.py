@@ -27,7 +27,7 @@ from mbla.model.loads.load_kind import entries_of
 from mbla.model.model import Ground, LoadCase, Model, Settlement
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.settlement import with_reference
-from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
+from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
@@ -152,13 +152,10 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
 
 def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
     """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
-    masses, points = np.zeros(len(whole)), own.added_mass_points
-    moments = np.zeros((len(whole), 3))
-    for rows, places in ((np.arange(len(own)), points), (mirror.image_of, mirror.reflection.points(points))):
-        masses[rows] += own.added_masses
-        moments[rows] += own.added_masses[:, None] * (places - whole.centroids[rows])
-    arms = moments / np.where(masses > 0.0, masses, 1.0)[:, None]
-    return replace(whole, added_masses=masses, added_mass_points=whole.centroids + arms)
+    rows = np.concatenate([np.arange(len(own)), mirror.image_of])
+    points = np.concatenate([own.added_mass_points, mirror.reflection.points(own.added_mass_points)])
+    masses, centres = carried_masses(whole.centroids, rows, np.tile(own.added_masses, 2), points)
+    return replace(whole, added_masses=masses, added_mass_points=centres)
 
 
 def _labels(model: Model, others: IntArray) -> Labels:

@@ -8,6 +8,7 @@ abutments and the top of the spandrels, less the openings under the chords of th
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -41,16 +42,6 @@ from mbla.model.generators.spandrels import (
     course_pieces,
 )
 from mbla.model.solids.polyhedra import prisms
-
-
-@dataclass(frozen=True)
-class _Row:
-    """Blocks of one member of the bridge: polygons, extent across (n, 2), labels (n,)."""
-
-    member: str
-    polygons: list[FloatArray]
-    across: FloatArray
-    labels: dict[str, IntArray]
 
 
 @dataclass(frozen=True)
@@ -96,12 +87,15 @@ def generate_bridge(item: BridgeItem, site: Site) -> Generated:
         where voussoirs are too few or cross, or springing joints do not fit piers and abutments
     """
     frame = _frame(item)
-    rows = [*_arches(item, frame), *_supports(item, frame)]
+    parts = [*_arches(item, frame), *_supports(item, frame)]
     if item.spandrels != "none":
-        rows += _spandrels(item, frame)
-    return Generated(
-        tuple(Part(prisms(row.polygons, row.across), member=row.member, labels=row.labels) for row in rows)
-    )
+        parts += _spandrels(item, frame)
+    return Generated(tuple(parts))
+
+
+def _part(member: str, polygons: list[FloatArray], across: Sequence[float], labels: dict[str, IntArray]) -> Part:
+    """Blocks of one member of the bridge from their polygons; ``across`` are both their ends along y, labels (n,)."""
+    return Part(prisms(polygons, np.tile(across, (len(polygons), 1))), member=member, labels=labels)
 
 
 # --- arches and what carries them ---------------------------------------------------------------------------------
@@ -168,16 +162,16 @@ def _pier_springer(left: SpringingJoint, right: SpringingJoint) -> FloatArray | 
     return np.stack([left.intrados, right.intrados, right.extrados, left.extrados])
 
 
-def _arches(item: BridgeItem, frame: _Frame) -> list[_Row]:
+def _arches(item: BridgeItem, frame: _Frame) -> list[Part]:
     rows = []
     for span, section in enumerate(frame.sections):
         polygons, number, ring = voussoir_polygons(section)
         labels = {"span": np.full(len(polygons), span), "voussoir": number, "ring": ring}
-        rows.append(_Row("voussoir", polygons, _across(item, len(polygons)), labels))
+        rows.append(_part("voussoir", polygons, (0.0, item.width), labels))
     return rows
 
 
-def _supports(item: BridgeItem, frame: _Frame) -> list[_Row]:
+def _supports(item: BridgeItem, frame: _Frame) -> list[Part]:
     """Piers and abutments under the springings, course by course, and the springer blocks on them."""
     rows = []
     if item.piers is not None:
@@ -189,27 +183,22 @@ def _supports(item: BridgeItem, frame: _Frame) -> list[_Row]:
     springers = [springer for springer in frame.springers if springer is not None]
     if springers:
         labels = {"unit": np.arange(len(springers))}
-        rows.append(_Row("springer", springers, _across(item, len(springers)), labels))
+        rows.append(_part("springer", springers, (0.0, item.width), labels))
     return rows
 
 
-def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> _Row:
+def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> Part:
     stacks = [courses(left, right, -height, 0.0, count) for left, right in ends]
     polygons = [block for course in zip(*stacks, strict=True) for block in course]
     number = np.arange(len(polygons))
     labels = {"course": number // len(ends), "unit": number % len(ends)}
-    return _Row(member, polygons, _across(item, len(polygons)), labels)
-
-
-def _across(item: BridgeItem, count: int) -> FloatArray:
-    """Through the whole width, (count, 2)."""
-    return np.tile([0.0, item.width], (count, 1))
+    return _part(member, polygons, (0.0, item.width), labels)
 
 
 # --- masonry on the arches ----------------------------------------------------------------------------------------
 
 
-def _spandrels(item: BridgeItem, frame: _Frame) -> list[_Row]:
+def _spandrels(item: BridgeItem, frame: _Frame) -> list[Part]:
     assert item.unit is not None  # rules of the deck
     assert item.cover is not None
     outline = _outline(frame)
@@ -246,32 +235,29 @@ def _outline(frame: _Frame) -> Outline:
     return build_outline([np.array(left), *chains, np.array(right)])
 
 
-def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[_Row]:
+def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[Part]:
     """Through the whole width; or a wall along each face, and backing between them in the lowest courses."""
     if item.spandrel_thickness is None:
-        return [_Row("spandrel", polygons, _across(item, len(polygons)), labels)]
+        return [_part("spandrel", polygons, (0.0, item.width), labels)]
     near, far = item.spandrel_thickness, item.width - item.spandrel_thickness
     rows = [_along_both_faces(item, "spandrel", polygons, labels, item.spandrel_thickness)]
     filled = np.flatnonzero(labels["course"] < (item.backing or 0))
     if len(filled) and near < far:
-        between = np.tile([near, far], (len(filled), 1))
         chosen = {name: values[filled] for name, values in labels.items()}
-        rows.append(_Row("backing", [polygons[i] for i in filled.tolist()], between, chosen))
+        rows.append(_part("backing", [polygons[i] for i in filled.tolist()], (near, far), chosen))
     return rows
 
 
 def _along_both_faces(
     item: BridgeItem, member: str, polygons: list[FloatArray], labels: dict[str, IntArray], thickness: float
-) -> _Row:
+) -> Part:
     count = len(polygons)
-    across = np.concatenate(
-        [np.tile([0.0, thickness], (count, 1)), np.tile([item.width - thickness, item.width], (count, 1))]
-    )
+    across = np.repeat([[0.0, thickness], [item.width - thickness, item.width]], count, axis=0)
     both = {name: np.tile(values, 2) for name, values in labels.items()} | {"leaf": np.repeat([0, 1], count)}
-    return _Row(member, polygons * 2, across, both)
+    return Part(prisms(polygons * 2, across), member=member, labels=both)
 
 
-def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, course: int) -> _Row:
+def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, course: int) -> Part:
     """One course on both faces, in bond with the course under it."""
     assert item.parapets is not None
     height = item.parapets.height

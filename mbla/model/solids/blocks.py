@@ -125,6 +125,19 @@ def join_labels(parts: Sequence[BlockLabels]) -> BlockLabels:
     )
 
 
+def carried_masses(
+    centroids: FloatArray, rows: IntArray, masses: FloatArray, points: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Sums (n_blocks,) of masses (m,) at points (m, 3) that the blocks ``rows`` (m,) carry, and their centroids.
+
+    centroids : (n_blocks, 3) of the blocks, that of the mass where a block carries none
+    """
+    total, moments = np.zeros(len(centroids)), np.zeros((len(centroids), 3))
+    np.add.at(total, rows, masses)
+    np.add.at(moments, rows, masses[:, None] * (points - centroids[rows]))
+    return total, centroids + moments / np.where(total > 0.0, total, 1.0)[:, None]
+
+
 OUTSIDE = 0.01
 """distance of a point from the bounding box of its block, relative to the diagonal, from which it is remarked on"""
 
