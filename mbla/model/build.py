@@ -239,5 +239,7 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
         if fixed[chosen].all() and not fixed.all():
             words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
             roster.remark(Notice("warning", "mass-on-support", words))
-    masses, centres = carried_masses(blocks.centroids, *map(np.concatenate, (rows, shares, points)))
-    return replace(blocks, added_masses=masses, added_mass_points=centres)
+    total, centres = carried_masses(
+        blocks.centroids, np.concatenate(rows), np.concatenate(shares), np.concatenate(points)
+    )
+    return replace(blocks, added_masses=total, added_mass_points=centres)

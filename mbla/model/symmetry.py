@@ -260,8 +260,9 @@ class Mirror:
 
     def motions(self, values: FloatArray) -> FloatArray:
         """Images of velocities and angular velocities, or of forces and moments, in the second axis of (n, 6, ...)."""
-        matrix = self.reflection.matrix
-        return np.einsum("ij,nj...->ni...", np.block([[matrix, np.zeros((3, 3))], [np.zeros((3, 3)), -matrix]]), values)
+        matrix, none = self.reflection.matrix, np.zeros((3, 3))
+        both = np.block([[matrix, none], [none, -matrix]])
+        return np.asarray(np.einsum("ij,nj...->ni...", both, values))
 
 
 def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> Mirror:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.masonry import Buttress, Gable, Masonry
+from mbla.deck.items.masonry import Buttress, Gable, Masonry, Opening
 from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
@@ -43,41 +43,9 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
         for openings off the bed joints, lintels and arches without support, buttresses across openings, or where
         nothing is left of the wall
     """
-    findings: list[Finding] = []
-    openings = []
-    for number, opening in enumerate(item.openings):
-        found = list(check_opening(item, opening, site.tolerance))
-        findings += [each.below("openings", number) for each in found]
-        if not found:
-            openings.append(place_opening(item, number, opening))
-    buttresses = [place_buttress(item, number, buttress) for number, buttress in enumerate(item.buttresses)]
-    findings += check_spans(openings, item.length, item)
-    findings += check_buttresses(buttresses, openings, item)
-    if findings:
-        raise ItemRefused(*findings)
-    passages = tuple(placed.passage for placed in buttresses if placed.buttress.bonded)
-    leg = Leg(
-        item=item,
-        origin=np.zeros(2),
-        along=np.array([1.0, 0.0]),
-        length=item.length,
-        levels=random_levels(item, fixed_levels(openings, buttresses)),
-        level_courses=item.courses,
-        voids=tuple(void for opening in openings for void in opening.voids),
-        passages=passages,
-        fitted=bool(passages),
-    )
-    return Generated(tuple(parts_of([Wall(with_gable(leg, item.gable), openings, buttresses)], numbered=False)))
-
-
-@dataclass(frozen=True)
-class _Placed:
-    """A wall of the plan with what belongs to it, and the walls that it shares squares with, by number."""
-
-    line: Line
-    openings: list[PlacedOpening]
-    buttresses: list[PlacedButtress]
-    meets: tuple[tuple[int, Passage], ...]
+    thickness = item.leaves * item.unit[1]
+    line = Line(np.zeros(2), np.array([1.0, 0.0]), item.length, 0.0, 0.0, 0.0, thickness, ())
+    return _generate(item, [line], {} if item.gable is None else {0: item.gable}, site)
 
 
 def amount_walls(item: WallsItem) -> Amount:
@@ -95,82 +63,86 @@ def generate_walls(item: WallsItem, site: Site) -> Generated:
         for walls that meet in part or lie on each other, openings off the bed joints or in corners, lintels and arches
         without support, buttresses across openings, gables that meet
     """
-    lines = lines_of(item)
-    _check_each(item, lines, site.tolerance)
-    meets = passages_of(lines, item.courses)
-    placed = [_place(item, number, line, meets[number]) for number, line in enumerate(lines)]
-    _check_together(item, placed, meets)
-    return Generated(tuple(parts_of(_walls(item, placed), numbered=True)))
+    return _generate(item, lines_of(item), {gable.segment: gable for gable in item.gables}, site)
 
 
-def _check_each(item: WallsItem, lines: Sequence[Line], tolerance: float) -> None:
-    """Refuse what is wrong with the plan, or with an opening by itself."""
-    findings: list[Finding] = list(check_plan(lines))
-    for number, opening in enumerate(item.openings):
-        findings += [found.below("openings", number) for found in check_opening(item, opening, tolerance)]
-    if findings:
+@dataclass(frozen=True)
+class _Wall:
+    """A wall along a line with what belongs to it, and the walls that it shares squares with, by number."""
+
+    line: Line
+    openings: list[PlacedOpening]
+    buttresses: list[PlacedButtress]
+    meets: tuple[tuple[int, Passage], ...]
+
+
+def _generate(item: WallItem | WallsItem, lines: Sequence[Line], gables: Mapping[int, Gable], site: Site) -> Generated:
+    """Blocks of walls along lines, with gables by the number of their wall."""
+    plan = isinstance(item, WallsItem)
+    if findings := list(check_plan(lines)):
         raise ItemRefused(*findings)
-
-
-def _check_together(
-    item: WallsItem, placed: Sequence[_Placed], meets: Sequence[tuple[tuple[int, Passage], ...]]
-) -> None:
-    """Refuse what is wrong with openings, buttresses and gables in their places along the walls."""
-    findings: list[Finding] = []
-    for wall in placed:
+    sound: list[tuple[int, int, Opening]] = []
+    for number, opening in enumerate(item.openings):
+        found = [each.below("openings", number) for each in check_opening(item, opening, site.tolerance)]
+        findings += found
+        sound += [] if found else [(number, getattr(opening, "segment", 0), opening)]
+    against = [(n, getattr(each, "segment", 0), each) for n, each in enumerate(item.buttresses)]
+    meets = passages_of(lines, item.courses)
+    walls = [
+        _Wall(
+            line,
+            [place_opening(item, n, opening, line.before) for n, segment, opening in sound if segment == number],
+            [place_buttress(item, n, buttress, line.before) for n, segment, buttress in against if segment == number],
+            meets[number],
+        )
+        for number, line in enumerate(lines)
+    ]
+    for wall in walls:
         findings += check_spans(wall.openings, wall.line.whole_length, item)
         findings += check_buttresses(wall.buttresses, wall.openings, item)
         findings += _check_meetings(item, wall)
-    findings += _check_gables(item, meets)
+    if isinstance(item, WallsItem):
+        findings += _check_gables(item, meets)
     if findings:
         raise ItemRefused(*findings)
+    levels = random_levels(item, _fixed_levels(walls))
+    legs = [_leg(item, number, wall, levels, gables.get(number), plan) for number, wall in enumerate(walls)]
+    return Generated(tuple(_parts(walls, legs, numbered=plan)))
 
 
-def _walls(item: WallsItem, placed: Sequence[_Placed]) -> list[Wall]:
-    """Walls with their legs, which share their bed joints."""
-    levels = random_levels(item, [level for wall in placed for level in fixed_levels(wall.openings, wall.buttresses)])
-    walls = []
-    for number, wall in enumerate(placed):
-        leg = Leg(
-            item=item,
-            origin=wall.line.origin,
-            along=wall.line.along,
-            length=wall.line.whole_length,
-            levels=levels,
-            level_courses=item.courses,
-            voids=tuple(void for opening in wall.openings for void in opening.voids),
-            passages=_passages(wall),
-            swapped=not wall.line.along_x,
-            fitted=True,
-            number=number,
-        )
-        gable = next((gable for gable in item.gables if gable.segment == number), None)
-        walls.append(Wall(with_gable(leg, gable, wall.line.before), wall.openings, wall.buttresses))
-    return walls
+def _fixed_levels(walls: Sequence[_Wall]) -> list[int]:
+    """Bed joints that random heights of courses leave where they are."""
+    voids = [void for wall in walls for opening in wall.openings for void in opening.voids]
+    found = [level for void in voids for level in (void.bottom, void.top)]
+    return found + [buttress.courses for wall in walls for buttress in wall.buttresses]
 
 
-def _place(item: WallsItem, number: int, line: Line, meets: tuple[tuple[int, Passage], ...]) -> _Placed:
-    openings = [
-        place_opening(item, n, opening, line.before)
-        for n, opening in enumerate(item.openings)
-        if opening.segment == number
-    ]
-    buttresses = [
-        place_buttress(item, n, buttress, line.before)
-        for n, buttress in enumerate(item.buttresses)
-        if buttress.segment == number
-    ]
-    return _Placed(line, openings, buttresses, meets)
+def _leg(item: Masonry, number: int, wall: _Wall, levels: FloatArray, gable: Gable | None, plan: bool) -> Leg:
+    """How a wall is laid; where it meets others, or is of a plan, remainders are joined to the next unit."""
+    line = wall.line
+    passages = [passage for _, passage in wall.meets]
+    passages += [placed.passage for placed in wall.buttresses if placed.buttress.bonded]
+    leg = Leg(
+        item=item,
+        origin=line.origin,
+        along=line.along,
+        length=line.whole_length,
+        levels=levels,
+        level_courses=item.courses,
+        voids=tuple(void for opening in wall.openings for void in opening.voids),
+        passages=tuple(sorted(passages, key=lambda passage: passage.left)),
+        swapped=not line.along_x,
+        fitted=plan or bool(passages),
+        number=number,
+    )
+    if gable is None:
+        return leg
+    apex = leg.length / 2 if gable.apex is None else gable.apex + line.before
+    slopes = Slopes(0.0, leg.length, apex, float(levels[-1]), gable.rise)
+    return replace(leg, slopes=slopes, levels=levels_with_top(levels, gable.rise, item.unit[2]))
 
 
-def _passages(wall: _Placed) -> tuple[Passage, ...]:
-    """Walls and buttresses that run through a wall in every other course, along it."""
-    found = [passage for _, passage in wall.meets]
-    found += [placed.passage for placed in wall.buttresses if placed.buttress.bonded]
-    return tuple(sorted(found, key=lambda passage: passage.left))
-
-
-def _check_meetings(item: WallsItem, wall: _Placed) -> Iterator[Finding]:
+def _check_meetings(item: Masonry, wall: _Wall) -> Iterator[Finding]:
     """Openings and bonded buttresses keep off the squares that walls share; key paths below the item."""
     room = NO_UNIT * item.unit[0]
     for other, passage in wall.meets:
@@ -193,15 +165,6 @@ def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ..
             yield Finding("wall-shape", "meets a wall that has a gable too", "gables", n, "segment")
 
 
-@dataclass(frozen=True)
-class Wall:
-    """A straight wall with what belongs to it."""
-
-    leg: Leg
-    openings: Sequence[PlacedOpening]
-    buttresses: Sequence[PlacedButtress]
-
-
 def amount_of_units(
     item: Masonry, length: float, key: KeyPath, gables: Sequence[Gable], buttresses: Sequence[Buttress]
 ) -> Amount:
@@ -216,23 +179,7 @@ def amount_of_units(
     return Amount(courses * (along + across), key)
 
 
-def fixed_levels(openings: Iterable[PlacedOpening], buttresses: Iterable[PlacedButtress]) -> list[int]:
-    """Bed joints that random heights of courses leave where they are."""
-    found = [level for opening in openings for void in opening.voids for level in (void.bottom, void.top)]
-    return found + [buttress.courses for buttress in buttresses]
-
-
-def with_gable(leg: Leg, gable: Gable | None, shift: float = 0.0) -> Leg:
-    """The wall with a triangle on top; ``shift`` is from the start of its line to that of the wall."""
-    if gable is None:
-        return leg
-    apex = leg.length / 2 if gable.apex is None else gable.apex + shift
-    slopes = Slopes(0.0, leg.length, apex, float(leg.levels[-1]), gable.rise)
-    levels: FloatArray = levels_with_top(leg.levels, gable.rise, leg.item.unit[2])
-    return replace(leg, slopes=slopes, levels=levels)
-
-
-def parts_of(walls: Sequence[Wall], numbered: bool) -> Iterator[Part]:
+def _parts(walls: Sequence[_Wall], legs: Sequence[Leg], numbered: bool) -> Iterator[Part]:
     """Blocks of walls: the units of each, then what spans their openings, then the buttresses.
 
     numbered : whether blocks are labelled by the number of their wall
@@ -242,11 +189,12 @@ def parts_of(walls: Sequence[Wall], numbered: bool) -> Iterator[Part]:
     ItemRefused
         where openings leave nothing of the walls
     """
-    parts = [(units_of(wall.leg), wall.leg) for wall in walls]
+    parts = [(units_of(leg), leg) for leg in legs]
     if not any(len(part.polyhedra) for part, _ in parts):
         raise ItemRefused(Finding("wall-shape", "nothing is left of the wall", "openings"))
-    parts += [(part, wall.leg) for wall in walls for part in spans_of(wall.leg, wall.openings)]
-    parts += [(units_of(buttress_leg(wall.leg, placed)), wall.leg) for wall in walls for placed in wall.buttresses]
+    both = list(zip(walls, legs, strict=True))
+    parts += [(part, leg) for wall, leg in both for part in spans_of(leg, wall.openings)]
+    parts += [(units_of(buttress_leg(leg, placed)), leg) for wall, leg in both for placed in wall.buttresses]
     for part, leg in parts:
         if len(part.polyhedra):
             segment = {"segment": np.full(len(part.polyhedra), leg.number)} if numbered else {}
