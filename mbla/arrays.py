@@ -7,7 +7,7 @@ a ``start`` array of n + 1 offsets: the items of row i are ``flat[start[i]:start
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,13 @@ def starts(counts: IntArray) -> IntArray:
     start = np.zeros(len(counts) + 1, dtype=np.int64)
     np.cumsum(counts, out=start[1:])
     return start
+
+
+def summed(owner: IntArray, values: NDArray[Any], count: int) -> FloatArray:
+    """Sum of the values of each owner, (count, ...) from (n_values, ...)."""
+    total = np.zeros((count, *values.shape[1:]))
+    np.add.at(total, owner, values)
+    return total
 
 
 def row_of_item(start: IntArray) -> IntArray:

@@ -235,8 +235,13 @@ class Model:
         return np.flatnonzero(~self.fixed)
 
     @property
+    def weights(self) -> FloatArray:
+        """Of each block under standard gravity, 9.81 m/s2, added mass included, (n_blocks,) in the unit of force."""
+        return np.asarray(self.blocks.masses * self.units.standard_gravity * self.units.force_per_mass_acceleration)
+
+    @property
     def total_weight(self) -> float:
-        """Weight of all blocks under standard gravity, 9.81 m/s2, in the deck's unit of force."""
+        """Of all blocks, in the deck's unit of force."""
         return float(self.blocks.masses.sum() * self.units.standard_gravity * self.units.force_per_mass_acceleration)
 
     def body_name(self, body: int) -> str:

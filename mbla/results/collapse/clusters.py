@@ -29,7 +29,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions
@@ -136,7 +136,7 @@ class _Sums:
 
     def __init__(self, model: Model, parts: IntArray, motion: FloatArray, count: int) -> None:
         of_blocks = (*_block_sums(model, motion), model.blocks.volumes)
-        self.matrices, self.vectors, self.squares, self.volumes = (_by_part(parts, each, count) for each in of_blocks)
+        self.matrices, self.vectors, self.squares, self.volumes = (summed(parts, each, count) for each in of_blocks)
         self.left = _left_of(self.matrices, self.vectors, self.squares)
 
     def apart(self, first: int, second: int) -> float:
@@ -167,12 +167,6 @@ def _left_of(matrices: FloatArray, vectors: FloatArray, squares: FloatArray) -> 
     motions = np.linalg.solve(matrices[filled], vectors[filled, :, None])[:, :, 0]
     left[filled] = np.maximum(squares[filled] - (vectors[filled] * motions).sum(axis=1), 0.0)
     return left
-
-
-def _by_part(parts: IntArray, values: FloatArray, count: int) -> FloatArray:
-    total = np.zeros((count, *values.shape[1:]))
-    np.add.at(total, parts, values)
-    return total
 
 
 def _renumbered(parts: IntArray, owner: IntArray, model: Model) -> IntArray:

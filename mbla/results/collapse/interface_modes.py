@@ -25,7 +25,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.solution.solution import ContactMode, Mechanics
@@ -34,9 +34,7 @@ from mbla.solution.verification.statics import contact_velocities
 
 def sum_by_interface(contacts: Contacts, values: FloatArray | BoolArray) -> FloatArray:
     """Sum over the points of each interface, (n_interfaces, ...) from (n_points, ...)."""
-    total = np.zeros((len(contacts), *values.shape[1:]))
-    np.add.at(total, contacts.interface_of_point, values)
-    return total
+    return summed(contacts.interface_of_point, values, len(contacts))
 
 
 def largest_by_interface(contacts: Contacts, values: FloatArray) -> FloatArray:

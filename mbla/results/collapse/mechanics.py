@@ -224,7 +224,7 @@ def live_load_in_g(model: Model, load_case: LoadCase) -> float | None:
     loaded = np.any(load_case.live_load[:, :3] != 0, axis=1)
     if not loaded.any():
         return None
-    weights = model.blocks.masses[loaded] * model.units.standard_gravity * model.units.force_per_mass_acceleration
+    weights = model.weights[loaded]
     accelerations = load_case.live_load[loaded, :3] / weights[:, None]
     spread = np.abs(accelerations - accelerations[0]).max()
     size = float(np.linalg.norm(accelerations[0]))

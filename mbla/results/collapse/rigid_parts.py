@@ -14,7 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
@@ -98,7 +98,7 @@ def resting_blocks(model: Model, motion: FloatArray) -> BoolArray:
 def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[PartMotion, ...]:
     """How each part that moves does it, the heaviest first: the mean by volume of the motions of its blocks."""
     count = int(parts.max(initial=0)) + 1
-    blocks, units = model.blocks, model.units
+    blocks = model.blocks
     volume = _sums(parts, blocks.volumes, count)
     centroid = _sums(parts, blocks.volumes[:, None] * blocks.centroids, count) / volume[:, None]
     rotation = _sums(parts, blocks.volumes[:, None] * motion[:, 3:], count) / volume[:, None]
@@ -107,7 +107,7 @@ def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[Par
     velocity = _sums(parts, blocks.volumes[:, None] * there, count) / volume[:, None]
     radius = np.zeros(count)
     np.maximum.at(radius, parts, np.linalg.norm(arms, axis=1) + blocks.sizes / 2)
-    weight = _sums(parts, blocks.masses, count) * units.standard_gravity * units.force_per_mass_acceleration
+    weight = _sums(parts, model.weights, count)
     members = np.split(np.argsort(parts, kind="stable"), np.cumsum(np.bincount(parts, minlength=count))[:-1])
     turns, arms, directions = _axes(radius, velocity, rotation)
     return tuple(
@@ -128,8 +128,7 @@ def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[Par
 
 def _sums(parts: IntArray, values: FloatArray, count: int) -> FloatArray:
     """Sum over the blocks of each part; an empty part counts as one block of volume 1, to divide by."""
-    total = np.zeros((count, *values.shape[1:]))
-    np.add.at(total, parts, values)
+    total = summed(parts, values, count)
     return np.where((np.bincount(parts, minlength=count) == 0).reshape(-1, *[1] * (values.ndim - 1)), 1.0, total)
 
 

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import FloatArray, IntArray, row_of_item, starts, summed
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.resultants.shapes import local_points
@@ -93,14 +93,14 @@ def _use_of_points(contacts: Contacts, chosen: IntArray, shears: FloatArray, all
     owner = row_of_item(starts(sizes))
     point = contacts.point_start[chosen][owner] + np.arange(len(owner)) - starts(sizes)[owner]
     arms, forces, weights = local_points(contacts)[point], shears[point], allowed[point]
-    total = _summed(owner, weights, len(chosen))
-    centre = _summed(owner, weights[:, None] * arms, len(chosen)) / total[:, None]
+    total = summed(owner, weights, len(chosen))
+    centre = summed(owner, weights[:, None] * arms, len(chosen)) / total[:, None]
     arms = arms - centre[owner]  # about the centre of friction
-    length = _summed(owner, weights * np.linalg.norm(arms, axis=1), len(chosen)) / total
+    length = summed(owner, weights * np.linalg.norm(arms, axis=1), len(chosen)) / total
     spread = length > ROUNDING * interface_radii(contacts)[chosen]
     arms = arms / np.where(spread, length, 1.0)[owner, None]
-    force = _summed(owner, forces, len(chosen)) / total[:, None]
-    moment = _summed(owner, arms[:, 0] * forces[:, 1] - arms[:, 1] * forces[:, 0], len(chosen)) / total
+    force = summed(owner, forces, len(chosen)) / total[:, None]
+    moment = summed(owner, arms[:, 0] * forces[:, 1] - arms[:, 1] * forces[:, 0], len(chosen)) / total
     load = np.column_stack([force, moment])
     found = np.linalg.norm(force, axis=1)
     turned = np.flatnonzero((np.abs(moment) > CENTRED) & spread)
@@ -112,12 +112,6 @@ def _use_of_points(contacts: Contacts, chosen: IntArray, shears: FloatArray, all
         points = _Points(row[owner[inside]], arms[inside], shares)
         found[turned] = np.maximum(found[turned], _largest_ratio(points, load[turned]))
     return np.asarray(found)
-
-
-def _summed(owner: IntArray, values: FloatArray, count: int) -> FloatArray:
-    total = np.zeros((count, *values.shape[1:]))
-    np.add.at(total, owner, values)
-    return total
 
 
 class _Points:
@@ -137,12 +131,12 @@ class _Points:
     def ratio(self, loads: FloatArray, motions: FloatArray) -> FloatArray:
         """Power of the loads over the most that the points dissipate, (n,)."""
         power = np.einsum("ni,ni->n", loads, motions)
-        dissipated = _summed(self.owner, self.shares * self.speeds(motions), self.count)
+        dissipated = summed(self.owner, self.shares * self.speeds(motions), self.count)
         return np.asarray(np.abs(power) / np.maximum(dissipated, 1e-300))
 
     def balanced(self, loads: FloatArray, weights: FloatArray) -> FloatArray:
         """Motions, (n, 3) of length 1, in which forces weights × velocity of the points balance the loads."""
-        matrices = _summed(self.owner, weights[:, None, None] * self.maps.transpose(0, 2, 1) @ self.maps, self.count)
+        matrices = summed(self.owner, weights[:, None, None] * self.maps.transpose(0, 2, 1) @ self.maps, self.count)
         diagonal = np.einsum("nii->ni", matrices)
         ridge = (1e-13 * diagonal)[:, :, None] * np.eye(3)  # where all points but one rest there is little else
         matrices = matrices + ridge

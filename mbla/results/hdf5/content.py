@@ -17,7 +17,7 @@ from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.outcome import least_and_greatest
-from mbla.results.record.blocks import names_of, numbers_of, weights
+from mbla.results.record.blocks import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
@@ -146,7 +146,7 @@ def _model(model: Model) -> Content:
         "members": numbers_of(labels.members),
         "position_names": list(POSITIONS),
         "positions": labels.positions,
-        "weights": weights(model),
+        "weights": model.weights,
         "fixed": model.fixed,
         "joint_names": list(model.joints),
         **{name: [getattr(law, name) for law in model.joints.values()] for name in stored(Joint, "model")},

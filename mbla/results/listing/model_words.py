@@ -96,8 +96,7 @@ def _extents(model: Model) -> list[str]:
 
 
 def _group_table(model: Model) -> list[str]:
-    blocks, units = model.blocks, model.units
-    weights = blocks.masses * units.standard_gravity * units.force_per_mass_acceleration
+    blocks, units, weights = model.blocks, model.units, model.weights
     rows = []
     for name, chosen in _blocks_of_groups(model).items():
         least, most = blocks.densities[chosen].min(), blocks.densities[chosen].max()

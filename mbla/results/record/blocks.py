@@ -6,21 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.deck.sections.selectors import POSITIONS
-from mbla.model.model import Model
 from mbla.results.record.quantity import Quantity, flag, real, text, whole
 from mbla.results.record.scene import FIGURES, FIGURES_TOLD, Column, Scene, Values, as_text, column, figures, masked
 
 BLOCKS = "table blocks frames"
 """files of what an animation has too"""
 FIGURES_HERE = replace(FIGURES_TOLD, dims=("block",))
-
-
-def weights(model: Model) -> FloatArray:
-    """Of each block under standard gravity, added mass included, (n_blocks,) N."""
-    units = model.units
-    return np.asarray(model.blocks.masses * units.standard_gravity * units.force_per_mass_acceleration)
 
 
 def names_of(texts: tuple[str, ...]) -> list[str]:
@@ -103,7 +95,7 @@ BLOCK_COLUMNS: tuple[Column, ...] = (
     column("model/volumes", lambda scene: scene.model.blocks.volumes),
     column("model/densities", lambda scene: scene.model.blocks.densities),
     column("model/added_masses", lambda scene: scene.model.blocks.added_masses),
-    column("model/weights", lambda scene: weights(scene.model), "table blocks"),
+    column("model/weights", lambda scene: scene.model.weights, "table blocks"),
     column("model/fixed", lambda scene: scene.model.fixed, BLOCKS),
     column(
         _of_blocks(flag("guided", "1 where it moves in given ways only, as in a support that gives way", "block")),

@@ -144,7 +144,7 @@ def _reservation(case: CaseResult) -> str:
 def block_texts(model: Model, parts: IntArray | None) -> list[str]:
     """What the browser says of each block: name, position, weight, part; as HTML."""
     blocks, units = model.blocks, model.units
-    weights = (blocks.masses * units.standard_gravity * units.force_per_mass_acceleration).tolist()
+    weights = model.weights.tolist()
     known = [name for name in POSITIONS if (blocks.labels.position(name) >= 0).any()]
     columns = [blocks.labels.position(name).tolist() for name in known]
     texts = []
