@@ -28,9 +28,15 @@ REPLACED: Mapping[KeyPath, str] = {
 GONE: Mapping[KeyPath, str] = {
     ("analysis", "second_opinion"): "the proved bounds say how good the load factor is",
     ("analysis", "form"): "the associative program is solved in velocities",
+    ("analysis", "path"): "the load path is followed where a peak is looked for, and listed",
     ("analysis", "forces"): "contact forces of associative flow are those that prove its load factor from below",
 }
 """Keys of earlier versions that nothing replaces -> what holds without them"""
+GONE_CHOICES: Mapping[tuple[KeyPath, str], str] = {
+    (("analysis", "scheme"), "path"): "is not a scheme any more: use auto, which takes half the time; where a peak is "
+    "looked for the load path is followed and listed",
+}
+"""Choices of earlier versions: path of the key and its value -> what to write now"""
 WAS_A_MAPPING: Mapping[KeyPath, str] = {
     ("analysis", "reductions"): "is one switch now: write false in place of the mapping to leave nothing out",
 }
@@ -212,6 +218,8 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
     if kind in _TYPES:
         return _TYPES[kind].around(after=_remedy(kind, value)), is_key
     if kind == "literal_error":
+        if isinstance(value, str) and (path, value) in GONE_CHOICES:
+            return Message("replaced-key", GONE_CHOICES[path, value]), False
         allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
         hint = did_you_mean(value, allowed) if isinstance(value, str) and len(allowed) > 1 else ""
         return Message("unknown-choice", f"must be {listed(allowed)}{hint}"), False

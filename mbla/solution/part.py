@@ -367,12 +367,6 @@ def _lowest(program: Program, associative: AssociativeResult, settings: SolverSe
     return search_lower_factor(program, sequence, settings.analysis.lowest, settings, log)
 
 
-def _path(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    from mbla.solution.nonassociative.load_path import solve_path
-
-    return solve_path(program, associative, settings.analysis.path, settings, log)
-
-
 def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
     """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
     from mbla.solution.nonassociative.published import solve_published
@@ -403,7 +397,6 @@ SCHEMES: Mapping[str, Scheme] = {
     "auto": _auto,
     "proximal": _proximal,
     "interior": _interior,
-    "path": _path,
     "lowest": _lowest,
     "published": _published,
 }

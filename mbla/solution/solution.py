@@ -106,7 +106,7 @@ class StandingResult:
 
 @dataclass(frozen=True)
 class PathPoint:
-    """One step of a load path: load factor, contact points open and sliding, and how well the state fits the law."""
+    """One state of a load path: load factor, contact points open and sliding, greatest share of a load not carried."""
 
     step: int
     load_factor: float
@@ -171,7 +171,7 @@ class Solution:
     lock        : unbounded: (n_points, 3) contact forces that balance the live load alone, so that any multiple is
                   carried
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
-    path        : steps of the load path that was followed
+    path        : states of the load path that was followed
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was looked for
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each

@@ -125,10 +125,9 @@ def idle(*overrides: str) -> list[str]:
     ("key", "idle_with", "used_with"),
     [
         ("analysis.sides=6", "flow_rule=associative", "friction_cone=polyhedral"),
-        ("analysis.scheme=path", "flow_rule=associative", "flow_rule=non_associative"),
-        ("analysis.proximal.max_programs=9", "scheme=path", "scheme=proximal"),
+        ("analysis.scheme=interior", "flow_rule=associative", "flow_rule=non_associative"),
+        ("analysis.proximal.max_programs=9", "scheme=interior", "scheme=proximal"),
         ("analysis.interior.tries=2", "contact_model=convex", "scheme=interior"),
-        ("analysis.path.steps=9", "scheme=auto", "scheme=path"),
         ("analysis.lowest.seed=2", "scheme=auto", "scheme=lowest"),
         ("analysis.published.slope=0.01", "scheme=auto", "scheme=published"),
         ("analysis.gap=1e-5", "contact_model=convex", "contact_model=concave"),

@@ -182,7 +182,6 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
         (),
     ),
     "livesley": (STACK, ("analysis.flow_rule=livesley",)),
-    "path": (STACK, ("analysis.scheme=path",)),
     "force_ranges": (STACK, ("analysis.force_ranges=true",)),
     "polyhedral": (STACK, ("analysis.friction_cone=polyhedral", "analysis.flow_rule=associative")),
     "crushing": (STACK.replace("0.6}", "0.6, compressive_strength: 2.e+6}"), ("analysis.contact_model=convex",)),

@@ -17,7 +17,7 @@ from mbla.solution.associative.solve_associative import AssociativeResult, solve
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import livesley, locking
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
-from mbla.solution.nonassociative.joint_law import exact_step
+from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.nonassociative.locking import Boundedness, non_associative_bounded
@@ -61,7 +61,7 @@ def test_a_step_of_the_law_without_a_direction_stays(answer: float | None, monke
     anchor = np.ones((program.n_points, 3))
     found = None if answer is None else lambda rhs: np.full_like(rhs, answer)
     monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: found)
-    step = exact_step(stiffness, slope, anchor, 1e-2, np.zeros(6), 0.1, 10)
+    step = exact_step(LawProblem(stiffness, slope, anchor, 1e-2), np.zeros(6), 0.1, 10)
     assert not step.velocities.any()
     assert (step.load_factor, step.factorizations) == (0.1, 1)
     assert step.residual > 1e-3
@@ -99,7 +99,7 @@ def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.Mo
 @pytest.mark.parametrize("share", [None, -1.0], ids=["no step", "uphill"])
 def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
     problem, start = on_springs(), np.full(6, 1e-3)
-    limit = joints_at(problem, 1e-3, start, None).limit
+    limit = joints_at(problem, 1e-3, start).state.limit
     assert not np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
 
     def step(*arguments: object, lagged: bool) -> np.ndarray | None:

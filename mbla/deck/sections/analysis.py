@@ -50,12 +50,6 @@ class InteriorScheme(Section):
     )
 
 
-class PathScheme(Section):
-    """Parameters of the load path."""
-
-    steps: Annotated[int, Integer(ge=2, le=10_000)] = Field(40, description="steps from zero to the associative factor")
-
-
 class LowestScheme(Section):
     """Parameters of the search for lower load factors."""
 
@@ -90,17 +84,16 @@ class AnalysisSection(Section):
         "convex; clarabel: any; highs: associative flow in planar structures or with polyhedral friction; auto: mbla "
         "or clarabel by size, the results say which",
     )
-    scheme: Literal["auto", "proximal", "interior", "path", "lowest", "published"] = Field(
+    scheme: Literal["auto", "proximal", "interior", "lowest", "published"] = Field(
         "auto",
         description="how non-associative flow is solved. proximal: steps from the gravity state to the exact law; "
         "interior: a path inside the cones followed by arc length through its turning points, then steps of least "
         "change; the way for domes and cross vaults; auto: proximal, and interior where that stalls, up to 4,000 "
-        "unknowns; path: the live load raised step by step; lowest: search for lower load factors from the solution; "
+        "unknowns; lowest: search for lower load factors from the solution; "
         "published: the procedure of Portioli et al. 2014",
     )
     proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
     interior: InteriorScheme = Field(default_factory=InteriorScheme, description="parameters of the interior path")
-    path: PathScheme = Field(default_factory=PathScheme, description="parameters of the load path")
     lowest: LowestScheme = Field(default_factory=LowestScheme, description="parameters of the search")
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
@@ -226,7 +219,6 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
     "scheme": (_no_normality, "flow_rule: non_associative"),
     "proximal": (_by_proximal_steps, "scheme: auto, proximal or lowest, and flow_rule: dilatancy"),
     "interior": (_in_the_interior, "scheme: auto, interior or lowest, and contact_model: concave"),
-    "path": (_with_scheme("path"), "flow_rule: non_associative with scheme: path"),
     "lowest": (_with_scheme("lowest"), "flow_rule: non_associative with scheme: lowest"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
     "gap": (

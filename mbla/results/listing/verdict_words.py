@@ -41,8 +41,6 @@ SCHEMES = {
     "factors, on the unsafe side: with slope 0 by 5 % and 2 % above the published figures of two of the three walls "
     "of Ferris and Tin-Loi (2001); a slope above 0 is a dilatancy, which locks confined joints and raises the factor "
     "towards the associative one.",
-    "path": "The load path was followed from the dead load on; a path that stalls before its mechanism is free to "
-    "move ends at no collapse load.",
     "lowest": "The lowest load factor that the search found is an upper bound of the least one, no proof of it.",
 }
 """what is known of a scheme's figures, for the reader of one"""

@@ -7,7 +7,7 @@ the live load::
     [ −(K + shift)   f_L ]
     [     f_Lᵀ        0  ]
 
-or, at a fixed load factor, by an equation that says that it does not change. It need not be symmetric: friction without
+or by an equation that says that the load factor does not change. It need not be symmetric: friction without
 dilatancy is not. Points whose columns have the same rows (those of one interface) are assembled together as dense
 blocks; measured on walls of 400 and 1,000 blocks that and the fixed order make a factorisation three times cheaper
 than a product of sparse matrices and a column ordering from scratch each time.
@@ -22,12 +22,17 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import SuperLU
 
 from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.qdldl_factors import elimination_order
-from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, Solve, factors_on_the_diagonal
+from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, factors_on_the_diagonal
+
+ROUNDING = 1e-14
+"""Relative addition to the diagonal: rounding, for blocks whose joints all let go."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,36 @@ class PointGroup:
     points: IntArray
     block: FloatArray
     place: IntArray
+
+
+@dataclass(frozen=True)
+class BorderedFactors:
+    """The factorised bordered matrix, in the order of elimination."""
+
+    matrix: sp.csc_array
+    factors: SuperLU
+    order: IntArray
+
+    def __call__(self, rhs: FloatArray) -> FloatArray:
+        """Solution of the bordered system, (n_rows + 1,), refined once."""
+        ordered = rhs[self.order]
+        solution = self.factors.solve(ordered)
+        solution += self.factors.solve(ordered - self.matrix @ solution)  # pivots are small where joints are open
+        result = np.empty_like(solution)
+        result[self.order] = solution
+        return result
+
+    def sign(self) -> float:
+        """Sign of the determinant."""
+        signs = float(np.prod(np.sign(self.factors.U.diagonal())))
+        return signs * _parity(self.factors.perm_r) * _parity(self.factors.perm_c)
+
+
+def _parity(permutation: IntArray) -> float:
+    n = len(permutation)
+    graph = sp.csr_array((np.ones(n), (np.arange(n), permutation)), shape=(n, n))
+    cycles, _ = connected_components(graph, directed=False)
+    return -1.0 if (n - cycles) % 2 else 1.0
 
 
 @dataclass(frozen=True)
@@ -75,30 +110,21 @@ class Stiffness(Places):
         """Velocities at the contact points, (n_points, components)."""
         return (self.compatibility @ u).reshape(-1, self.program.components)
 
-    def factorized(self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False) -> Solve | None:
-        """Factorise with C, (n_points, components, components), and a shift of the diagonal, (n_rows,).
+    def factorized(
+        self, tangents: FloatArray, shift: FloatArray | None, *, fixed_load: bool = False
+    ) -> BorderedFactors | None:
+        """Factorise with C, (n_points, components, components).
 
-        Returns the solution of the bordered system as a function of the right-hand side, (n_rows + 1,); None where the
-        matrix is singular to working accuracy.
+        shift : (n_rows,) of the diagonal; None: of its rounding alone
+
+        None where the matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
         finite = bool(np.isfinite(matrix.data).all())
         factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
-        if factors is None:
-            return None
-        order = self.order
+        return None if factors is None else BorderedFactors(matrix, factors, self.order)
 
-        def solve(rhs: FloatArray) -> FloatArray:
-            ordered = rhs[order]
-            solution = factors.solve(ordered)
-            solution += factors.solve(ordered - matrix @ solution)  # pivots are small where joints are open
-            result = np.empty_like(solution)
-            result[order] = solution
-            return result
-
-        return solve
-
-    def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_array:
+    def _matrix(self, tangents: FloatArray, shift: FloatArray | None, fixed_load: bool) -> sp.csc_array:
         entries = np.zeros(len(self.indices))
         components = self.program.components
         for group in self.groups:
@@ -108,7 +134,8 @@ class Stiffness(Places):
             halves = halves.transpose(0, 2, 1, 3).reshape(n_sets, n_rows, -1)
             products = np.matmul(halves, group.block.transpose(0, 2, 1))
             entries -= np.bincount(group.place, products.ravel(), len(entries))
-        entries[self.diagonal] -= shift
+        own = entries[self.diagonal]
+        entries[self.diagonal] += ROUNDING * own if shift is None else -shift
         column, row, corner = self.border
         live = self.program.live_load
         entries[column], entries[row] = live, 0.0 if fixed_load else live

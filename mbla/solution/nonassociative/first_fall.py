@@ -80,7 +80,8 @@ def judged_by_path(
         path.follow(state.load_factor + margin, within=2.0 * margin)
         path.follow_on(max(GROWTH * state.load_factor, SMALL * path.unit), most)
     verdict = _verdict(path, sequence, most, margin)
-    return replace(verdict, programs=(_record(path, first_program, time.perf_counter() - started),))
+    sequence = replace(verdict.sequence, path=path.points())
+    return replace(verdict, sequence=sequence, programs=(_record(path, first_program, time.perf_counter() - started),))
 
 
 def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, log: Log) -> SequenceResult:

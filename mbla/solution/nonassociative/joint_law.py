@@ -16,7 +16,8 @@ consistent tangent (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X)::
                   slip  C_NN = 1/(1 + δμ)/ρ,  C_NT = δ C_NN θᵀ,  C_T· = μ θ C_N· + (0, (l/‖τ‖)(I − θθᵀ)/ρ)
 
 The tangent is symmetric for δ = μ only: without dilatancy sliding depends on the normal force, not the other way round.
-At a fixed load factor f_L·u is free and the same equations are solved for u alone.
+``joint_state`` and ``joint_tangents`` are the law for trial forces (a, τ) of any origin: the springs of ``standing``,
+whose joints start free of stress, and points of interfaces with conditions of their own use it too.
 """
 
 from __future__ import annotations
@@ -26,9 +27,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.linear_algebra.stiffness import Stiffness
+from mbla.solution.linear_algebra.stiffness import BorderedFactors, Stiffness
 
 BACKTRACKS = 8
 CONVERGED = 1e-10
@@ -36,6 +36,69 @@ CONVERGED = 1e-10
 
 REGULARIZATION = 1e-12
 """Share of the stiffness of all joints sticking that is added everywhere: blocks whose joints all open have none."""
+
+
+@dataclass(frozen=True)
+class JointState:
+    """Where each joint is on its law.
+
+    forces    : (n_points, components)
+    direction : (n_points, components − 1) θ of the trial shear
+    size      : (n_points,) its norm
+    limit     : (n_points,) of shear
+    slips, in_contact : (n_points,) whether shear is at its limit, and whether N follows its trial
+    """
+
+    forces: FloatArray
+    direction: FloatArray
+    size: FloatArray
+    limit: FloatArray
+    slips: BoolArray
+    in_contact: BoolArray
+
+
+def joint_state(
+    limits: YieldLimits, trial: FloatArray, slope: FloatArray | float = 0.0, limit: FloatArray | None = None
+) -> JointState:
+    """Return map of every joint.
+
+    trial : (n_points, components) trial forces a, τ
+    slope : (n_points,) tangent of the dilatancy angle, or one for all
+    limit : (n_points,) of shear where it does not follow the normal force
+    """
+    size = np.linalg.norm(trial[:, 1:], axis=1)
+    direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
+    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
+    slips = size > (_shear_limit(limits, normal) if limit is None else limit)
+    sliding = (trial[:, 0] + slope * (size - limits.cohesion)) / (1.0 + slope * limits.friction)
+    sliding = np.where(slips, sliding, trial[:, 0])
+    normal = np.clip(sliding, -limits.tension, limits.compression)
+    limit = _shear_limit(limits, normal) if limit is None else limit
+    shear = np.where(slips, limit, size)[:, None] * direction
+    return JointState(np.column_stack([normal, shear]), direction, size, limit, slips, normal == sliding)
+
+
+def _shear_limit(limits: YieldLimits, normal: FloatArray) -> FloatArray:
+    return np.maximum(limits.friction * normal + limits.cohesion, 0.0)
+
+
+def joint_tangents(friction: FloatArray, state: JointState, slope: FloatArray | float = 0.0) -> FloatArray:
+    """Change of the forces of every joint with its trial forces, (n_points, components, components).
+
+    friction : (n_points,); zero where limits of shear do not follow the normal forces
+    """
+    n, size = state.forces.shape
+    theta, slips = state.direction, state.slips
+    tangents = np.zeros((n, size, size))
+    dilates = np.where(slips, slope, 0.0)
+    tangents[:, 0, 0] = np.where(state.in_contact, 1.0 / (1.0 + dilates * friction), 0.0)
+    tangents[:, 0, 1:] = (tangents[:, 0, 0] * dilates)[:, None] * theta
+    share = np.divide(state.limit, state.size, out=np.ones_like(state.size), where=slips)
+    across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * theta[:, :, None] * theta[:, None, :]
+    tangents[:, 1:, 1:] = share[:, None, None] * across
+    follows = np.where(slips & (state.limit > 0.0), friction, 0.0)
+    tangents[:, 1:, :] += (follows[:, None] * theta)[:, :, None] * tangents[:, None, 0, :]
+    return tangents
 
 
 @dataclass(frozen=True)
@@ -50,47 +113,49 @@ class LawStep:
 
 
 @dataclass(frozen=True)
-class JointState:
-    """Where each joint is on its law: forces, direction θ and norm of the trial shear, shear limit, and the branch."""
+class LawProblem:
+    """A step of the exact law from forces ``anchor``, (n_points, components).
 
-    forces: FloatArray
-    direction: FloatArray
-    size: FloatArray
-    limit: FloatArray
-    slips: BoolArray
-    in_contact: BoolArray
+    slope : (n_points,) tangent of the dilatancy angle
+    """
+
+    stiffness: Stiffness
+    slope: FloatArray
+    anchor: FloatArray
+    rho: float
+
+    def joints(self, u: FloatArray) -> JointState:
+        """The joints at velocities u, (n_rows,)."""
+        return joint_state(
+            self.stiffness.program.limits, self.anchor - self.stiffness.velocities(u) / self.rho, self.slope
+        )
+
+    def factorized(self, state: JointState) -> BorderedFactors | None:
+        """Factors of the bordered tangent; None where it is singular."""
+        tangents = joint_tangents(self.stiffness.program.limits.friction, state, self.slope) / self.rho
+        return self.stiffness.factorized(tangents, REGULARIZATION * self.stiffness.size / self.rho)
+
+    def residual(self, u: FloatArray, factor: float) -> tuple[FloatArray, JointState]:
+        """Unbalanced forces and f_L·u − 1, (n_rows + 1,); the state of the joints."""
+        program, state = self.stiffness.program, self.joints(u)
+        balance = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + factor * program.live_load
+        return np.append(balance, program.live_load @ u - 1.0), state
 
 
 def exact_step(
-    stiffness: Stiffness,
-    slope: FloatArray,
-    anchor: FloatArray,
-    rho: float,
-    velocities: FloatArray,
-    load_factor: float,
-    most_steps: int,
-    *,
-    fixed_load: bool = False,
-    balanced: float = CONVERGED,
+    problem: LawProblem, velocities: FloatArray, load_factor: float, most_steps: int, *, balanced: float = CONVERGED
 ) -> LawStep:
-    """Solve one step from forces ``anchor``, (n_points, components), starting from velocities and a load factor.
+    """Solve one step, starting from velocities, (n_rows,), and a load factor.
 
-    slope      : (n_points,) tangent of the dilatancy angle
-    fixed_load : the load factor stays as given and f_L·u is free
-    balanced   : unbalanced force, in mean block loads, at which it ends; with 0 where rounding lets it fall no further
+    balanced : unbalanced force, in mean block loads, at which it ends; with 0 where rounding lets it fall no further
 
     The last iterate is returned; whether it is good enough its residual says.
     """
     u, factor, count = velocities, load_factor, 0
-    regularization = REGULARIZATION * stiffness.size / rho
-    residual, state = _residual(stiffness, slope, anchor, rho, u, factor, fixed_load)
+    residual, state = problem.residual(u, factor)
     while np.abs(residual).max(initial=0.0) > balanced and count < most_steps:
-        solve = stiffness.factorized(
-            joint_tangents(stiffness.program, slope, rho, state), regularization, fixed_load=fixed_load
-        )
-        found = None
-        if solve is not None:
-            found = _line_search(stiffness, slope, anchor, rho, u, factor, solve(-residual), residual, fixed_load)
+        solve = problem.factorized(state)
+        found = None if solve is None else _line_search(problem, u, factor, solve(-residual), residual)
         count += 1
         if found is None:
             break
@@ -99,15 +164,7 @@ def exact_step(
 
 
 def _line_search(
-    stiffness: Stiffness,
-    slope: FloatArray,
-    anchor: FloatArray,
-    rho: float,
-    u: FloatArray,
-    factor: float,
-    step: FloatArray,
-    residual: FloatArray,
-    fixed_load: bool,
+    problem: LawProblem, u: FloatArray, factor: float, step: FloatArray, residual: FloatArray
 ) -> tuple[FloatArray, float, FloatArray, JointState] | None:
     """Halve the step until the residual falls; None where it does not."""
     size, norm = 1.0, float(np.linalg.norm(residual))
@@ -115,61 +172,8 @@ def _line_search(
         return None
     for _ in range(BACKTRACKS):
         u_new, factor_new = u + size * step[:-1], factor + size * float(step[-1])
-        trial, state = _residual(stiffness, slope, anchor, rho, u_new, factor_new, fixed_load)
+        trial, state = problem.residual(u_new, factor_new)
         if np.linalg.norm(trial) < (1.0 - 1e-4 * size) * norm:
             return u_new, factor_new, trial, state
         size *= 0.5
     return None
-
-
-def joint_state(
-    stiffness: Stiffness, slope: FloatArray, anchor: FloatArray, rho: float, velocities: FloatArray
-) -> JointState:
-    """Return map of every joint."""
-    return return_map(stiffness.program.limits, slope, anchor - stiffness.velocities(velocities) / rho)
-
-
-def return_map(limits: YieldLimits, slope: FloatArray, trial: FloatArray) -> JointState:
-    """Where joints go to from a and τ, (n_points, components)."""
-    size = np.linalg.norm(trial[:, 1:], axis=1)
-    direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
-    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
-    slips = size > np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    sliding = (trial[:, 0] + slope * (size - limits.cohesion)) / (1.0 + slope * limits.friction)
-    sliding = np.where(slips, sliding, trial[:, 0])
-    normal = np.clip(sliding, -limits.tension, limits.compression)
-    limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    shear = np.where(slips, limit, size)[:, None] * direction
-    return JointState(np.column_stack([normal, shear]), direction, size, limit, slips, normal == sliding)
-
-
-def joint_tangents(program: Program, slope: FloatArray, rho: float, state: JointState) -> FloatArray:
-    """C of every joint, (n_points, components, components)."""
-    friction, theta = program.limits.friction, state.direction
-    slips, size = state.slips, program.components
-    tangents = np.zeros((program.n_points, size, size))
-    dilates = np.where(slips, slope, 0.0)
-    tangents[:, 0, 0] = np.where(state.in_contact, 1.0 / (1.0 + dilates * friction), 0.0)
-    tangents[:, 0, 1:] = (tangents[:, 0, 0] * dilates)[:, None] * theta
-    share = np.divide(state.limit, state.size, out=np.ones_like(state.size), where=slips)
-    across = np.eye(size - 1) - np.where(slips, 1.0, 0.0)[:, None, None] * theta[:, :, None] * theta[:, None, :]
-    tangents[:, 1:, 1:] = share[:, None, None] * across
-    follows = np.where(slips & (state.limit > 0.0), friction, 0.0)
-    tangents[:, 1:, :] += (follows[:, None] * theta)[:, :, None] * tangents[:, None, 0, :]
-    return tangents / rho
-
-
-def _residual(
-    stiffness: Stiffness,
-    slope: FloatArray,
-    anchor: FloatArray,
-    rho: float,
-    u: FloatArray,
-    factor: float,
-    fixed_load: bool,
-) -> tuple[FloatArray, JointState]:
-    """Unbalanced forces and f_L·u − 1 (0 at a fixed load), (n_rows + 1,); the state of the joints."""
-    program = stiffness.program
-    state = joint_state(stiffness, slope, anchor, rho, u)
-    balance = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + factor * program.live_load
-    return np.append(balance, 0.0 if fixed_load else program.live_load @ u - 1.0), state

@@ -21,9 +21,9 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.linear_algebra.stiffness import Stiffness
-from mbla.solution.nonassociative.interior_joints import InteriorLaw, exact_law, lagged_law
 from mbla.solution.nonassociative.interior_step import InteriorResult, interior_step
-from mbla.solution.nonassociative.joint_law import REGULARIZATION, LawStep, exact_step, joint_state, joint_tangents
+from mbla.solution.nonassociative.joint_equations import InteriorLaw, exact_law, lagged_law
+from mbla.solution.nonassociative.joint_law import LawProblem, LawStep, exact_step
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 
@@ -68,6 +68,10 @@ class Stepper:
     def program(self) -> Program:
         """The program that is stepped through."""
         return self.stiffness.program
+
+    def law(self, anchor: FloatArray, rho: float) -> LawProblem:
+        """The exact law of a step from forces, (n_points, components)."""
+        return LawProblem(self.stiffness, self.slope, anchor, rho)
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: St
         return None, 0
     work = 1
     for size in _sizes_that_go_on(before, rho):
-        step = exact_step(stepper.stiffness, stepper.slope, anchor, size, *start, NEWTON_STEPS)
+        step = exact_step(stepper.law(anchor, size), *start, NEWTON_STEPS)
         work += step.factorizations
         if step.residual <= FITS:
             return replace(_step_of(anchor, size, step, work), by_continuation=True), work
@@ -138,9 +142,7 @@ def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: St
 
 def step_near(stepper: Stepper, state: LawState, rho: float) -> Step | None:
     """The step from the forces of a state that Newton's method finds near its motion, None where it finds none."""
-    step = exact_step(
-        stepper.stiffness, stepper.slope, state.forces, rho, state.velocities, state.load_factor, 3 * NEWTON_STEPS
-    )
+    step = exact_step(stepper.law(state.forces, rho), state.velocities, state.load_factor, 3 * NEWTON_STEPS)
     return _step_of(state.forces, rho, step, step.factorizations) if step.residual <= FITS else None
 
 
@@ -188,35 +190,20 @@ def moved_by(before: Step, anchor: FloatArray) -> float:
 
 def _polished(stepper: Stepper, anchor: FloatArray, rho: float, result: InteriorResult, work: int) -> Step:
     """The exact step that Newton's method finds from the result of another, that result where it finds none."""
-    polished = exact_step(
-        stepper.stiffness, stepper.slope, anchor, rho, result.velocities, result.load_factor, NEWTON_STEPS
-    )
+    polished = exact_step(stepper.law(anchor, rho), result.velocities, result.load_factor, NEWTON_STEPS)
     work += polished.factorizations
     return _step_of(anchor, rho, polished if polished.residual <= FITS else result, work)
 
 
-def continued(
-    stepper: Stepper, before: Step, anchor: FloatArray, *, fixed_load: float | None = None
-) -> tuple[FloatArray, float] | None:
+def continued(stepper: Stepper, before: Step, anchor: FloatArray) -> tuple[FloatArray, float] | None:
     """Velocities and load factor if every joint goes on as at the end of a step, open, sliding or sticking."""
-    program, stiffness = stepper.program, stepper.stiffness
-    state = joint_state(stiffness, stepper.slope, before.anchor, before.rho, before.velocities)
-    solve = stiffness.factorized(
-        joint_tangents(program, stepper.slope, before.rho, state),
-        REGULARIZATION * stiffness.size / before.rho,
-        fixed_load=fixed_load is not None,
-    )
+    program, law = stepper.program, stepper.law(before.anchor, before.rho)
+    solve = law.factorized(law.joints(before.velocities))
     if solve is None:
         return None
     unbalanced = program.equilibrium_matrix @ anchor.ravel() + program.dead_load
-    rhs = np.append(-unbalanced, 1.0 if fixed_load is None else fixed_load)
-    if fixed_load is not None:
-        rhs[:-1] -= fixed_load * program.live_load
-        rhs[-1] = 0.0
-    answer = solve(rhs)
-    if not np.isfinite(answer).all():
-        return None
-    return answer[:-1], float(answer[-1]) if fixed_load is None else fixed_load
+    answer = solve(np.append(-unbalanced, 1.0))
+    return (answer[:-1], float(answer[-1])) if np.isfinite(answer).all() else None
 
 
 def _interior(

@@ -27,7 +27,7 @@ from mbla.solution.associative.repair import carried_loads
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.mechanics import lifted
-from mbla.solution.nonassociative.joint_law import exact_step
+from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.nonassociative.proximal import SOLVED
 from mbla.solution.solution import Status
@@ -107,9 +107,8 @@ def _candidates(
     factor, least = state.load_factor, misfit(program, state)
     for _ in range(MOST_STEPS):
         rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
-        step = exact_step(
-            stiffness, slopes, state.forces, rho, state.velocities, state.load_factor, FACTORIZATIONS, balanced=0.0
-        )
+        law = LawProblem(stiffness, slopes, state.forces, rho)
+        step = exact_step(law, state.velocities, state.load_factor, FACTORIZATIONS, balanced=0.0)
         state = law_state(program, slope, step.forces, step.velocities, step.load_factor)
         least = min(least, misfit(program, state))
         yield state

@@ -34,7 +34,7 @@ from mbla.program.resultants.friction_limit import curve_size, curve_support, fr
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
-from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION, joint_tangents, return_map
+from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION, joint_state, joint_tangents
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.resultants.stress_fields import StressFields, nearest_stress
 
@@ -183,8 +183,7 @@ class _Trial:
     ) -> _Trial:
         program, convex = law.program, law.convex
         n_blocks, limits = convex.n_block_rows, convex.torsion
-        dry = np.zeros(program.n_points)
-        points = return_map(program.limits, dry, anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho)
+        points = joint_state(program.limits, anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho)
         forces = points.forces
         size = friction_limit(limits, convex.resultants_of(forces))
         eta, omega = law.split(u[n_blocks:])
@@ -199,7 +198,7 @@ class _Trial:
         return cls(
             forces=forces,
             residual=np.append(balance, program.live_load @ u - 1.0),
-            tangent=block_diagonal(joint_tangents(program, dry, rho, points)),
+            tangent=block_diagonal(joint_tangents(program.limits.friction, points) / rho),
             by_own=block_diagonal(np.concatenate([found.by_point, follows]) / rho),
             by_forces=sp.csr_array(by_sizes @ convex.resultants),
             closing=closing,

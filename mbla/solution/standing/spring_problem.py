@@ -6,11 +6,7 @@ Joints are stress-free where nothing has moved, k_N = 1 and k_T are their stiffn
     A x(v) + f − κ W u = 0
 
 with a load f and springs κ W, W the sizes of the blocks' loads. All of it is homogeneous: only k_T/k_N, and κ over k_N,
-matter.
-
-The tangent is not symmetric::
-
-    −dx/dv:   open 0;   stick diag(k_N, k_T);   slip C_NN = k_N, C_TN = μ k_N θ, C_TT = k_T (l/‖τ‖)(I − θθᵀ), θ = τ/‖τ‖
+matter. The law and its tangent, which is not symmetric, are those of ``joint_law`` for the trial forces −k_N v_N, τ.
 """
 
 from __future__ import annotations
@@ -21,11 +17,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
+from mbla.solution.nonassociative.joint_law import JointState, joint_state, joint_tangents
 
 BALANCED = 1e-9
 """Unbalanced force of a block, over its own load, that counts as equilibrium."""
@@ -84,6 +81,11 @@ class SpringProblem:
     on_the_way: bool = False
 
     @property
+    def stiffnesses(self) -> FloatArray:
+        """k_N and k_T, (components,)."""
+        return np.append(1.0, np.full(self.components - 1, self.shear_stiffness))
+
+    @property
     def late(self) -> bool:
         """Whether the time is up."""
         return self.deadline is not None and time.monotonic() > self.deadline
@@ -112,19 +114,10 @@ def spring_problem(
 
 @dataclass(frozen=True)
 class Joints:
-    """Joints on their law: trial shear, its norm and limit; whether N follows v_N; forces; unbalanced forces."""
+    """Joints on their law, and unbalanced forces, (n_rows,)."""
 
-    shear: FloatArray
-    size: FloatArray
-    limit: FloatArray
-    follows: BoolArray
-    forces: FloatArray
+    state: JointState
     unbalanced: FloatArray
-
-
-def joint_forces(problem: SpringProblem, u: FloatArray) -> FloatArray:
-    """Contact forces at displacements u, (n_points, components)."""
-    return joints_at(problem, 0.0, u, None).forces
 
 
 def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints) -> bool:
@@ -136,23 +129,12 @@ def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints
     )
 
 
-def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None) -> Joints:
+def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None = None) -> Joints:
     """State of the joints at displacements u, with their own limits of shear or given ones, (n_points,)."""
-    limits = problem.limits
-    trial = -(problem.transpose @ u).reshape(-1, problem.components)
-    normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
-    shear = problem.shear_stiffness * trial[:, 1:]
-    size = np.linalg.norm(shear, axis=1)
-    if limit is None:
-        limit = np.maximum(limits.friction * normal + limits.cohesion, 0.0)
-    forces = np.column_stack([normal, shear * _share(size, limit)[:, None]])
-    unbalanced = problem.equilibrium_matrix @ forces.ravel() + problem.load - kappa * (problem.springs @ u)
-    return Joints(shear, size, limit, normal == trial[:, 0], forces, unbalanced)
-
-
-def _share(size: FloatArray, limit: FloatArray) -> FloatArray:
-    """Part of the trial shear that its limit allows, (n_points,); unlimited friction and no shear at all make it 1."""
-    return np.divide(limit, size, out=np.ones_like(size), where=size > limit)
+    trial = -(problem.transpose @ u).reshape(-1, problem.components) * problem.stiffnesses
+    state = joint_state(problem.limits, trial, limit=limit)
+    unbalanced = problem.equilibrium_matrix @ state.forces.ravel() + problem.load - kappa * (problem.springs @ u)
+    return Joints(state, unbalanced)
 
 
 def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: bool) -> sp.csc_matrix:
@@ -163,15 +145,5 @@ def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: b
 
 def joint_stiffness(problem: SpringProblem, joints: Joints, lagged: bool) -> FloatArray:
     """C = −dx/dv of every joint, (n_points, components, components); with limits held where lagged."""
-    n, tangents = joints.shear.shape
-    slips = joints.size > joints.limit
-    direction = joints.shear / np.maximum(joints.size, 1e-300)[:, None]
-    share = _share(joints.size, joints.limit)
-    across = np.eye(tangents) - np.where(slips, 1.0, 0.0)[:, None, None] * direction[:, :, None] * direction[:, None, :]
-    stiffness = np.zeros((n, 1 + tangents, 1 + tangents))
-    stiffness[:, 0, 0] = joints.follows
-    stiffness[:, 1:, 1:] = problem.shear_stiffness * share[:, None, None] * across
-    if not lagged:
-        coupled = slips & joints.follows
-        stiffness[coupled, 1:, 0] = problem.limits.friction[coupled, None] * direction[coupled]
-    return stiffness
+    friction = np.zeros_like(problem.limits.friction) if lagged else problem.limits.friction
+    return joint_tangents(friction, joints.state) * problem.stiffnesses

@@ -44,7 +44,7 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
     Steps are shortened until they come nearer to balance. At a kink of the law none may: then the shortened step that
     is left nearest is taken all the same, a few times in a row, for on its other side the way often goes on.
     """
-    now = joints_at(problem, kappa, u, None)
+    now = joints_at(problem, kappa, u)
     nearest, least, uphill = u, float(np.linalg.norm(now.unbalanced)), 0
     for _ in range(NEWTON_STEPS):
         if balanced(problem, kappa, u, now):
@@ -68,7 +68,7 @@ def _backtracked(
     norm = float(np.linalg.norm(now.unbalanced))
     size, best = 1.0, (np.inf, u, now)
     for _ in range(BACKTRACKS):
-        trial = joints_at(problem, kappa, u + size * step, None)
+        trial = joints_at(problem, kappa, u + size * step)
         here = float(np.linalg.norm(trial.unbalanced))
         if here < best[0]:
             best = (here, u + size * step, trial)
@@ -118,12 +118,12 @@ FLAT = 0.5
 
 def by_lagged_limits(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
     """Minima under limits of shear that follow the normal forces; whether they led there, and the last minimum."""
-    limit, share, before = joints_at(problem, kappa, u, None).limit, 1.0, np.zeros(len(problem.limits.friction))
+    limit, share, before = joints_at(problem, kappa, u).state.limit, 1.0, np.zeros(len(problem.limits.friction))
     for lag in range(1, LAGS + 1):
         if problem.late:
             break
         u = convex_minimum(problem, kappa, u, limit, AHEAD)
-        misfit = joints_at(problem, kappa, u, None).limit - limit
+        misfit = joints_at(problem, kappa, u).state.limit - limit
         share = max(0.5 * share, LEAST_MOVE) if misfit @ before < 0.0 else min(1.5 * share, 1.0)
         limit, before = limit + share * misfit, misfit
         if lag % TRY_EVERY == 0:
@@ -162,7 +162,7 @@ def convex_minimum(
 
 def _own_norm(problem: SpringProblem, kappa: float, u: FloatArray) -> float:
     """Norm of the unbalanced force under the joints' own limits."""
-    return float(np.linalg.norm(joints_at(problem, kappa, u, None).unbalanced))
+    return float(np.linalg.norm(joints_at(problem, kappa, u).unbalanced))
 
 
 def _line_minimum(slope_at: Callable[[float], float], descent: float) -> float:
@@ -212,7 +212,7 @@ def spring_state(problem: SpringProblem, kappa: float, starts: Sequence[FloatArr
 
     starts : displacements to start from, of which those nearest to balance are taken
     """
-    start = min(starts, key=lambda u: float(np.linalg.norm(joints_at(problem, kappa, u, None).unbalanced)))
+    start = min(starts, key=lambda u: float(np.linalg.norm(joints_at(problem, kappa, u).unbalanced)))
     found, u = newtons_method(problem, kappa, start)
     if not found:
         found, u = by_lagged_limits(problem, kappa, u)

@@ -22,6 +22,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.program.program import Program
 from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import PathPoint
 from mbla.solution.standing.standing import stress_free_state
 from mbla.solution.standing.weak_spring_continuation import Load, Outcome, Weakening, weaken_springs
 
@@ -71,6 +72,7 @@ class StandingPath:
     fall  : the least one at which it was seen to fall, None where none was met
     looks : states looked at
     unit  : load factor at which the live load is as large as the dead load
+    passed : states that it went through, the last one included
     """
 
     program: Program
@@ -81,8 +83,10 @@ class StandingPath:
     looks: int = 0
     unit: float = field(init=False)
     weightless: bool = field(init=False)
+    passed: list[PathState] = field(init=False)
 
     def __post_init__(self) -> None:
+        self.passed = [self.last]
         self.weightless = not np.any(self.program.dead_load)
         self.unit = 1.0 if self.weightless else self.program.dead_over_live
 
@@ -104,6 +108,7 @@ class StandingPath:
             apart = there.load_factor - here.load_factor
             if there.stands and (apart <= CLOSE * to or self._alike(here, there)):
                 self.last = wanted.pop()
+                self.passed.append(self.last)
             elif not there.stands and apart <= max(within, self._near(there)):
                 self.end = there
             else:
@@ -131,6 +136,17 @@ class StandingPath:
         if state.falls and (self.fall is None or load_factor < self.fall.load_factor):
             self.fall = state
         return state
+
+    def points(self) -> tuple[PathPoint, ...]:
+        """The states that it went through, as results list them; nothing where it was not followed."""
+        if len(self.passed) == 1:
+            return ()
+        found = []
+        for step, state in enumerate(self.passed):
+            modes, value = self._modes(state), self.program.scaling.load_factor(state.load_factor)
+            opens, slides = int(np.count_nonzero(modes & 2)), int(np.count_nonzero(modes == 1))
+            found.append(PathPoint(step, value, opens, slides, state.weakening.share))
+        return tuple(found)
 
     def _alike(self, one: PathState, other: PathState) -> bool:
         """Whether the same joints are open, slide and stick in both."""

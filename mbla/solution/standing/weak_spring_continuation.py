@@ -27,7 +27,6 @@ from mbla.solution.standing.spring_problem import (
     LatePattern,
     SpringProblem,
     balanced,
-    joint_forces,
     joints_at,
     spring_problem,
 )
@@ -131,7 +130,7 @@ def weaken_springs(
     for ratio in SHEAR_STIFFNESSES:
         problem = replace(whole, shear_stiffness=ratio)
         outcome, last = _weaken(problem, blocks, kappa, u)
-        forces = joint_forces(problem, last.displacements)
+        forces = joints_at(problem, 0.0, last.displacements).state.forces
         found.append(replace(outcome, forces=forces, displacements=last.displacements))
         if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
             kappa, u = last.kappa, last.displacements
@@ -240,8 +239,8 @@ def _elastic_state(problem: SpringProblem, blocks: _Blocks) -> _State | None:
     It is the first step of Newton's method from where nothing has moved. What goes on from another state has none.
     """
     u = np.zeros(len(problem.load))
-    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u, None), lagged=False)
-    if step is None or not balanced(problem, WEAKEST, step, joints_at(problem, WEAKEST, step, None)):
+    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u), lagged=False)
+    if step is None or not balanced(problem, WEAKEST, step, joints_at(problem, WEAKEST, step)):
         return None
     state = _state(blocks, WEAKEST, step)
     return state if state.share < CARRIED_SHARE else None

@@ -121,7 +121,7 @@ ON_REQUEST = (
 def requested_only(deck: Deck, plan: Plan) -> Deck:
     """The deck of a point, without range and peak where no column and no file shows them.
 
-    They are further results on the state that was found (``further_results``), change no other value, and may take
+    They are further results on the state that was found (``mbla.solution.part``), change no other value, and may take
     longer than the state itself.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):

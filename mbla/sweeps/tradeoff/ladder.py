@@ -32,7 +32,7 @@ PRESETS = ("standard", "reference", "draft")
 TOLERANCES = ("1e-4", "1e-6", "1e-8", "1e-10")
 SOLVERS = ("mbla", "clarabel", "highs")
 SIDES = (4, 8, 16, 32)
-SCHEMES = ("proximal", "interior", "path", "published")
+SCHEMES = ("proximal", "interior", "published")
 POINTS = (2, 3)
 LIMITS = ("max_iterations", "time_limit")
 """knobs without a default that are limits of effort, none of accuracy"""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
 
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
+from mbla.solution.linear_algebra.small_blocks import block_diagonal
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from tests.line import WALL, line_of
 
@@ -32,12 +32,26 @@ def test_the_bordered_system_is_solved(program: Program, fixed_load: bool) -> No
     stiffness = stiffness_of(program)
     solve = stiffness.factorized(tangents, shift, fixed_load=fixed_load)
     assert solve is not None
-    blocks = sp.bsr_array((tangents, np.arange(k), np.arange(k + 1)), shape=(c * k, c * k))
-    matrix = program.equilibrium_matrix @ sp.csr_array(blocks) @ program.equilibrium_matrix.T
+    matrix = program.equilibrium_matrix @ block_diagonal(tangents) @ program.equilibrium_matrix.T
     live, answer = program.live_load, solve(rhs)
     balance = -(matrix @ answer[:-1]) - shift * answer[:-1] + answer[-1] * live
     assert balance == pytest.approx(rhs[:-1], abs=1e-9)
     assert (answer[-1] if fixed_load else live @ answer[:-1]) == pytest.approx(rhs[-1], abs=1e-9)
+
+
+def test_the_sign_of_its_determinant() -> None:
+    """Against the dense matrix, for random unsymmetric C: both signs come up."""
+    program, rng = programs()[1], np.random.default_rng(0)
+    a, live = program.equilibrium_matrix.toarray(), program.live_load[:, None]
+    n, signs = len(live), set()
+    for _ in range(12):
+        tangents = rng.normal(size=(program.n_points, 2, 2))
+        factors = stiffness_of(program).factorized(tangents, np.zeros(n))
+        assert factors is not None
+        dense = np.block([[-a @ block_diagonal(tangents).toarray() @ a.T, live], [live.T, np.zeros((1, 1))]])
+        assert factors.sign() == np.linalg.slogdet(dense)[0]
+        signs.add(factors.sign())
+    assert signs == {-1.0, 1.0}
 
 
 def test_a_matrix_without_stiffness_is_singular() -> None:

@@ -8,7 +8,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative.joint_law import joint_state, joint_tangents
+from mbla.solution.nonassociative.joint_law import JointState, LawProblem, joint_tangents
 from tests.line import WALL, line_of
 
 RHO = 0.7
@@ -26,6 +26,10 @@ def scattered(program: Program, seed: int = 3) -> tuple[FloatArray, FloatArray]:
     return anchor, rng.normal(size=len(program.dead_load))
 
 
+def joints(program: Program, slope: FloatArray, anchor: FloatArray, u: FloatArray) -> JointState:
+    return LawProblem(stiffness_of(program), slope, anchor, RHO).joints(u)
+
+
 @pytest.mark.parametrize("overrides", [(), COHESIVE])
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_what_the_forces_leave_of_the_motion_obeys_the_law(share: float, overrides: tuple[str, ...]) -> None:
@@ -33,7 +37,7 @@ def test_what_the_forces_leave_of_the_motion_obeys_the_law(share: float, overrid
     program = wall(*overrides)
     limits, slope = program.limits, share * program.limits.friction
     anchor, u = scattered(program)
-    x = joint_state(stiffness_of(program), slope, anchor, RHO, u).forces
+    x = joints(program, slope, anchor, u).forces
     v = (program.equilibrium_matrix.T @ u).reshape(-1, 3) + RHO * (x - anchor)
     strength = limits.friction * x[:, 0] + limits.cohesion
     sliding = np.linalg.norm(v[:, 1:], axis=1)
@@ -57,10 +61,10 @@ def test_the_exact_law_agrees_with_its_tangent(share: float, overrides: tuple[st
     slope = share * program.limits.friction
     anchor, u = scattered(program)
     du = np.random.default_rng(5).normal(size=len(u))
-    here = joint_state(stiffness_of(program), slope, anchor, RHO, u)
-    there = joint_state(stiffness_of(program), slope, anchor, RHO, u + 1e-7 * du)
+    here = joints(program, slope, anchor, u)
+    there = joints(program, slope, anchor, u + 1e-7 * du)
     velocity = (program.equilibrium_matrix.T @ du).reshape(-1, 3)
-    expected = -np.einsum("pij,pj->pi", joint_tangents(program, slope, RHO, here), velocity)
+    expected = -np.einsum("pij,pj->pi", joint_tangents(program.limits.friction, here, slope) / RHO, velocity)
     assert (there.forces - here.forces) / 1e-7 == pytest.approx(expected, abs=1e-5)
 
 
@@ -69,7 +73,7 @@ def test_with_the_friction_angle_it_is_the_projection_on_the_cone() -> None:
     program = wall()
     anchor, u = scattered(program)
     trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / RHO
-    x = joint_state(stiffness_of(program), program.limits.friction, anchor, RHO, u).forces
+    x = joints(program, program.limits.friction, anchor, u).forces
     cut = trial - x
     assert (x * cut).sum(axis=1) == pytest.approx(0.0, abs=1e-12)
     assert np.all(cut[:, 0] + program.limits.friction * np.linalg.norm(cut[:, 1:], axis=1) <= 1e-12)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import law_steps, proximal
 from mbla.solution.nonassociative.gravity import gravity_forces
 from mbla.solution.nonassociative.interior_step import InteriorResult
-from mbla.solution.nonassociative.joint_law import LawStep
+from mbla.solution.nonassociative.joint_law import LawProblem, LawStep
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.law_steps import (
     LONGER,
@@ -95,8 +94,8 @@ def sizes_of_newtons_method(monkeypatch: pytest.MonkeyPatch, before: Step, of: S
     """ρ of every attempt to go on as before where none succeeds."""
     tried: list[float] = []
 
-    def in_vain(*arguments: object, **named: object) -> LawStep:
-        tried.append(cast(float, arguments[3]))
+    def in_vain(law: LawProblem, *arguments: object) -> LawStep:
+        tried.append(law.rho)
         return LawStep(before.velocities, 0.0, before.forces, 1.0, 1)
 
     monkeypatch.setattr(law_steps, "continued", lambda *arguments: (before.velocities, 0.0))

@@ -40,7 +40,7 @@ def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
     u, du = rng.normal(size=(2, len(problem.load)))
     limit = np.full(len(problem.limits.friction), 0.3) if lagged else None
     here, there = joints_at(problem, 0.2, u, limit), joints_at(problem, 0.2, u + 1e-7 * du, limit)
-    slips, open_ = here.size > here.limit, ~here.follows
+    slips, open_ = here.state.slips, ~here.state.in_contact
     assert 0 < slips.sum() < len(slips)
     assert 0 < open_.sum() < len(open_)
     tangent = stiffness_at(problem, 0.2, here, lagged)
@@ -86,7 +86,7 @@ def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
     """From a start far off, and with other limits than those that belong to it: balance under the held limits."""
     problem = problem_of(rafters(0.6))
     start = np.random.default_rng(1).normal(size=len(problem.load))
-    limit = joints_at(problem, 1e-3, start, None).limit
+    limit = joints_at(problem, 1e-3, start).state.limit
     u = convex_minimum(problem, 1e-3, start, limit)
     assert np.abs(joints_at(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
 

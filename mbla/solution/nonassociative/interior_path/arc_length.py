@@ -22,14 +22,13 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.nonassociative.interior_path.central_path import (
     CentralPath,
-    PathVector,
-    Residuals,
+    LinearStep,
+    linear_step,
+    missing_at,
     off_path,
-    residuals,
 )
-from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap
-from mbla.solution.nonassociative.interior_path.descent import Metric, metric_at, room
-from mbla.solution.nonassociative.interior_path.linearisation import LinearStep, linear_step
+from mbla.solution.nonassociative.interior_path.descent import Metric
+from mbla.solution.nonassociative.joint_equations import Iterate, Missing, step_to_boundary
 
 FIRST_STEP, LEAST_STEP = 0.5, 1e-9
 """Length of the first step, and of one at which the path is given up, in relative changes."""
@@ -68,8 +67,8 @@ class Stage:
     folds     : turning points passed
     """
 
-    point: PathVector
-    direction: PathVector
+    point: Iterate
+    direction: Iterate
     factorizations: int
     folds: int
     step: float
@@ -80,34 +79,33 @@ class _Follower:
     """What stays the same along a path, and what is counted."""
 
     path: CentralPath
-    pattern: MatrixMap
     sense: float = 0.0
     factorizations: int = 0
 
-    def linear(self, point: PathVector, left: Residuals) -> LinearStep | None:
+    def linear(self, point: Iterate, left: Missing) -> LinearStep | None:
         self.factorizations += 1
-        return linear_step(self.path, self.pattern, point, left)
+        return linear_step(self.path, point, left)
 
-    def unit(self, linear: LinearStep, metric: Metric) -> PathVector:
+    def unit(self, linear: LinearStep, metric: Metric) -> Iterate:
         """Unit tangent in the sense of the path."""
         size = self.sense * linear.factors.sign() / _length(metric.coordinates(linear.tangent))
-        return _times(linear.tangent, size)
+        return linear.tangent.times(size)
 
 
-def follow(path: CentralPath, pattern: MatrixMap, first: PathVector, most: int) -> Iterator[Stage]:
+def follow(path: CentralPath, first: Iterate, most: int) -> Iterator[Stage]:
     """Go along the path from its first point, towards small σ; ends where steps become too short or after ``most``.
 
     most : factorisations
     """
-    follower = _Follower(path, pattern)
-    linear = follower.linear(first, residuals(path, first))
+    follower = _Follower(path)
+    linear = follower.linear(first, missing_at(path, first))
     if linear is None:
         return
     follower.sense = -linear.factors.sign()
-    direction = follower.unit(linear, metric_at(path, first))
+    direction = follower.unit(linear, Metric(path.joints, first))
     point, step, folds, rejected = first, FIRST_STEP, 0, 0
     while follower.factorizations < most and step > LEAST_STEP:
-        length = min(step, SHARE_OF_ROOM * room(path, point, direction))
+        length = min(step, SHARE_OF_ROOM * step_to_boundary(path.joints, point, direction))
         moved = _step(follower, point, direction, length)
         if moved is None:
             step, rejected = SHRINK * length, rejected + 1
@@ -122,25 +120,25 @@ def follow(path: CentralPath, pattern: MatrixMap, first: PathVector, most: int) 
 
 @dataclass(frozen=True)
 class _Moved:
-    point: PathVector
-    direction: PathVector
+    point: Iterate
+    direction: Iterate
     corrections: int
 
 
-def _step(follower: _Follower, base: PathVector, direction: PathVector, length: float) -> _Moved | None:
+def _step(follower: _Follower, base: Iterate, direction: Iterate, length: float) -> _Moved | None:
     """One predictor and its corrections; None where the step is rejected."""
-    path, metric = follower.path, metric_at(follower.path, base)
+    path, metric = follower.path, Metric(follower.path.joints, base)
     across = metric.coordinates(direction)
     point, before = base.plus(direction, length), float("inf")
     for count in range(MOST_CORRECTIONS + 1):
-        left = residuals(path, point)
+        left = missing_at(path, point)
         linear = follower.linear(point, left)
         if linear is None:
             return None
         correction, size = _correction(linear, metric, across)
         if not size <= FIRST_CORRECTION * length or size > CONTRACTION * before:  # also where size is not a number
             return None
-        if room(path, point, correction) < 1.0 / SHARE_OF_ROOM:
+        if step_to_boundary(path.joints, point, correction) < 1.0 / SHARE_OF_ROOM:
             return None
         close, before = off_path(path, point, left) < CLOSE, size
         point = point.plus(correction)
@@ -150,16 +148,16 @@ def _step(follower: _Follower, base: PathVector, direction: PathVector, length: 
 
 
 def _accepted(
-    follower: _Follower, before: PathVector, point: PathVector, linear: LinearStep, corrections: int
+    follower: _Follower, before: Iterate, point: Iterate, linear: LinearStep, corrections: int
 ) -> _Moved | None:
-    metric = metric_at(follower.path, point)
+    metric = Metric(follower.path.joints, point)
     direction = follower.unit(linear, metric)
     old, new = metric.coordinates(before), metric.coordinates(direction)
     turn = _dot(old, new) / max(_length(old), 1e-300)
     return _Moved(point, direction, corrections) if turn >= TURN else None
 
 
-def _correction(linear: LinearStep, metric: Metric, across: FloatArray) -> tuple[PathVector, float]:
+def _correction(linear: LinearStep, metric: Metric, across: FloatArray) -> tuple[Iterate, float]:
     """Newton step that stays in the plane across the tangent, and its length; infinite where there is none."""
     newton, tangent = metric.coordinates(linear.newton), metric.coordinates(linear.tangent)
     along = _dot(across, tangent)
@@ -169,12 +167,12 @@ def _correction(linear: LinearStep, metric: Metric, across: FloatArray) -> tuple
     return linear.newton.plus(linear.tangent, amount), _length(newton + amount * tangent)
 
 
-def _refreshed(follower: _Follower, point: PathVector, direction: PathVector) -> tuple[PathVector, PathVector]:
+def _refreshed(follower: _Follower, point: Iterate, direction: Iterate) -> tuple[Iterate, Iterate]:
     """The same point nearer to the path, and the tangent there."""
-    path, metric = follower.path, metric_at(follower.path, point)
+    path, metric = follower.path, Metric(follower.path.joints, point)
     across, latest = metric.coordinates(direction), None
     for _ in range(MOST_CORRECTIONS - 1):
-        left = residuals(path, point)
+        left = missing_at(path, point)
         linear = follower.linear(point, left)
         if linear is None:
             break
@@ -182,23 +180,10 @@ def _refreshed(follower: _Follower, point: PathVector, direction: PathVector) ->
         correction, size = _correction(linear, metric, across)
         if off_path(path, point, left) < ON_PATH or not np.isfinite(size):
             break
-        if room(path, point, correction) < 1.0 / SHARE_OF_ROOM:
+        if step_to_boundary(path.joints, point, correction) < 1.0 / SHARE_OF_ROOM:
             break
         point = point.plus(correction)
-    return point, direction if latest is None else follower.unit(latest, metric_at(path, point))
-
-
-def _times(change: PathVector, size: float) -> PathVector:
-    return PathVector(
-        size * change.velocities,
-        size * change.load_factor,
-        size * change.forces,
-        size * change.opening,
-        size * change.crushing,
-        size * change.slip_size,
-        size * change.slip,
-        size * change.log_sigma,
-    )
+    return point, direction if latest is None else follower.unit(latest, Metric(path.joints, point))
 
 
 def _dot(first: FloatArray, second: FloatArray) -> float:

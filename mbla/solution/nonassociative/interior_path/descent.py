@@ -21,10 +21,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.solution.nonassociative.interior_path.central_path import CentralPath, PathVector, residuals
-from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap
-from mbla.solution.nonassociative.interior_path.products import LocalCost, local_cost, products_at
-from mbla.solution.nonassociative.interior_path.saddle_matrix import LeastChange, least_change, saddle_map
+from mbla.solution.nonassociative.interior_path.central_path import CentralPath, missing_at
+from mbla.solution.nonassociative.interior_path.least_change import least_change
+from mbla.solution.nonassociative.joint_equations import Iterate, JointEquations, Missing, step_to_boundary
 
 TARGET = 0.85
 """Share of the median product that a step aims at. With 0.7 stragglers remain more often, with 0.5 nearly always."""
@@ -46,23 +45,19 @@ SHORT, LONG = 0.2, 0.6
 """Shares of the full step below which damping is raised threefold, and above which it is halved."""
 
 
-def descend(path: CentralPath, pattern: MatrixMap, first: PathVector, most: int) -> Iterator[PathVector]:
+def descend(path: CentralPath, first: Iterate, most: int) -> Iterator[Iterate]:
     """Points nearer and nearer to the law, one per factorisation, at most ``most``."""
-    shape = (path.program.n_points, path.program.components)
-    nothing = (np.zeros(len(path.program.live_load)), 0.0, np.zeros(shape), 0.0)
-    path = replace(path, pull=0.0, start=nothing)
-    saddle, point, damping = saddle_map(pattern), first, FIRST_DAMPING
+    path = replace(path, pull=0.0, start=None)
+    joints, point, damping = path.joints, first, FIRST_DAMPING
     stragglers, lowest, waited = STRAGGLERS, float("inf"), 0
     for _ in range(most):
-        products = products_at(path, point)
-        target = max(TARGET * float(np.median(products.normal)), products.largest() / stragglers)
-        cost = local_cost(path, point, target, damping)
-        solved = least_change(path, saddle, cost, residuals(path, point))
-        if solved is None:
+        missing = missing_at(path, point)
+        target = max(TARGET * float(np.median(missing.normal_product)), _largest(missing) / stragglers)
+        change = least_change(joints, point, missing, target, damping)
+        if change is None:
             return
-        change = _whole(path, cost, solved)
-        size = min(1.0, SHARE_OF_ROOM * room(path, point, change))
-        while size > LEAST_SIZE and not inside(path, point.plus(change, size)):
+        size = min(1.0, SHARE_OF_ROOM * step_to_boundary(joints, point, change))
+        while size > LEAST_SIZE and not inside(joints, point.plus(change, size)):
             size *= 0.5
         if not size > LEAST_SIZE:
             return
@@ -73,6 +68,13 @@ def descend(path: CentralPath, pattern: MatrixMap, first: PathVector, most: int)
         yield point
 
 
+def _largest(missing: Missing) -> float:
+    """The largest of all products."""
+    lengths = np.linalg.norm(missing.shear_direction, axis=1)
+    parts = (missing.normal_product, missing.crushing_product, missing.shear_product, lengths)
+    return max(float(part.max(initial=0.0)) for part in parts)
+
+
 def _patience(stragglers: float, lowest: float, waited: int, target: float) -> tuple[float, float, int]:
     """How far stragglers may lie behind from now on, the target to beat, and the steps since it was beaten."""
     if target < GAIN * lowest:
@@ -80,122 +82,38 @@ def _patience(stragglers: float, lowest: float, waited: int, target: float) -> t
     return (stragglers * MORE, lowest, 0) if waited >= WAIT else (stragglers, lowest, waited + 1)
 
 
-def _whole(path: CentralPath, cost: LocalCost, solved: LeastChange) -> PathVector:
-    """The change of a point, with the changes that were eliminated at the contacts."""
-    c = path.program.components
-    motion = np.concatenate([solved.forces, solved.slacks], axis=1)
-    size = -(_dot(cost.size_row, motion) + cost.size_gradient)
-    with_size = np.concatenate([motion, size[:, None]], axis=1)
-    crushing = np.where(path.crushable, -(_dot(cost.crushing_row, with_size) + cost.crushing_gradient), 0.0)
-    frictional = path.frictional
-    return PathVector(
-        velocities=solved.velocities,
-        load_factor=solved.load_factor,
-        forces=solved.forces,
-        opening=solved.slacks[:, 0] + crushing,
-        crushing=crushing,
-        slip_size=np.where(frictional, size, 0.0),
-        slip=np.where(frictional[:, None], solved.slacks[:, 1:c], 0.0),
-        log_sigma=0.0,
-    )
-
-
-def _dot(rows: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.asarray((rows * vectors).sum(axis=1))
-
-
-TOUCHING = 1e-10
-"""Relative rounding of a double root: a cone whose size alone changes is left through its tip."""
-
-
 @dataclass(frozen=True)
 class Metric:
-    """Weights of the changes at one point of the path: one over each positive quantity, zero where there is none."""
+    """Weights of the changes at one point of the path: one over each positive quantity."""
 
-    normal: FloatArray
-    to_crushing: FloatArray
-    shear: FloatArray
-    opening: FloatArray
-    crushing: FloatArray
-    slip: FloatArray
+    joints: JointEquations
+    point: Iterate
 
-    def coordinates(self, change: PathVector) -> FloatArray:
+    def coordinates(self, change: Iterate) -> FloatArray:
         """Relative changes of all contact quantities and the change of ln σ, one vector."""
-        normal = change.forces[:, 0]
+        joints, point, limit = self.joints, self.point, self.joints.limit(self.point.normal)
         return np.concatenate(
             [
-                normal * self.normal,
-                normal * self.to_crushing,
-                (change.forces[:, 1:] * self.shear[:, None]).ravel(),
-                change.opening * self.opening,
-                change.crushing * self.crushing,
-                change.slip_size * self.slip,
-                (change.slip * self.slip[:, None]).ravel(),
+                change.normal / point.normal,
+                change.normal[joints.crushable] / joints.room(point.normal),
+                (change.shear / limit[:, None]).ravel(),
+                change.opening / point.opening,
+                change.crushing / point.crushing,
+                change.speed / point.speed,
+                (change.slip / point.speed[:, None]).ravel(),
                 [change.log_sigma],
             ]
         )
 
 
-def metric_at(path: CentralPath, point: PathVector) -> Metric:
-    """Metric of relative changes at a point of the path."""
-    to_opening, to_crushing, strength = path.margins(point.forces)
-    return Metric(
-        normal=1.0 / to_opening,
-        to_crushing=np.where(path.crushable, 1.0 / to_crushing, 0.0),
-        shear=np.where(path.frictional, 1.0 / strength, 0.0),
-        opening=1.0 / point.opening,
-        crushing=np.where(path.crushable, 1.0 / np.where(path.crushable, point.crushing, 1.0), 0.0),
-        slip=np.where(path.frictional, 1.0 / point.slip_size, 0.0),
-    )
-
-
-def room(path: CentralPath, point: PathVector, change: PathVector) -> float:
-    """Largest multiple of a change that stays within all half-lines and cones; infinite where none binds."""
-    to_opening, to_crushing, strength = path.margins(point.forces)
-    crushable, frictional = path.crushable, path.frictional
-    normal, friction = change.forces[:, 0], path.program.limits.friction
-    return min(
-        _half_lines(to_opening, normal),
-        _half_lines(point.opening, change.opening),
-        _half_lines(to_crushing[crushable], -normal[crushable]),
-        _half_lines(point.crushing[crushable], change.crushing[crushable]),
-        _cones(
-            strength[frictional],
-            point.forces[frictional, 1:],
-            (friction * normal)[frictional],
-            change.forces[frictional, 1:],
-        ),
-        _cones(
-            point.slip_size[frictional],
-            point.slip[frictional],
-            change.slip_size[frictional],
-            change.slip[frictional],
-        ),
-    )
-
-
-def inside(path: CentralPath, point: PathVector) -> bool:
+def inside(joints: JointEquations, point: Iterate) -> bool:
     """Whether a point lies strictly within all half-lines and cones; rounding can take a step across."""
-    to_opening, to_crushing, strength = path.margins(point.forces)
-    frictional = path.frictional
-    half_lines = (to_opening, to_crushing, point.opening, point.crushing[path.crushable])
-    in_force = strength > np.linalg.norm(point.forces[:, 1:], axis=1)
-    in_slip = point.slip_size > np.linalg.norm(point.slip, axis=1)
-    return all(bool((part > 0.0).all()) for part in half_lines) and bool((in_force & in_slip)[frictional].all())
-
-
-def _half_lines(value: FloatArray, change: FloatArray) -> float:
-    fastest = float((-change / value).max(initial=0.0))
-    return 1.0 / fastest if fastest > 0.0 else float("inf")
-
-
-def _cones(size: FloatArray, part: FloatArray, size_change: FloatArray, part_change: FloatArray) -> float:
-    """Least positive h with size + h size_change = ‖part + h part_change‖, from inside."""
-    length = np.linalg.norm(part, axis=1)
-    constant = (size - length) * (size + length)
-    linear = size * size_change - (part * part_change).sum(axis=1)
-    square = size_change**2 - (part_change**2).sum(axis=1)
-    under_root = linear**2 - square * constant
-    below = np.sqrt(np.maximum(under_root, 0.0)) - linear
-    binds = (under_root >= -TOUCHING * linear**2) & (below > 0.0)
-    return float(np.where(binds, constant / np.where(binds, below, 1.0), np.inf).min(initial=np.inf))
+    margins = (
+        point.normal,
+        point.opening,
+        joints.room(point.normal),
+        point.crushing,
+        joints.limit(point.normal) - np.linalg.norm(point.shear, axis=1),
+        point.speed - np.linalg.norm(point.slip, axis=1),
+    )
+    return all(bool((margin > 0.0).all()) for margin in margins)

@@ -21,20 +21,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.program import Program
 from mbla.solution.linear_algebra.stiffness import Stiffness
 from mbla.solution.nonassociative.interior_path.arc_length import Stage, follow
 from mbla.solution.nonassociative.interior_path.central_path import (
     CentralPath,
-    PathVector,
     central_path,
     first_point,
     state_of,
     with_balance,
 )
-from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap
 from mbla.solution.nonassociative.interior_path.descent import descend
-from mbla.solution.nonassociative.joint_law import exact_step
+from mbla.solution.nonassociative.joint_equations import Iterate
+from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.thresholds import EXACT_RESIDUAL
 
@@ -102,8 +100,6 @@ class Try:
     sharp  : residual of a state with which the path is not followed further, where that is below ``EXACT``
     """
 
-    program: Program
-    pattern: MatrixMap
     stiffness: Stiffness
     most: int
     watch: Callable[[Moment], None]
@@ -125,9 +121,9 @@ class Try:
         """Whether a state of the exact law has been found, or one as rough as asked for."""
         return self.best is not None and self.best.residual <= self.wanted
 
-    def reached(self, point: PathVector, step: float) -> LawState:
+    def reached(self, path: CentralPath, point: Iterate, step: float) -> LawState:
         """Take note of a point, and try exact steps from it once a decade; the state it stands for."""
-        state = state_of(self.program, point)
+        state = state_of(path, point)
         self.keep(state)
         self.watch(Moment(self.factorizations, state, float(np.exp(point.log_sigma)), step))
         if state.residual < self._polish_at:
@@ -142,7 +138,7 @@ class Try:
 
     def polish(self, state: LawState, sizes: tuple[float, ...]) -> None:
         """Steps of the exact law from a state."""
-        exact, used = polished(self.program, self.stiffness, state, sizes)
+        exact, used = polished(self.stiffness, state, sizes)
         self.factorizations += used
         self.keep(exact)
 
@@ -152,7 +148,7 @@ class _Walk:
     """The path on which a try is, where it is lowest, the residual of the last descent's start, and what was spent."""
 
     stages: Iterator[Stage]
-    lowest: PathVector | None = None
+    lowest: Iterate | None = None
     residual: float = float("inf")
     descended: float = float("inf")
     folds: int = 0
@@ -162,10 +158,10 @@ class _Walk:
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not finite is seen and given up
 def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
     """Carry out a try; what it finds is kept in ``attempt``."""
-    path = central_path(attempt.program, begin.noise, begin.seed, anchor, begin.kappa)
-    walk = _Walk(follow(path, attempt.pattern, first_point(path), attempt.most))
+    path = central_path(attempt.stiffness, begin.noise, begin.seed, anchor, begin.kappa)
+    walk = _Walk(follow(path, first_point(path), attempt.most))
     near = NEAR if begin.descends else float("inf")
-    while _goes_on(attempt, walk, near) and begin.descends:
+    while _goes_on(attempt, path, walk, near) and begin.descends:
         _descent(attempt, path, walk)
         if attempt.over() or attempt.solved():
             break
@@ -177,13 +173,13 @@ def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
         attempt.polish(attempt.best, STEPS)
 
 
-def _goes_on(attempt: Try, walk: _Walk, near: float) -> bool:
+def _goes_on(attempt: Try, path: CentralPath, walk: _Walk, near: float) -> bool:
     """Follow the path to a turning point where the residual has been below ``near``; false where it ends before."""
     since = walk.factorizations
     for stage in walk.stages:
         attempt.factorizations += stage.factorizations - walk.factorizations
         walk.factorizations = stage.factorizations
-        state = attempt.reached(stage.point, stage.step)
+        state = attempt.reached(path, stage.point, stage.step)
         turned, walk.folds = stage.folds > walk.folds, stage.folds
         if state.residual < walk.residual:
             walk.lowest, walk.residual, since = stage.point, state.residual, stage.factorizations
@@ -202,9 +198,9 @@ def _descent(attempt: Try, path: CentralPath, walk: _Walk) -> None:
         return
     walk.descended = walk.residual
     lowest, waited = float("inf"), 0
-    for point in descend(path, attempt.pattern, walk.lowest, MOST_DESCENT):
+    for point in descend(path, walk.lowest, MOST_DESCENT):
         attempt.factorizations += 1
-        state = attempt.reached(point, float("nan"))
+        state = attempt.reached(path, point, float("nan"))
         if state.residual <= END_OF_PATH or attempt.over():
             return
         lowest, waited = (state.residual, 0) if state.residual < GAIN * lowest else (lowest, waited + 1)
@@ -224,20 +220,20 @@ IMPROVES = 1e-1
 """A step that does not reduce the residual to this share of the one before is the last with its ρ."""
 
 
-def polished(program: Program, stiffness: Stiffness, state: LawState, sizes: tuple[float, ...]) -> tuple[LawState, int]:
+def polished(stiffness: Stiffness, state: LawState, sizes: tuple[float, ...]) -> tuple[LawState, int]:
     """The best state that exact steps reach from a state, itself where none is better; and the factorisations.
 
     sizes : ρ ‖x̄‖² to try in turn
     """
-    slope, best, count = np.zeros(program.n_points), state, 0
+    program, best, count = stiffness.program, state, 0
+    slope = np.zeros(program.n_points)
     for size in sizes:
         current, reached = state, float("inf")
         for _ in range(MOST_STEPS):
             anchor = current.forces
             rho = size / max(float((anchor**2).sum()), 1e-300)
-            step = exact_step(
-                stiffness, slope, anchor, rho, current.velocities, current.load_factor, MOST_FACTORIZATIONS
-            )
+            law = LawProblem(stiffness, slope, anchor, rho)
+            step = exact_step(law, current.velocities, current.load_factor, MOST_FACTORIZATIONS)
             count += step.factorizations
             current = with_balance(program, law_state(program, 0.0, step.forces, step.velocities, step.load_factor))
             if current.residual < best.residual:

@@ -29,7 +29,6 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative.interior_path.condensed_matrix import MatrixMap, matrix_map
 from mbla.solution.nonassociative.interior_path.one_try import SOLVED, Moment, Start, Try, go
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.proximal import rough_result
@@ -79,7 +78,6 @@ class _Tries:
     """What all tries share, and what they have brought so far."""
 
     program: Program
-    pattern: MatrixMap
     stiffness: Stiffness
     settings: SolverSettings
     log: Log
@@ -119,7 +117,7 @@ def solve_interior(
     start       : a sequence that stalled; its records are continued and its state counts as a try
     """
     records = list(associative.programs if start is None else start.programs)
-    tries = _Tries(program, matrix_map(program), stiffness_of(program), settings, log, records)
+    tries = _Tries(program, stiffness_of(program), settings, log, records)
     if start is not None and start.state is not None:
         tries.states.append(start.state)
     anchor = _gravity_state(tries)
@@ -150,8 +148,6 @@ def _gravity_state(tries: _Tries) -> FloatArray | None:
 def _try(tries: _Tries, begin: Start, anchor: FloatArray | None, most: int) -> LawState | None:
     """Carry out one try and record it; the best state it found, None where it could not begin."""
     attempt = Try(
-        tries.program,
-        tries.pattern,
         tries.stiffness,
         most,
         lambda moment: _log(tries, attempt, moment),

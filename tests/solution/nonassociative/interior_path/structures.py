@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
 from tests.line import BLOCK, line_of
@@ -77,8 +76,3 @@ def mixed_program(components: int = 3) -> Program:
         live_load=program.live_load[rows],
         components=2,
     )
-
-
-def flat(*parts: FloatArray | float) -> FloatArray:
-    """Arrays as one vector."""
-    return np.concatenate([np.ravel(part) for part in parts])

@@ -1,12 +1,20 @@
-"""Joints in a step of the interior-point method: the law, the unknowns of a joint, their elimination, the way to go.
+"""Joints strictly inside their law: unknowns, equations, their elimination joint by joint, the way to the boundary.
 
-See :mod:`mbla.solution.nonassociative.interior_step` for the equations.
+Both interior-point methods solve these equations, ``interior_step`` for one step from anchor forces x̄ and
+``central_path`` along a path. The law is written as products of what a joint has left and how it moves, all positive,
+with l = β N + h the limit of shear::
 
-Then what the products of force left and motion should become in a step.
+    A x + f_D + λ f_L = 0,   f_L·u = 1,   v = Aᵀu
+    y − z = v_N + ρ (N − N̄) − δ s,     (N + f_t) y = σ,   (f_c − N) z = σ
+    w     = v_T + ρ (T − T̄),           l s + T·w = σ,     l w + s T = 0,      ‖T‖ < l, ‖w‖ < s
+
+At σ = 0 this is the law: N = −f_t or no opening, ‖T‖ = l or no sliding, T against w, s = ‖w‖. A Newton step on all of
+it eliminates what belongs to a joint, dx = −C dv + g, so that one factorisation of A C Aᵀ remains.
 
 The products of a joint are N y, (f_c − N) z and the pair p = l s + T·w, q = l w + s T, which is the product of (l, T)
-and (s, w) in the algebra of the second-order cone; its eigenvalues are p ± ‖q‖. In the middle N y = (f_c − N) z = σ,
-p = σ, q = 0: both eigenvalues are σ too.
+and (s, w) in the algebra of the second-order cone (Alizadeh and Goldfarb 2003, doi:10.1007/s10107-002-0339-5); its
+eigenvalues are p ± ‖q‖. In the middle N y = (f_c − N) z = σ, p = σ, q = 0: both eigenvalues are σ too. That l depends
+on N while sliding does not act on v_N is what makes the law non-associative and the system unsymmetric.
 """
 
 from __future__ import annotations
@@ -18,6 +26,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.cone_solvers.cone_vectors import cones_to_boundary, lines_to_boundary
 from mbla.solution.linear_algebra.small_blocks import inverses
 from mbla.solution.linear_algebra.stiffness import Stiffness
 
@@ -48,9 +57,16 @@ def lagged_law(program: Program, dilatancy: FloatArray, anchor: FloatArray) -> I
 
 @dataclass(frozen=True)
 class Iterate:
-    """Unknowns; room and crushing only at the points of finite compressive strength.
+    """Unknowns, or a change of them.
 
-    velocities (n_rows,), load factor; per point normal force over −f_t, opening, shear, sliding velocity and its bound
+    u, factor : velocities, (n_rows,), and load factor
+    normal    : (n_points,) N + f_t
+    opening   : (n_points,) y
+    shear     : (n_points, components − 1) T
+    slip      : (n_points, components − 1) w
+    speed     : (n_points,) s
+    crushing  : (n_crushable,) z
+    log_sigma : natural logarithm of σ, along a path
     """
 
     u: FloatArray
@@ -61,18 +77,37 @@ class Iterate:
     slip: FloatArray
     speed: FloatArray
     crushing: FloatArray
+    log_sigma: float = 0.0
+
+    def plus(self, change: Iterate, length: float = 1.0) -> Iterate:
+        """The iterate a length along a direction."""
+        return Iterate(*(a + length * b for a, b in zip(vars(self).values(), vars(change).values(), strict=True)))
+
+    def times(self, length: float) -> Iterate:
+        """A multiple of a change."""
+        return Iterate(*(length * part for part in vars(self).values()))
 
 
 @dataclass(frozen=True)
-class StepProblem:
-    """The problem: stiffness pattern, law, anchor, step size, points that can crush."""
+class JointEquations:
+    """The equations of one program.
+
+    anchor    : (n_points, components) x̄
+    crushable : numbers of the points of finite compressive strength
+    """
 
     stiffness: Stiffness
     law: InteriorLaw
     anchor: FloatArray
     rho: float
-    fixed_load: bool
     crushable: IntArray
+
+    @staticmethod
+    def of(stiffness: Stiffness, law: InteriorLaw, anchor: FloatArray, rho: float) -> JointEquations:
+        """Of a program."""
+        return JointEquations(
+            stiffness, law, anchor, rho, np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
+        )
 
     @property
     def program(self) -> Program:
@@ -84,6 +119,10 @@ class StepProblem:
         full = self.law.slope * (normal - self.program.limits.tension) + self.law.offset
         return np.where(self.law.slope > 0.0, full, np.maximum(full, LEAST_LIMIT))
 
+    def forces(self, now: Iterate) -> FloatArray:
+        """Contact forces, (n_points, components)."""
+        return np.column_stack([now.normal - self.program.limits.tension, now.shear])
+
     def room(self, normal: FloatArray) -> FloatArray:
         """What is left to the compressive strength, at the points that can crush."""
         limits = self.program.limits
@@ -92,7 +131,14 @@ class StepProblem:
 
 @dataclass(frozen=True)
 class Missing:
-    """What the linear equations and the products miss."""
+    """What the linear equations and the products miss.
+
+    balance           : (n_rows + 1,) unbalanced forces and f_L·u − 1
+    normal, shear     : (n_points,), (n_points, components − 1) incompatible velocities
+    normal_product    : (n_points,) (N + f_t) y            crushing_product : (n_crushable,) (f_c − N) z
+    shear_product     : (n_points,) p                      shear_direction  : (n_points, components − 1) q
+    speed             : what incompatible velocities are relative to
+    """
 
     balance: FloatArray
     normal: FloatArray
@@ -102,6 +148,32 @@ class Missing:
     shear_product: FloatArray
     shear_direction: FloatArray
     speed: float
+
+    @property
+    def total(self) -> float:
+        """Sum of the products."""
+        return float(self.normal_product.sum() + self.shear_product.sum() + self.crushing_product.sum())
+
+
+def residuals(step: JointEquations, now: Iterate) -> Missing:
+    """What an iterate leaves of the equations, all products counted as missing."""
+    program, forces = step.program, step.forces(now)
+    v = step.stiffness.velocities(now.u)
+    balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + now.factor * program.live_load
+    elastic = step.rho * (forces - step.anchor)
+    limit = step.limit(now.normal)
+    normal = v[:, 0] + elastic[:, 0] - step.law.dilatancy * now.speed - now.opening
+    normal[step.crushable] += now.crushing
+    return Missing(
+        balance=np.append(balance, program.live_load @ now.u - 1.0),
+        normal=normal,
+        shear=v[:, 1:] + elastic[:, 1:] - now.slip,
+        normal_product=now.normal * now.opening,
+        crushing_product=step.room(now.normal) * now.crushing,
+        shear_product=limit * now.speed + (now.shear * now.slip).sum(axis=1),
+        shear_direction=limit[:, None] * now.slip + now.speed[:, None] * now.shear,
+        speed=float(np.abs(v).max(initial=0.0)) + step.rho * float(np.abs(forces).max(initial=0.0)),
+    )
 
 
 @dataclass(frozen=True)
@@ -123,65 +195,39 @@ class Products:
         )
 
 
-def moved(now: Iterate, direction: Iterate, length: float) -> Iterate:
-    """The iterate a length along a direction."""
-    return Iterate(
-        u=now.u + length * direction.u,
-        factor=now.factor + length * direction.factor,
-        normal=now.normal + length * direction.normal,
-        opening=now.opening + length * direction.opening,
-        shear=now.shear + length * direction.shear,
-        slip=now.slip + length * direction.slip,
-        speed=now.speed + length * direction.speed,
-        crushing=now.crushing + length * direction.crushing,
-    )
-
-
-def way_to_go(step: StepProblem, now: Iterate, direction: Iterate) -> float:
-    """How much of a direction, at most all of it, leaves every joint within its bounds."""
-    limit, growth = step.limit(now.normal), step.law.slope * direction.normal
-    room = step.room(now.normal)
+def step_to_boundary(step: JointEquations, now: Iterate, direction: Iterate) -> float:
+    """How much of a direction leaves every joint within its bounds; infinite where none binds."""
     lines = (
         (now.normal, direction.normal),
         (now.opening, direction.opening),
-        (room, -direction.normal[step.crushable]),
+        (step.room(now.normal), -direction.normal[step.crushable]),
         (now.crushing, direction.crushing),
     )
-    reach = 1.0
-    for value, change in lines:
-        falls = change < 0.0
-        reach = min(reach, float((value[falls] / -change[falls]).min(initial=1.0)))
-    for radius, change, vector, turn in (
-        (limit, growth, now.shear, direction.shear),
-        (now.speed, direction.speed, now.slip, direction.slip),
-    ):
-        reach = min(reach, float(_reach_in_cone(radius, change, vector, turn).min(initial=1.0)))
-    return reach
-
-
-def _reach_in_cone(radius: FloatArray, change: FloatArray, vector: FloatArray, turn: FloatArray) -> FloatArray:
-    """First t > 0 at which radius + t change = ‖vector + t turn‖, inf where there is none."""
-    square = change**2 - (turn**2).sum(axis=1)
-    mixed = radius * change - (vector * turn).sum(axis=1)
-    inside = radius**2 - (vector**2).sum(axis=1)
-    root = mixed**2 - square * inside
-    below = np.sqrt(np.maximum(root, 0.0)) - mixed
-    meets = (root >= 0.0) & (below > 0.0)
-    return np.where(meets, inside / np.where(meets, below, 1.0), np.inf)
+    cones = (
+        (step.limit(now.normal), now.shear, step.law.slope * direction.normal, direction.shear),
+        (now.speed, now.slip, direction.speed, direction.slip),
+    )
+    reach = [float(lines_to_boundary(value, change).min(initial=np.inf)) for value, change in lines]
+    for radius, vector, growth, turn in cones:
+        length = np.linalg.norm(vector, axis=1)
+        within = (radius - length) * (radius + length)
+        mixed = radius * growth - (vector * turn).sum(axis=1)
+        reach.append(float(cones_to_boundary(within, mixed, growth**2 - (turn**2).sum(axis=1)).min(initial=np.inf)))
+    return min(reach)
 
 
 @dataclass(frozen=True)
 class Joints:
     """Every joint linearised: inverse @ (…) gives its forces, dx = −tangents dv + g."""
 
-    step: StepProblem
+    step: JointEquations
     limit: FloatArray
     cone: FloatArray
     inverse: FloatArray
     tangents: FloatArray
 
     @staticmethod
-    def of(step: StepProblem, now: Iterate) -> Joints:
+    def of(step: JointEquations, now: Iterate) -> Joints:
         """Eliminate openings and sliding velocities: H dx = −G dv + q, C = H⁻¹ G."""
         law, rho, c = step.law, step.rho, step.program.components
         limit = step.limit(now.normal)
@@ -238,7 +284,7 @@ class Joints:
 
 
 def wanted(
-    step: StepProblem, missing: Missing, target: float, predictor: Iterate | None = None, second: float = 0.0
+    step: JointEquations, missing: Missing, target: float, predictor: Iterate | None = None, second: float = 0.0
 ) -> Products:
     """Changes to products ``target``, less the second-order terms of a predictor weighted by ``second``."""
     plain = Products(
@@ -260,7 +306,7 @@ def wanted(
     )
 
 
-def outlying(step: StepProblem, ahead: Iterate, least: float, most: float) -> Products:
+def outlying(step: JointEquations, ahead: Iterate, least: float, most: float) -> Products:
     """Changes that bring products back within limits, by no more than ``most`` downwards.
 
     Far too large products are better left alone than fought with (Gondzio 1996).
