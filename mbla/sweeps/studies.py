@@ -6,10 +6,11 @@ sweeps, and add a picture and sentences of their own.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.failures import SIGNALS, words_of
 from mbla.results.files import OutputFolder
+from mbla.results.listing.text import INDENT
 from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.provenance import collect_provenance
 from mbla.results.record.scene import Values
@@ -63,6 +65,33 @@ class About:
 def about(deck: Deck, overrides: Sequence[str]) -> About:
     """What is said of a deck that was read with these overrides."""
     return About(deck.path.name, deck.title, tuple(overrides), deck.units, deck.analysis.flow_rule)
+
+
+@dataclass(frozen=True)
+class Study(ABC):
+    """What every study ends with.
+
+    stop    : exit status of the signal that ended it, 0 without one
+    seconds : by the clock
+    """
+
+    about: About
+    table: SweepTable
+    stop: int
+    seconds: float
+
+    @property
+    @abstractmethod
+    def exit_code(self) -> int:
+        """Of the command."""
+
+    @property
+    def heading_lines(self) -> list[str]:
+        """How its words begin."""
+        return [self.about.heading, f"{INDENT}flow rule {self.about.flow_rule}"]
+
+
+StudyOfAKind = TypeVar("StudyOfAKind", bound=Study)
 
 
 def plan_of(deck: Deck, fixed: Sequence[str], cases: Sequence[str], results: Sequence[str]) -> Plan:
@@ -158,43 +187,56 @@ def rows_json(table: SweepTable) -> list[dict[str, Plain]]:
     return [dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
-def about_json(of: About, exit_code: int) -> dict[str, Any]:
-    """How the record of every study begins."""
+def study_record(study: Study, own: Mapping[str, Any], files: Sequence[str]) -> dict[str, Any]:
+    """The record of a study: how every one begins and ends, and its own keys between."""
+    of = study.about
     return {
         "mbla": of.provenance["mbla"],
         "deck": of.deck,
         "title": of.title,
         "created": of.created,
-        "exit_code": exit_code,
+        "exit_code": study.exit_code,
         "set": list(of.overrides),
         "flow_rule": of.flow_rule,
         "units": {"length": of.units.length, "force": of.units.force, "mass": of.units.mass},
         "provenance": dict(of.provenance),
+        **own,
+        "time": study.seconds,
+        "files": list(files),
     }
 
 
-def write_study(
+def written_study(
     out: OutputFolder,
-    interrupted: bool,
-    table: SweepTable,
-    draw: Callable[[OutputFolder, str], None],
-    record: Callable[[tuple[str, ...]], Mapping[str, Any]],
-) -> list[str]:
-    """Write table, pictures and record to a folder that is open; what is to be said of it.
+    solve: Callable[[], StudyOfAKind],
+    draw: Callable[[OutputFolder, str, StudyOfAKind], None],
+    record: Callable[[StudyOfAKind, tuple[str, ...]], dict[str, Any]],
+) -> tuple[StudyOfAKind, dict[str, Any], list[str]]:
+    """Solve a study and write table, pictures and record; the study, its record, and what is to be said of it.
 
     An interrupted study is written as far as it came, but never over an earlier one.
 
-    draw   : called with the folder and the ending of the pictures to make
-    record : of the names of all files
+    draw   : called with the folder, the ending of the pictures to make, and the study
+    record : of the study and the names of all files
+
+    Raises
+    ------
+    FileError
+        Files are in the way or cannot be written.
     """
-    if interrupted and any((out.folder / f"{out.stem}.{ending}").exists() for ending in ("csv", "json")):
-        return [INTERRUPTION, LEFT]
-    out.write_text(f"{out.stem}.csv", sweep_csv(table))
-    remark = _without_pictures()
-    for ending in () if remark else PICTURES:
-        draw(out, ending)
-    out.write_text(f"{out.stem}.json", record_text(record(tuple(sorted((*out.names, f"{out.stem}.json"))))))
-    return [*([INTERRUPTION] if interrupted else []), *([remark] if remark else [])]
+    table, json = f"{out.stem}.csv", f"{out.stem}.json"
+    out.refuse(table, json)
+    with out:
+        study = solve()
+        remarks = [INTERRUPTION] if study.stop else []
+        if study.stop and any((out.folder / name).exists() for name in (table, json)):
+            return study, record(study, out.names), [*remarks, LEFT]
+        out.write_text(table, sweep_csv(study.table))
+        remark = _without_pictures()
+        for ending in () if remark else PICTURES:
+            draw(out, ending, study)
+        out.write_text(json, record_text(record(study, tuple(sorted((*out.names, json))))))
+    return study, record(study, out.names), [*remarks, *([remark] if remark else [])]
 
 
 def _without_pictures() -> str:

@@ -25,6 +25,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray
 from mbla.solution.solution import Status
@@ -200,19 +201,12 @@ def half_planes(points: Sequence[Point], pair: tuple[str, str]) -> tuple[FloatAr
 
 
 def convex_hull(points: FloatArray) -> FloatArray:
-    """Corners of the convex hull of points (n, 2), counter-clockwise; by Andrew's monotone chain."""
-    ordered = sorted(set(map(tuple, points.tolist())))
-    if len(ordered) < 3:
-        return np.array(ordered).reshape(-1, 2)
-    chains = []
-    for sequence in (ordered, ordered[::-1]):
-        chain: list[tuple[float, float]] = []
-        for point in sequence:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
-                chain.pop()
-            chain.append(point)
-        chains += chain[:-1]
-    return np.array(chains)
+    """Corners of the convex hull of points (n, 2), counter-clockwise; its two ends where it has no area."""
+    hull = shapely.convex_hull(shapely.multipoints(points))
+    if hull.geom_type != "Polygon":
+        return np.array(sorted(shapely.get_coordinates(hull).tolist())).reshape(-1, 2)
+    corners: FloatArray = shapely.get_coordinates(shapely.orient_polygons(hull))[:-1]
+    return np.roll(corners, -int(np.lexsort(corners.T[::-1])[0]), axis=0)
 
 
 def clipped(polygon: FloatArray, plane: FloatArray) -> FloatArray:
@@ -237,10 +231,6 @@ def area(polygon: FloatArray) -> float:
 
 def _is_safe(point: Point) -> bool:
     return bool(np.isfinite(point.static_bound)) and point.static_bound >= 0.0
-
-
-def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _sector(angles: Sequence[float], far: float, *, closed: bool) -> FloatArray:

@@ -24,7 +24,7 @@ from mbla.sweeps.interaction.question import DIRECTION
 from mbla.sweeps.interaction.words import ASSOCIATIVE, conclusions
 
 if TYPE_CHECKING:
-    from mbla.sweeps.interaction.study import Study
+    from mbla.sweeps.interaction.study import Interaction
 
 SIZE = (1200, 1240)
 """pixels: a square diagram, words above and a legend below"""
@@ -34,7 +34,7 @@ OFF_RAY = 1e-9
 """relative size below which a coordinate is zero"""
 
 
-def draw_study(path: Path, study: Study, options: PictureOptions | None = None) -> None:
+def draw_study(path: Path, study: Interaction, options: PictureOptions | None = None) -> None:
     """Write the diagram, PNG, SVG or PDF.
 
     Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
@@ -62,7 +62,7 @@ def draw_study(path: Path, study: Study, options: PictureOptions | None = None) 
         sheet.add_legend(handles + _draw_points(page, axes, study, edge, polar=polar))
 
 
-def _edge(study: Study) -> float | None:
+def _edge(study: Interaction) -> float | None:
     """Greatest distance from the origin to draw; None where nothing has a distance."""
     radii = [
         value
@@ -73,7 +73,7 @@ def _edge(study: Study) -> float | None:
     return ROOM * max(map(abs, radii)) if any(radii) else (1.0 if study.points else None)
 
 
-def _limit(page: Page, axes: Any, study: Study) -> None:
+def _limit(page: Page, axes: Any, study: Interaction) -> None:
     """A plane that begins at the origin where no point lies beyond it."""
     places = np.array([(0.0, 0.0), *(place for point in study.points for place in _places(point))])
     reach = np.abs(places).max(axis=0)
@@ -95,7 +95,7 @@ def _onto(places: Iterable[Sequence[float]] | FloatArray, *, polar: bool) -> tup
     return (np.arctan2(y, x), np.hypot(x, y)) if polar else (x, y)
 
 
-def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[Any]:
+def _draw_domain(page: Page, axes: Any, study: Interaction, *, polar: bool) -> list[Any]:
     """Both polygons; straight sides stay straight, in polar axes too."""
     domain = study.domain
     if domain is None:
@@ -113,7 +113,7 @@ def _draw_domain(page: Page, axes: Any, study: Study, *, polar: bool) -> list[An
     return handles
 
 
-def _draw_points(page: Page, axes: Any, study: Study, edge: float, *, polar: bool) -> list[Any]:
+def _draw_points(page: Page, axes: Any, study: Interaction, edge: float, *, polar: bool) -> list[Any]:
     points = study.points
     handles: list[Any] = []
     own = study.about.flow_rule == ASSOCIATIVE
@@ -159,7 +159,7 @@ def rim_place(axes: Any, point: Point, edge: float, radius: float | None, *, pol
     return (x / reach, y / reach) if radius == edge and reach > 0.0 else (x, y)
 
 
-def _draw_least(page: Page, axes: Any, study: Study, *, polar: bool) -> list[Any]:
+def _draw_least(page: Page, axes: Any, study: Interaction, *, polar: bool) -> list[Any]:
     """The least load factor, ringed at its angles."""
     ends = extremes(study.points)
     if ends is None or study.question.kind != DIRECTION:

@@ -25,7 +25,6 @@ import numpy as np
 
 from mbla.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.sections.loads import Load
 from mbla.deck.tree import KeyPath
 from mbla.errors import UsageError
 from mbla.model.loads.load_case import kind_of
@@ -37,11 +36,6 @@ from mbla.sweeps.plan import Plain
 
 CLOSED = 1e-9
 """degrees by which two angles may miss a full circle and close it"""
-
-
-def angles_around(count: int) -> tuple[float, ...]:
-    """Angles around the circle from 0, in degrees."""
-    return tuple(FULL_CIRCLE * number / count for number in range(count))
 
 
 def angles_between(start: float, end: float, count: int, ratio: float = 1.0) -> tuple[float, ...]:
@@ -143,21 +137,15 @@ def live_entries(deck: Deck, case: str) -> list[Entry]:
 
 
 def written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str, Any]:
-    """A load as a deck writes it, in the deck's units, with another factor and other values.
+    """A load as a deck writes it, in the deck's units, expressions evaluated, with another factor and other values.
 
     A table is named relative to the main file of the deck, from where a setting looks for it.
     """
-    text: dict[str, Any] = dumped(entry.load)
+    text: dict[str, Any] = entry.load.model_dump(mode="json", by_alias=True, exclude_unset=True, exclude_none=True)
     if entry.load.table is not None:
         table = deck.resolve_file((*entry.path, "table"), entry.load.table)
         text["table"] = os.path.relpath(table.resolve(), deck.folder.resolve())
     return text | {"factor": factor} | changes
-
-
-def dumped(load: Load) -> dict[str, Any]:
-    """What the deck gives of a load, expressions evaluated."""
-    text: dict[str, Any] = load.model_dump(mode="json", by_alias=True, exclude_unset=True, exclude_none=True)
-    return text
 
 
 TURNED = ("gravity", "acceleration", "force")
@@ -196,7 +184,7 @@ def direction_question(deck: Deck, case: str, count: int) -> Question:
     section_of(deck, case, OVER_DIRECTION)
     _refuse_halves(deck)
     turnings, absolute = _turnings(deck, case)
-    azimuths = angles_around(count)
+    azimuths = angles_between(0.0, FULL_CIRCLE, count)
     key = f"load_cases.{case}.live"
     settings = tuple({key: _live(deck, turnings, azimuth)} for azimuth in azimuths)
     flat = all(one.vertical == 0.0 for one in turnings)
@@ -324,10 +312,11 @@ def two_loads_question(
     section_of(deck, second, OF_TWO_LOADS)
     _refuse_other_dead_load(model, first, second)
     name = free_name(deck, "interact")
-    dead = section.dead
     own: dict[str, Plain] = {}
-    if dead is not None:
-        own["dead"] = [_dead(deck, first, number) for number in range(len(dead))]
+    if section.dead is not None:
+        places = (("load_cases", first, "dead", number) for number in range(len(section.dead)))
+        entries = [Entry(load, place, load.factor) for load, place in zip(section.dead, places, strict=True)]
+        own["dead"] = [written(deck, entry, entry.factor) for entry in entries]
     angles = angles_between(start, end, count, ratio)
     settings = tuple({f"load_cases.{name}": {**own, "live": _together(deck, names, angle)}} for angle in angles)
     words = (
@@ -349,12 +338,6 @@ def _refuse_other_dead_load(model: Model, first: str, second: str) -> None:
             f"load cases {first} and {second} have different dead loads: their live loads act together only on one; "
             "give both the same dead load",
         )
-
-
-def _dead(deck: Deck, case: str, number: int) -> Plain:
-    """A dead load as the deck writes it; what it names is looked for from the main file."""
-    load = (deck.content.load_cases[case].dead or [])[number]
-    return written(deck, Entry(load, ("load_cases", case, "dead", number), load.factor), load.factor)
 
 
 def _together(deck: Deck, names: tuple[str, str], angle: float) -> list[Plain]:

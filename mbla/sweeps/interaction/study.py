@@ -46,18 +46,18 @@ from mbla.sweeps.interaction.words import conclusions
 from mbla.sweeps.plan import Outcome
 from mbla.sweeps.studies import (
     NOT_SOLVED,
-    About,
+    Study,
     about,
-    about_json,
     plan_of,
     rows_json,
     solved,
+    study_record,
     study_table,
     tasks_of,
     with_columns,
-    write_study,
+    written_study,
 )
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+from mbla.sweeps.tables.sweep_table import SweepColumn
 
 DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
@@ -71,21 +71,15 @@ Report = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class Study:
+class Interaction(Study):
     """Every point of the diagram, and what they say together.
 
-    domain  : of associative flow; None where the points do not lie in the plane of two loads
-    stop    : exit status of the signal that ended it, 0 without one
-    seconds : by the clock
+    domain : of associative flow; None where the points do not lie in the plane of two loads
     """
 
-    about: About
     question: Question
     points: tuple[Point, ...]
-    table: SweepTable
     domain: Domain | None
-    stop: int
-    seconds: float
 
     @property
     def exit_code(self) -> int:
@@ -106,7 +100,7 @@ class Study:
 
 def interact(
     deck: Deck, run: RunOptions, options: Any, report: Report | None
-) -> tuple[Study, dict[str, Any], list[str]]:
+) -> tuple[Interaction, dict[str, Any], list[str]]:
     """Solve the points of a diagram and write the files; the study, its JSON record, and remarks.
 
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given;
@@ -123,20 +117,19 @@ def interact(
     question = question_of(deck, options)
     loads = question.pair if question.kind == TWO_LOADS else ()
     stem = "_".join((deck.path.stem, "interact", *loads))
-    out = OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True)
-    out.refuse(f"{stem}.csv", f"{stem}.json")
-    with out:
+
+    def solve() -> Interaction:
+        asked = question
         with engine as workers:
-            if question.kind == TWO_LOADS:
-                question = question_of(deck, options, factor_ratio(deck, run.overrides, options, workers))
-            study = study_points(deck, run.overrides, question, workers, report)
+            if asked.kind == TWO_LOADS:
+                asked = question_of(deck, options, factor_ratio(deck, run.overrides, options, workers))
+            return study_points(deck, run.overrides, asked, workers, report)
 
-        def draw(folder: OutputFolder, ending: str) -> None:
-            with folder.writing(f"{stem}.{ending}") as path:
-                draw_study(path, study)
+    def draw(folder: OutputFolder, ending: str, study: Interaction) -> None:
+        with folder.writing(f"{stem}.{ending}") as path:
+            draw_study(path, study)
 
-        remarks = write_study(out, bool(study.stop), study.table, draw, lambda names: study_json(study, names))
-    return study, study_json(study, out.names), remarks
+    return written_study(OutputFolder(run.folder_for(deck.path), stem, run.force, beside=True), solve, draw, study_json)
 
 
 def factor_ratio(deck: Deck, overrides: Sequence[str], options: Any, workers: Engine) -> float:
@@ -183,7 +176,7 @@ def _count(given: int | None, usual: int, least: int) -> int:
 
 def study_points(
     deck: Deck, overrides: Sequence[str], question: Question, engine: Engine, report: Report | None
-) -> Study:
+) -> Interaction:
     """Solve every point of a question; ``overrides`` are those that the deck was read with.
 
     An interruption ends it with the points solved until then; one before the first is raised. Raises as the engine
@@ -200,7 +193,7 @@ def study_points(
     name = "azimuth" if question.kind == DIRECTION else "angle"
     words = "from +x towards +y" if question.kind == DIRECTION else "of two loads: A times cosine, B times sine"
     angle = SweepColumn(name, "degree", words, "float", "azimuth", name)
-    return Study(
+    return Interaction(
         about=of,
         question=question,
         points=points,
@@ -226,12 +219,11 @@ def _factors(question: Question, points: Sequence[Point]) -> list[tuple[SweepCol
     ]
 
 
-def study_json(study: Study, files: tuple[str, ...] = ()) -> dict[str, Any]:
+def study_json(study: Interaction, files: tuple[str, ...] = ()) -> dict[str, Any]:
     """The record that ``--json`` prints and ``STEM_interact.json`` holds; ``points`` are the rows of the table."""
     ends, question = extremes(study.points), study.question
     azimuth = "from +x towards +y" if question.absolute else "turned from the deck's directions"
-    return {
-        **about_json(study.about, study.exit_code),
+    own = {
         "kind": question.kind,
         "case": question.case if question.kind == DIRECTION else None,
         "loads": list(question.pair) if question.kind == TWO_LOADS else None,
@@ -243,16 +235,15 @@ def study_json(study: Study, files: tuple[str, ...] = ()) -> dict[str, Any]:
         "greatest": None if ends is None else _extreme_json(ends[1]),
         "domain": None if study.domain is None else _domain_json(study, study.domain),
         "words": [*question.words, *conclusions(study)],
-        "time": study.seconds,
-        "files": list(files),
     }
+    return study_record(study, own, files)
 
 
 def _extreme_json(extreme: Extreme) -> Mapping[str, Any]:
     return {"load_factor": extreme.load_factor, "angles": list(extreme.angles)}
 
 
-def _domain_json(study: Study, domain: Domain) -> Mapping[str, Any]:
+def _domain_json(study: Interaction, domain: Domain) -> Mapping[str, Any]:
     return {
         "flow_rule": "associative",
         "inner": (domain.inner + 0.0).tolist(),

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from mbla.results.listing.answers import status_name
-from mbla.results.listing.text import INDENT, counted, number, percent, sentence, table
+from mbla.results.listing.text import counted, number, percent, sentence, table
 from mbla.solution.solution import Status
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.interaction.domain import Domain, Extreme, Point, everywhere, extremes
@@ -15,16 +15,16 @@ from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
 from mbla.sweeps.studies import NOT_SOLVED
 
 if TYPE_CHECKING:
-    from mbla.sweeps.interaction.study import Study
+    from mbla.sweeps.interaction.study import Interaction
 
 MOST_ANGLES = 4
 """angles that are named of one extreme"""
 ASSOCIATIVE = "associative"
 
 
-def study_lines(study: Study) -> list[str]:
+def study_lines(study: Interaction) -> list[str]:
     """Everything that the terminal shows."""
-    lines = [study.about.heading, f"{INDENT}flow rule {study.about.flow_rule}"]
+    lines = study.heading_lines
     for text in study.question.words:
         lines += sentence(text)
     lines += ["", *point_table(study), ""]
@@ -33,7 +33,7 @@ def study_lines(study: Study) -> list[str]:
     return lines
 
 
-def point_table(study: Study) -> list[str]:
+def point_table(study: Interaction) -> list[str]:
     """A line for each point; a column only where some point has something to say in it."""
     both = study.question.kind == TWO_LOADS
     head = ["angle" if both else "azimuth", "load factor"]
@@ -63,7 +63,7 @@ def mark_words(point: Point) -> str:
     return name
 
 
-def conclusions(study: Study) -> list[str]:
+def conclusions(study: Interaction) -> list[str]:
     """Extremes, the safe domain, points without an answer; a sentence each."""
     ends = extremes(study.points)
     if study.question.kind == TWO_LOADS:
@@ -74,7 +74,7 @@ def conclusions(study: Study) -> list[str]:
     return [*words, *_unanswered(study.points), *_without_factor(study.points)]
 
 
-def domain_words(study: Study) -> list[str]:
+def domain_words(study: Interaction) -> list[str]:
     """What the bounds of all points say of the domain of associative flow."""
     domain = study.domain
     if domain is None:
@@ -107,7 +107,7 @@ def _crossing_words(domain: Domain) -> str:
     )
 
 
-def _extreme_words(study: Study, least: Extreme, greatest: Extreme) -> list[str]:
+def _extreme_words(study: Interaction, least: Extreme, greatest: Extreme) -> list[str]:
     known = sum(point.has_factor for point in study.points)
     which = "" if known == len(study.points) else f" of {counted(known, 'verified point')}"
     if len(least.angles) == known and known > 1:
@@ -118,7 +118,7 @@ def _extreme_words(study: Study, least: Extreme, greatest: Extreme) -> list[str]
     ]
 
 
-def _alone_words(study: Study) -> list[str]:
+def _alone_words(study: Interaction) -> list[str]:
     """Each of two loads by itself, where there is a point of it; the least factor over their shares says nothing."""
     words = []
     for point in study.points:

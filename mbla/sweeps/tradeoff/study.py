@@ -29,16 +29,17 @@ from mbla.sweeps.plan import DONE, Outcome, Plan
 from mbla.sweeps.results import result_places
 from mbla.sweeps.studies import (
     About,
+    Study,
     about,
-    about_json,
     plan_of,
     rows_json,
     solved,
+    study_record,
     study_table,
     tasks_of,
     with_columns,
     without_empty,
-    write_study,
+    written_study,
 )
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, as_text
 from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, fitted, named_ladder, named_rungs, usual_ladder
@@ -69,25 +70,19 @@ Report = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class Study:
+class Tradeoff(Study):
     """Everything that was measured and what it says.
 
     wanted, limits, threads : as of ``study_deck``
     trades  : by load case, a travelling load as one
     advices : by load case; then, with several, the one for all of them
-    stop    : exit status of the signal that ended it, 0 without one
-    seconds : by the clock
     """
 
-    about: About
     wanted: float
     limits: tuple[float | None, float | None]
     threads: int
-    table: SweepTable
     trades: tuple[CaseTrade, ...]
     advices: tuple[Advice, ...]
-    stop: int
-    seconds: float
 
     @property
     def exit_code(self) -> int:
@@ -102,7 +97,7 @@ class Study:
 
 def tradeoff(
     deck: Deck, run: RunOptions, options: Any, report: Report | None
-) -> tuple[Study, dict[str, Any], list[str]]:
+) -> tuple[Tradeoff, dict[str, Any], list[str]]:
     """Run a deck under its settings and write the files; the study, its JSON record, and remarks.
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
@@ -115,19 +110,19 @@ def tradeoff(
         Files are in the way or cannot be written.
     """
     named = named_rungs(options.knob, options.setting)
-    out = OutputFolder(run.folder_for(deck.path), f"{deck.path.stem}_tradeoff", run.force, beside=True)
-    out.refuse(f"{out.stem}.csv", f"{out.stem}.json")
-    with out:
-        limits = options.time_limit, options.run_limit
-        study = study_deck(deck, run, named, options.wanted_error, limits, report)
+    limits = options.time_limit, options.run_limit
 
-        def draw(folder: OutputFolder, ending: str) -> None:
-            for trade, advised in zip(study.trades, study.advices, strict=False):
-                with folder.writing(f"{out.stem}_{trade.name}.{ending}") as path:
-                    draw_trade(path, study.about.heading, trade, advised.sentence)
+    def draw(folder: OutputFolder, ending: str, study: Tradeoff) -> None:
+        for trade, advised in zip(study.trades, study.advices, strict=False):
+            with folder.writing(f"{folder.stem}_{trade.name}.{ending}") as path:
+                draw_trade(path, study.about.heading, trade, advised.sentence)
 
-        remarks = write_study(out, bool(study.stop), study.table, draw, lambda names: study_json(study, names))
-    return study, study_json(study, out.names), remarks
+    return written_study(
+        OutputFolder(run.folder_for(deck.path), f"{deck.path.stem}_tradeoff", run.force, beside=True),
+        lambda: study_deck(deck, run, named, options.wanted_error, limits, report),
+        draw,
+        study_json,
+    )
 
 
 def study_deck(
@@ -137,7 +132,7 @@ def study_deck(
     wanted: float,
     limits: tuple[float | None, float | None] = (None, None),
     report: Report | None = None,
-) -> Study:
+) -> Tradeoff:
     """Run the settings that are named with the reference, or the usual ones, and hold them against the reference.
 
     limits : seconds for all settings, which count from here, and for each; None for none
@@ -155,7 +150,7 @@ def study_deck(
     trades = tuple(_trade(model, case, plan, rungs, outcomes, ends) for case in cases.values())
     advices = [advice([trade], wanted) for trade in trades]
     of = about(deck, fixed)
-    return Study(
+    return Tradeoff(
         about=of,
         wanted=wanted,
         limits=limits,
@@ -305,11 +300,10 @@ def _table(
     return with_columns(table, columns)
 
 
-def study_json(study: Study, files: tuple[str, ...] = ()) -> dict[str, Any]:
+def study_json(study: Tradeoff, files: tuple[str, ...] = ()) -> dict[str, Any]:
     """The record that ``--json`` prints and ``STEM_tradeoff.json`` holds; ``points`` are the rows of the table."""
     rows = study.trades[0].rows
-    return {
-        **about_json(study.about, study.exit_code),
+    own = {
         "wanted_error": study.wanted,
         "limits": {"time": study.limits[0], "run": study.limits[1], "threads": study.threads},
         "settings": [
@@ -320,9 +314,8 @@ def study_json(study: Study, files: tuple[str, ...] = ()) -> dict[str, Any]:
         "points": rows_json(study.table),
         "cases": [_case_json(trade, study.advices[place]) for place, trade in enumerate(study.trades)],
         "advice": _advice_json(study.advices[-1]),
-        "time": study.seconds,
-        "files": list(files),
     }
+    return study_record(study, own, files)
 
 
 def _setting_json(rung: Rung | None) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from mbla.results.listing.answers import status_name
-from mbla.results.listing.text import INDENT, number, sentence, small, table
+from mbla.results.listing.text import number, sentence, small, table
 from mbla.results.outcome import range_is_a_point
 from mbla.solution.solution import Status
 from mbla.sweeps.plan import DONE
@@ -15,7 +15,7 @@ from mbla.sweeps.tradeoff.ladder import REFERENCE
 from mbla.sweeps.tradeoff.trade import VERDICTS, CaseTrade, Row
 
 if TYPE_CHECKING:
-    from mbla.sweeps.tradeoff.study import Study
+    from mbla.sweeps.tradeoff.study import Tradeoff
 
 HEAD = ("setting", "time", "solve", "iter", "answer", "error", "lower", "upper", "resid.", "")
 RELATIVE = "errors are relative to"
@@ -28,9 +28,9 @@ LEGEND = (
 )
 
 
-def study_lines(study: Study) -> list[str]:
+def study_lines(study: Tradeoff) -> list[str]:
     """Everything that the terminal shows."""
-    lines = [study.about.heading, f"{INDENT}flow rule {study.about.flow_rule}"]
+    lines = study.heading_lines
     for trade in study.trades:
         lines += ["", *trade_lines(trade)]
     if any(trade.solved for trade in study.trades):

@@ -15,7 +15,7 @@ from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.interaction.domain import Point, domain_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
-from mbla.sweeps.interaction.study import Study, question_of, study_points
+from mbla.sweeps.interaction.study import Interaction, question_of, study_points
 from mbla.sweeps.plan import DONE, Outcome, Plan, Task
 from mbla.sweeps.studies import About, study_table
 from tests.line import HEAD
@@ -78,7 +78,7 @@ def written(folder: Path) -> Path:
     return path
 
 
-def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Study:
+def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Interaction:
     """The diagram of the block."""
     deck = read_deck(written(folder), overrides)
     wanted = question_of(deck, Asked(**asked))
@@ -112,7 +112,7 @@ def point(angle: float, factor: float = 0.5, **changes: Any) -> Point:
     return replace(plain, **changes)
 
 
-def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "associative") -> Study:
+def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "associative") -> Interaction:
     """The diagram of these points."""
     pair = ("A", "B")
     closed = kind == DIRECTION
@@ -136,7 +136,7 @@ def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "asso
     plan = Plan("", "", (), ("push",), ("load_factor",), "none", "", None, None, "")
     outcomes = {n: Outcome(str(n), DONE, 0, "", {}, 1, 0.1) for n in range(1, len(points) + 1)}
     table = study_table(of, angle, asked.angles, plan, outcomes)
-    return Study(of, asked, tuple(points), table, domain, 0, 1.0)
+    return Interaction(of, table, 0, 1.0, asked, tuple(points), domain)
 
 
 def around(count: int, **changes: Any) -> list[Point]:

@@ -5,11 +5,11 @@ import math
 import pytest
 
 from mbla.sweeps.design.directions import horizontal
-from mbla.sweeps.interaction.question import angles_around, angles_between, closes, stretched
+from mbla.sweeps.interaction.question import angles_between, closes, stretched
 
 
 def test_ranges() -> None:
-    assert angles_around(4) == (0.0, 90.0, 180.0, 270.0)
+    assert angles_between(0.0, 360.0, 4) == (0.0, 90.0, 180.0, 270.0)
     assert angles_between(0.0, 90.0, 3) == (0.0, 45.0, 90.0)
     assert angles_between(-90.0, 270.0, 4) == (-90.0, 0.0, 90.0, 180.0)
     assert closes(-90.0, 270.0)
