@@ -192,12 +192,6 @@ def test_whatever_ends_a_command(
     assert failure(capsys, name, *files)["exit_code"] == status
 
 
-def test_a_deck_that_fails_does_not_take_the_object_of_another(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert cli.main(["run", "none.yaml", "block.yaml", "--json"]) == 6
-    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert [(line["deck"], line["exit_code"]) for line in lines] == [("none.yaml", 6), ("block.yaml", 0)]
 
 
 def test_json_may_be_shortened_and_stands_before_the_files() -> None:

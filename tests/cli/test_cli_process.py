@@ -128,10 +128,3 @@ def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
     assert b"the current folder does not exist" in done.stderr
 
 
-def test_nothing_is_printed_for_progress_off_a_terminal(deck: Path) -> None:
-    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    done = subprocess.run(
-        [sys.executable, "-m", "mbla", "run", str(deck), "-q"], capture_output=True, env=environment, check=True
-    )
-    assert done.stdout == b""
-    assert done.stderr == b""

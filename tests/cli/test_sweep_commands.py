@@ -60,26 +60,8 @@ def test_a_faulty_base_deck_is_told_under_the_name_of_the_sweep(
     assert "block.yaml" in lines[0]
 
 
-def test_an_existing_sweep_is_a_failure_with_its_own_exit_status(
-    sweep: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (sweep.with_suffix(".out")).mkdir()
-    (sweep.with_suffix(".out") / "journal.csv").write_text("", encoding="utf-8")
-    code, record, lines = failure(capsys, "sweep", sweep, "--json")
-    assert code == record["exit_code"] == 6
-    assert lines == [f"mbla: {message}" for message in record["errors"]]
 
 
-@pytest.mark.parametrize("command", ["interact", "tradeoff"])
-def test_other_studies_of_a_faulty_deck_are_told_alike(
-    sweep: Path, capsys: pytest.CaptureFixture[str], command: str
-) -> None:
-    deck = sweep.parent / "block.yaml"
-    deck.write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
-    code, record, lines = failure(capsys, command, deck, "--json")
-    assert code == record["exit_code"] == 3
-    assert record["deck"] == "block.yaml"
-    assert record["errors"] == lines
 
 
 @pytest.mark.parametrize("gone", ["closed", "broken"])

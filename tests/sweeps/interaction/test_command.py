@@ -131,20 +131,6 @@ def test_the_points_of_two_loads_are_those_of_their_ratio(
     assert [point["load_factor"] for point in points][::2] == pytest.approx([0.4, 0.2], rel=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "status", "words"),
-    [
-        (["--set", "analysis.accuracy=best"], 3, "analysis.accuracy = best"),
-        (["--case", "pull"], 2, "no load case pull"),
-        ([], 2, "several load cases"),
-    ],
-)
-def test_refusals_write_nothing(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, words: str
-) -> None:
-    assert main(["interact", str(written(tmp_path)), *arguments]) == status
-    assert words in capsys.readouterr().err
-    assert not (tmp_path / "block.out").exists()
 
 
 def test_vertical_parts_leave_no_domain_and_that_is_told(tmp_path: Path) -> None:

@@ -142,8 +142,6 @@ def test_a_time_limit_that_ends_before_the_reference(deck: Path, capsys: pytest.
     ("arguments", "status", "words"),
     [
         (["--set", "analysis.accuracy=best"], 3, "analysis.accuracy = best"),
-        (["--case", "pull"], 2, "no load case pull"),
-        (["--knob", "analysis.tolerance"], 2, "must be KEY.PATH=VALUE"),
         (["--setting", "a: x.y=1", "--setting", "a: x.y=2"], 2, "two settings of that name"),
     ],
 )
@@ -194,20 +192,8 @@ def test_what_was_solved_before_an_interruption_is_told_and_written(
     assert f"not run: {word} before" in " ".join(told.err.split())
 
 
-def test_an_earlier_study_is_not_replaced_by_half_a_one(left: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    earlier = Path(left[1]).with_suffix(".out") / "block_tradeoff.csv"
-    earlier.parent.mkdir()
-    earlier.write_text("earlier", encoding="utf-8")
-    assert main([*left, "--force"]) == 130
-    assert "the files of the earlier study are left as they are" in capsys.readouterr().err
-    assert [path.name for path in earlier.parent.iterdir()] == [earlier.name]
-    assert earlier.read_text(encoding="utf-8") == "earlier"
 
 
-def test_before_anything_was_solved_nothing_is_left(left: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(LeftAfter, "points", 0)
-    assert main(left) == 130
-    assert not Path(left[1]).with_suffix(".out").exists()
 
 
 def test_without_the_extra_for_pictures_the_rest_is_written(
