@@ -13,8 +13,8 @@ from typing import Any
 from mbla.deck import read_deck, read_deck_text
 from mbla.deck.deck import Deck
 from mbla.errors import FileError, LimitError, UsageError
+from mbla.process.limits import limit_threads
 from mbla.process.run_options import RunOptions
-from mbla.process.threads import limit_threads
 from mbla.results.failures import StoppedRun
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run

@@ -17,8 +17,7 @@ from mbla.cli import decks, export, reference, show, study_commands, sweep_comma
 from mbla.cli.terminal import drop_output, prepare_streams
 from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
-from mbla.process.memory_limit import refuse_too_low_limits
-from mbla.process.threads import limit_threads
+from mbla.process.limits import limit_threads, refuse_too_low_limits
 from mbla.results.failures import ENDINGS
 
 COMMANDS = (

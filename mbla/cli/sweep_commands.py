@@ -89,7 +89,7 @@ def sweep(options: argparse.Namespace) -> int:
     with loading():
         from mbla.results.record.json_values import json_line
         from mbla.sweeps.command import dry_run_json, prepare, run_sweep
-        from mbla.sweeps.design.words import design_lines
+        from mbla.sweeps.design.design import design_lines
         from mbla.sweeps.fragility import fragility_lines
         from mbla.sweeps.words import sweep_lines
 

@@ -14,7 +14,7 @@ import io
 import json
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -34,6 +34,7 @@ from mbla.results.disk import (
 )
 from mbla.sweeps.identity import difference as other_versions
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
+from mbla.sweeps.tables.sweep_table import READ_CELL
 
 FORMAT = 2
 """of journals; a program with another one does not go on with them"""
@@ -47,13 +48,6 @@ BEGIN_ANEW = "--force begins anew and drops what it holds, -o FOLDER writes else
 _SHARD = re.compile(r"journal\.(?P<part>[1-9][0-9]*)-of-(?P<parts>[1-9][0-9]*)\.csv")
 _SWEEP = "sweep"
 """what is locked in the folder: alone by a whole run, together by shards"""
-_READ: Mapping[str, Callable[[str], Plain]] = {
-    "float": float,
-    "int": int,
-    "bool": {"True": True, "False": False}.__getitem__,
-    "text": str,
-}
-"""from a cell that is not empty to its value, by the kind of its column"""
 
 
 @dataclass(frozen=True)
@@ -117,7 +111,7 @@ def read_row(header: JournalHeader, line: bytes) -> Outcome:
         raise ValueError(f"is no row of a journal: state {state[:20]!r}")
     try:
         results = {
-            name: _READ[kind](cell) if cell else None
+            name: READ_CELL[kind](cell) if cell else None
             for (name, kind), cell in zip(header.columns.items(), cells[len(FIRST) : -1], strict=True)
         }
     except KeyError as error:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from mbla.cli import options as values
+from mbla.cli.options import shard
 
 
 @pytest.mark.parametrize(
@@ -42,3 +43,15 @@ def test_refused(value: Callable[[str], object], text: str, words: str) -> None:
         value(text)
     assert words in str(caught.value)
     assert repr(text) in str(caught.value)
+
+
+def test_part_and_parts() -> None:
+    assert [shard(text) for text in ("1/1", "2/8", "08/8")] == [(1, 1), (2, 8), (8, 8)]
+
+
+@pytest.mark.parametrize(
+    "text", ["", "2", "0/8", "9/8", "1/0", "-1/8", "1/8/2", " 1/8", "1/8\n", "1_0/20", "1.0/2", "²/8"]
+)
+def test_what_is_none_is_refused(text: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match="is not a shard, such as 2/8"):
+        shard(text)

@@ -96,10 +96,6 @@ def test_status_of_several_cases_is_that_of_the_gravest(tmp_path: Path, capsys: 
     assert [case["name"] for case in record["cases"]] == ["push"]
 
 
-
-
-
-
 def test_options_of_the_command_line_reach_the_analysis(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, (record,), _ = run_json(
         capsys, "run", deck, "--json", "--accuracy", "reference", "--flow-rule", "non_associative"
@@ -133,10 +129,6 @@ def test_one_bad_deck_does_not_stop_the_next(deck: Path, capsys: pytest.CaptureF
     assert "did you mean" in records[0]["errors"][0]
     assert "fricton" in err
     assert "Traceback" not in err
-
-
-
-
 
 
 def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -210,18 +202,10 @@ def test_show_and_verify_read_the_result_file_alone(deck: Path, capsys: pytest.C
     assert main(["verify", str(moved)]) == 0
 
 
-
-
 def test_schema_is_the_one_in_the_repository(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["schema"]) == 0
     shipped = Path(__file__).parents[2] / "schemas" / "deck.schema.json"
     assert json.loads(capsys.readouterr().out) == json.loads(shipped.read_text())
-
-
-
-
-
-
 
 
 def test_an_internal_error_is_one_line(
@@ -246,5 +230,3 @@ def test_json_and_verbose_keep_the_listing_off_standard_output(deck: Path, capsy
     assert code == 0
     assert len(records) == 1
     assert err == (deck.with_suffix(".out") / "block.lst").read_text()
-
-

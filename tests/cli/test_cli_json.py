@@ -192,8 +192,6 @@ def test_whatever_ends_a_command(
     assert failure(capsys, name, *files)["exit_code"] == status
 
 
-
-
 def test_json_may_be_shortened_and_stands_before_the_files() -> None:
     assert wants_json(["run", "--js", "a"])
     assert not wants_json(["run", "--", "--json"])

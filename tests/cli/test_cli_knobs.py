@@ -47,5 +47,3 @@ def test_a_knob_of_the_command_line_wins_over_all(deck: Path, capsys: pytest.Cap
     knobs, case = told(deck, capsys, "--accuracy", "draft", *arguments)
     assert (knobs["tolerance"], knobs["gap"]) == ("1e-07", "0.0001")
     assert case["standing"]["verdict"] == "yes"
-
-

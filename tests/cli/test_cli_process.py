@@ -126,5 +126,3 @@ def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
     done = subprocess.run(["sh", "-c", command], capture_output=True, check=False)
     assert done.returncode == 6
     assert b"the current folder does not exist" in done.stderr
-
-

@@ -60,10 +60,6 @@ def test_a_faulty_base_deck_is_told_under_the_name_of_the_sweep(
     assert "block.yaml" in lines[0]
 
 
-
-
-
-
 @pytest.mark.parametrize("gone", ["closed", "broken"])
 def test_a_sweep_goes_on_where_nobody_reads_what_it_says(
     sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, gone: str

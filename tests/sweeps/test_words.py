@@ -1,13 +1,47 @@
-"""A finished sweep in words: least and greatest verified values, each point told once, failures with their reasons."""
+"""A sweep in words: how far it is; then least and greatest verified values, each point told once, failures."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from mbla.sweeps.tables.sweep_table import sweep_table
-from mbla.sweeps.words import failure_lines, result_lines
+from mbla.sweeps.words import Progress, duration_words, failure_lines, rate_words, result_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic
+
+
+def test_a_line_has_counts_rate_and_time_left() -> None:
+    progress = Progress(total=100)
+    for number in range(1, 11):
+        progress.add(failed=number == 3, seconds=0.5 * number)
+    assert progress.words() == "10 of 100 points, 1 failed, 2 points/s, 45 s left"
+    assert progress.bar() == "[##......................] 10 of 100 points, 1 failed, 2 points/s, 45 s left"
+
+
+@pytest.mark.parametrize(
+    ("rate", "words"),
+    [(25.04, "25 points/s"), (0.5, "30 points/min"), (0.001, "3.6 points/h"), (1e-5, "0.036 points/h")],
+)
+def test_slow_rates_are_told_by_the_minute_or_the_hour(rate: float, words: str) -> None:
+    assert rate_words(rate) == words
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (0.2, "1 s"),
+        (59.4, "59 s"),
+        (61, "1 min 1 s"),
+        (3599, "59 min 59 s"),
+        (3600, "1 h 0 min"),
+        (90061, "25 h 1 min"),
+    ],
+)
+def test_durations_have_two_units_at_most(seconds: float, words: str) -> None:
+    assert duration_words(seconds) == words
+
 
 UNSURE = {"status": "not_verified", "load_factor": None, "static_bound": 9.0, "mechanism.class": None}
 

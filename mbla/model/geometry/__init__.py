@@ -17,7 +17,7 @@ from mbla.model.geometry.meshio_files import read_msh, read_vtu
 from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.ply import read_ply
 from mbla.model.geometry.stl import read_stl
-from mbla.process.memory_limit import can_limit, limited, written
+from mbla.process.limits import can_limit, limited, written
 
 READERS: dict[str, Callable[[Path], Geometry]] = {
     ".obj": read_obj,

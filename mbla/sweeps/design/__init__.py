@@ -4,7 +4,7 @@
                 ways.py (values of a parameter)
                 sampling.py (quantiles)
 
-``build.py`` puts the parts together; ``words.py`` shows a design. Nothing in a design depends on the
+``build.py`` puts the parts together. Nothing in a design depends on the
 machine: drawn quantiles come from a seed and from names alone, and values are rounded to 12 significant digits, which
 hides the last digits of mathematical libraries.
 """

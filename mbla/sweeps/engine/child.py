@@ -26,7 +26,7 @@ from typing import Any
 from mbla.deck import read_deck
 from mbla.deck.deck import Deck
 from mbla.errors import UsageError
-from mbla.process.memory_limit import can_limit, limited, written
+from mbla.process.limits import can_limit, limited, written
 from mbla.process.run_options import RunOptions
 from mbla.process.sharing import Memory, sharing
 from mbla.results.failures import words_of

@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +17,9 @@ from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.results import OWN_COLUMNS
 from mbla.sweeps.tables.sweep_json import VERSION, positions_at
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, column_values
+from mbla.sweeps.tables.sweep_table import READ_CELL, SweepColumn, SweepTable, column_values
 
 CSV, JSON = "sweep.csv", "sweep.json"
-TRUTH = {"True": True, "False": False}
-READ: dict[str, Callable[[str], Plain]] = {"float": float, "int": int, "bool": TRUTH.__getitem__, "text": str}
-"""from a cell that is not empty to its value"""
 
 
 def read_sweep_table(path: Path) -> SweepTable:
@@ -109,7 +106,7 @@ def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
 
 
 def _values(column: SweepColumn, cells: Sequence[str]) -> Values:
-    read = READ[column.kind]
+    read = READ_CELL[column.kind]
     values: list[Plain] = []
     for row, cell in enumerate(cells, 2):
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -113,6 +113,15 @@ def sweep_table(
 def _levels(design: Design) -> dict[str, Values]:
     pairs = zip(design.columns, design.levels, strict=True)
     return {column.name: column_values(column.kind, values) for column, values in pairs}
+
+
+READ_CELL: Mapping[str, Callable[[str], Plain]] = {
+    "float": float,
+    "int": int,
+    "bool": {"True": True, "False": False}.__getitem__,
+    "text": str,
+}
+"""from a cell of a CSV file that is not empty to its value, by the kind of its column"""
 
 
 def column_values(kind: str, values: Sequence[Plain]) -> Values:

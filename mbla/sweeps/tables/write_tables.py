@@ -1,4 +1,11 @@
-"""The files that hold the table of a sweep: all of them appear together, or the earlier ones stay."""
+"""The files that hold the table of a sweep: all of them appear together, or the earlier ones stay.
+
+As HDF5 it lies along the axes of its design, as xarray opens it. Every dimension of the design has a scale of its name:
+the values of a parameter of a grid, else the position, from 0, in a set of points that change several parameters
+together, whose parameters are coordinates along it. Results lie over all dimensions. What does not exist (no result, a
+point that was left out or is not solved yet) is nan, empty text, or the ``_FillValue`` of whole numbers and truth
+values, which xarray shows as nan.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +14,107 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mbla import __version__
 from mbla.results.files import OutputFolder
+from mbla.results.hdf5.result_file import Labelled, LabelledFile, write_labelled_hdf5
+from mbla.results.record.scene import Values
 from mbla.results.tables.formats import ParquetColumn, csv_text, parquet_bytes, require_parquet
 from mbla.sweeps.fragility import Fragility, fragility_csv, fragility_json
 from mbla.sweeps.tables.read_table import CSV, JSON
-from mbla.sweeps.tables.sweep_json import SweepRun, record_text, sweep_json
-from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.tables.table_hdf5 import sweep_hdf5
+from mbla.sweeps.tables.sweep_json import VERSION, SweepRun, counts, record_text, sweep_json
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+
+FILETYPE = "mbla sweep"
+NO_NUMBER = int(np.iinfo(np.int64).min)
+NO_TRUTH = -1
+"""``_FillValue`` of whole numbers, and of truth values, which are 0 and 1"""
+OF_DESIGN = ("parameter", "azimuth", "elevation")
+"""roles of columns that lie along one dimension"""
+
+
+def sweep_hdf5(run: SweepRun, table: SweepTable) -> bytes:
+    """The bytes of sweep.h5; layout: schemas/results.md."""
+    scales = {dimension.name: _scale(table, axis) for axis, dimension in enumerate(table.dimensions)}
+    arrays: dict[str, Labelled] = {}
+    for column in table.of_role(*OF_DESIGN):
+        if column.name not in scales:
+            arrays[column.name] = _along_one(table, column)
+    coordinates = " ".join(arrays) if not any(" " in name for name in arrays) else ""
+    for column, values in zip(table.columns, table.values, strict=True):
+        if column.role not in OF_DESIGN:
+            arrays[_name(column.name)] = _along_all(table, column, values, coordinates)
+    attributes: dict[str, str | int] = {
+        "filetype": FILETYPE,
+        "version": VERSION,
+        "mbla_version": __version__,
+        "created": run.created,
+        "title": table.title,
+        "sweep": run.sweep,
+        "deck": run.deck,
+        "sampling": table.sampling,
+        "complete": int(counts(table)["unfinished"] == 0),
+    }
+    return write_labelled_hdf5(LabelledFile(attributes, scales, arrays))
+
+
+def _name(column: str) -> str:
+    """The name of its dataset: a stroke would make a group of what is before it."""
+    return column.replace("/", "_")
+
+
+def _scale(table: SweepTable, axis: int) -> Labelled:
+    dimension = table.dimensions[axis]
+    for column in table.of_role(*OF_DESIGN):
+        if column.name == dimension.name:
+            return _along_one(table, column)
+    words = {"units": "1", "long_name": f"position along {dimension.name}, from 0"}
+    return Labelled(np.arange(dimension.size, dtype=np.int64), (dimension.name,), words)
+
+
+def _along_one(table: SweepTable, column: SweepColumn) -> Labelled:
+    """A parameter along its dimension."""
+    return _labelled(column, *_plain(column, table.levels[column.name]), (column.dimension,))
+
+
+def _along_all(table: SweepTable, column: SweepColumn, values: Values, coordinates: str) -> Labelled:
+    shape = tuple(dimension.size for dimension in table.dimensions)
+    spread = _empty(column, shape)
+    spread[tuple(table.position.T)] = values
+    names = tuple(dimension.name for dimension in table.dimensions)
+    return _labelled(column, *_plain(column, spread), names, {"coordinates": coordinates} if coordinates else {})
+
+
+def _empty(column: SweepColumn, shape: tuple[int, ...]) -> Values:
+    """An array without any value."""
+    if column.kind == "float":
+        return np.full(shape, np.nan)
+    if column.kind == "text":
+        return np.full(shape, None, dtype=object)
+    kind = np.int64 if column.kind == "int" else np.bool_
+    return np.ma.masked_array(np.zeros(shape, dtype=kind), np.ones(shape, dtype=bool))
+
+
+def _plain(column: SweepColumn, values: Values) -> tuple[Values, int | None]:
+    """Values as the file holds them, and what stands for none."""
+    if column.kind == "text":
+        texts = np.empty(values.shape, dtype=object)
+        texts[...] = np.where(values == None, "", values)  # noqa: E711 elementwise
+        return texts, None
+    if column.kind == "int":
+        return np.ma.filled(values, NO_NUMBER), NO_NUMBER if np.ma.is_masked(values) else None
+    if column.kind == "bool":
+        return np.ma.filled(values.astype(np.int8), NO_TRUTH), NO_TRUTH if np.ma.is_masked(values) else None
+    return values, None
+
+
+def _labelled(
+    column: SweepColumn, values: Values, missing: int | None, dimensions: tuple[str, ...], more: Any = None
+) -> Labelled:
+    words = {"units": column.unit or "1", "long_name": column.words, "column": column.name, "role": column.role}
+    words |= {"case": column.case} if column.case else {}
+    return Labelled(values, dimensions, words | (more or {}), missing)
 
 
 def sweep_parquet(run: SweepRun, table: SweepTable) -> bytes:

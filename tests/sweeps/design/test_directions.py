@@ -9,9 +9,8 @@ from scipy import stats
 from scipy.spatial import SphericalVoronoi
 
 from mbla.errors import DeckError
-from mbla.sweeps.design.design import Design
+from mbla.sweeps.design.design import Design, Vector
 from mbla.sweeps.design.directions import sine_cosine
-from mbla.sweeps.design.ways import Vector
 from tests.sweeps.design.hand_made import column, design, drawn
 
 BASE: Vector = (3.0, 4.0, -12.0)

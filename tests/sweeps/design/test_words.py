@@ -1,9 +1,12 @@
+"""A design in words, and as JSON."""
+
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from mbla.results.listing.text import WIDTH
-from mbla.sweeps.design.words import design_lines
+from mbla.sweeps.design.design import design_json, design_lines
 from tests.sweeps.design.hand_made import design
 
 PARAMETERS: dict[str, Any] = {
@@ -55,3 +58,26 @@ def test_many_columns_go_below_each_other_and_none_is_lost() -> None:
     assert [word for word in words if word.startswith("a_long")] == list(parameters)
     assert words.count("point") == 4
     assert {f"{i + share:g}" for i in range(20) for share in (0.5, 0.25)} <= set(words)
+
+
+def test_a_design_as_json() -> None:
+    found = design(
+        {"mu": {"key": "joints.dry.friction", "values": [0.5, 0.6]}, "g": {"key": "g", "horizon": {"points": 2}}},
+        vectors={"g": (1.0, 0.0, 2.0)},
+        constraints=["mu > 0.55"],
+    )
+    record = json.loads(json.dumps(design_json(found), allow_nan=False))
+    assert record["n_points"] == 2
+    assert record["left_out"] == 2
+    assert record["constraints"] == [{"text": "mu > 0.55", "broken_by": 2}]
+    assert record["dimensions"] == [{"name": "mu", "size": 2}, {"name": "g", "size": 2}]
+    assert [column["name"] for column in record["columns"]] == ["mu", "g"]
+    assert record["columns"][1]["unit"] == "degree"
+    assert record["parts"] == [{"kind": "grid", "parameters": ["mu", "g"], "dimensions": ["mu", "g"], "seed": None}]
+    assert record["points"][1] == {
+        "number": 2,
+        "position": [1, 1],
+        "values": {"mu": 0.6, "g": 180.0},
+        "settings": {"joints.dry.friction": 0.6, "g": [-1.0, 0.0, 2.0]},
+    }
+    assert "points" not in design_json(found, points=False)

@@ -1,4 +1,4 @@
-"""The process that solves points, alone: it ends with its parent, whatever it is doing."""
+"""The process that solves points: one point, from the task to its outcome; it ends with its parent."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.engine import child
-from mbla.sweeps.engine.child import prepared
+from mbla.sweeps.engine.child import PointRunner, prepared
 from mbla.sweeps.engine.supervised import PACKAGES
+from mbla.sweeps.plan import DONE, Task
 from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import plan_over
@@ -61,3 +62,30 @@ def test_a_memory_limit_where_the_system_has_none_is_refused(tmp_path: Path, mon
     prepared(plan_over(tmp_path))
     with pytest.raises(UsageError, match=r"^limits\.memory: .* has no limit on the memory of a process; leave it out$"):
         prepared(plan_over(tmp_path, memory_limit=1e9))
+
+
+def test_result_files_of_points_are_kept_where_that_is_wanted(tmp_path: Path) -> None:
+    runner = PointRunner(plan_over(tmp_path, keep="all"))
+    assert runner.run(Task("key", 7, {})).state == DONE
+    folder = tmp_path / "sweep.out" / "points" / "7"
+    assert {"base.h5", "base.sta"} <= {path.name for path in folder.iterdir()}
+    assert (folder / "base.sta").read_text(encoding="utf-8").endswith("# push: solved\n")
+
+
+@pytest.mark.parametrize("solved_before", [0, 1])
+def test_a_point_that_runs_out_of_memory_is_tried_without_what_others_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, solved_before: int
+) -> None:
+    points = PointRunner(plan_over(tmp_path))
+    for _ in range(solved_before):
+        assert points.run(Task("before", 1, {})).state == DONE
+    solve, refusals = points._solve, [MemoryError()]
+
+    def short_of_memory(task: Task) -> object:
+        if refusals:
+            raise refusals.pop()
+        return solve(task)
+
+    monkeypatch.setattr(points, "_solve", short_of_memory)
+    outcome = points.run(Task("key", 2, {}))
+    assert (outcome.state, outcome.reason) == ((DONE, "") if solved_before else ("failed", "out of memory"))

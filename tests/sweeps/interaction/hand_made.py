@@ -13,6 +13,7 @@ from mbla.model import build_model
 from mbla.sweeps.design.design import SweepColumn
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
+from mbla.sweeps.engine.engine import Engine
 from mbla.sweeps.interaction.domain import Point, domain_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
 from mbla.sweeps.interaction.study import Interaction, question_of, study_points
@@ -56,10 +57,10 @@ class Asked:
         self.end = given.get("end")
 
 
-class ThisProcess:
+class ThisProcess(Engine):
     """An engine that solves the points where it is."""
 
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
         """Outcomes, the last task first: the order must not matter."""
         runner = PointRunner(plan)
         for task in reversed(tasks):

@@ -67,14 +67,8 @@ class Interrupted(ThisProcess):
     def __init__(self, after: int, error: type[BaseException] = KeyboardInterrupt) -> None:
         self.after, self.error = after, error
 
-    def __enter__(self) -> Interrupted:
-        return self
-
-    def __exit__(self, *what: object) -> None:
-        pass
-
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        for number, outcome in enumerate(super().run(plan, tasks)):
+    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+        for number, outcome in enumerate(super()._solved(plan, tasks)):
             if number == self.after:
                 raise self.error
             yield outcome
@@ -129,8 +123,6 @@ def test_the_points_of_two_loads_are_those_of_their_ratio(
     points = json.loads(capsys.readouterr().out)["points"]
     assert [point["angle"] for point in points] == pytest.approx([0.0, math.degrees(math.atan(0.5)), 90.0], rel=1e-5)
     assert [point["load_factor"] for point in points][::2] == pytest.approx([0.4, 0.2], rel=1e-5)
-
-
 
 
 def test_vertical_parts_leave_no_domain_and_that_is_told(tmp_path: Path) -> None:

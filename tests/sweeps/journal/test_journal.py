@@ -1,4 +1,4 @@
-"""A journal holds every finished point once, to the bit, and says what is wrong with one that it cannot go on with."""
+"""A journal holds every finished point once, to the bit, wherever it was cut; it says why it cannot be gone on with."""
 
 from __future__ import annotations
 
@@ -189,3 +189,61 @@ def test_what_is_cut_off_is_told(path: Path) -> None:
         journal.add(*point(99))
     assert read_journal(path, HEADER).finished.keys() == {*EXPECTED, point(99)[0].key}
     assert "journal-repaired" in explanations()
+
+
+HEAD = header_bytes(HEADER)
+SHORT = [number for number in range(1, 60) if len(row_bytes(HEADER, *point(number))) < 260][:4]
+SHORT_POINTS = [point(number) for number in SHORT]
+ROWS = [row_bytes(HEADER, *of_point) for of_point in SHORT_POINTS]
+ENDS = [len(HEAD) + sum(map(len, ROWS[:count])) for count in range(len(ROWS) + 1)]
+WHOLE_FILE = HEAD + b"".join(ROWS)
+
+
+def whole_rows(size: int) -> int:
+    return sum(end <= size for end in ENDS) - 1
+
+
+def check(path: Path, content: bytes, count: int) -> None:
+    """The first rows are there and no others, reading changes nothing, and what is gone on with it ends whole."""
+    path.write_bytes(content)
+    expected = {task.key: as_read(outcome) for task, outcome in SHORT_POINTS[:count]}
+    rows = read_journal(path, HEADER)
+    assert rows.finished == expected
+    assert (rows.whole, rows.torn) == (ENDS[count], len(content) - ENDS[count])
+    assert path.read_bytes() == content
+
+
+def test_cut_at_every_byte(tmp_path: Path) -> None:
+    for size in range(len(HEAD), len(WHOLE_FILE) + 1):
+        check(tmp_path / "journal.csv", WHOLE_FILE[:size], whole_rows(size))
+
+
+def test_bytes_that_had_not_reached_the_disk(tmp_path: Path) -> None:
+    """After a loss of power a file can have its length but not yet its content: NUL bytes stand there."""
+    for size in range(len(HEAD), len(WHOLE_FILE), 3):
+        for zeros in (1, 5, 5000):
+            check(tmp_path / "journal.csv", WHOLE_FILE[:size] + bytes(zeros), whole_rows(size))
+
+
+def test_the_end_of_a_row_reached_the_disk_and_its_beginning_did_not(tmp_path: Path) -> None:
+    last = ROWS[-1]
+    for lost in range(1, len(last)):
+        check(tmp_path / "journal.csv", WHOLE_FILE[: ENDS[-2]] + bytes(lost) + last[lost:], len(ROWS) - 1)
+
+
+@pytest.mark.parametrize("size", [ENDS[2], ENDS[2] + 1, ENDS[3] - 1])
+def test_what_is_gone_on_with_is_whole(tmp_path: Path, size: int) -> None:
+    path = tmp_path / "journal.csv"
+    path.write_bytes(WHOLE_FILE[:size])
+    with Journal(path, HEADER, resume=True, force=False) as journal:
+        assert len(journal.notices) == (size != ENDS[2])
+        for of_point in SHORT_POINTS[2:]:
+            journal.add(*of_point)
+    assert path.read_bytes() == WHOLE_FILE
+
+
+def test_nul_bytes_before_the_last_row_are_told_not_cut_off(tmp_path: Path) -> None:
+    path = tmp_path / "journal.csv"
+    path.write_bytes(WHOLE_FILE[: ENDS[1] + 3] + bytes(5) + WHOLE_FILE[ENDS[1] + 8 :])
+    with pytest.raises(FileError, match=rf"{path}:4: this row has NUL bytes"):
+        read_journal(path, HEADER)

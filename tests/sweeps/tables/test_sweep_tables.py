@@ -1,22 +1,25 @@
-"""The table of a sweep and its files, read back by mbla, csv, pandas and xarray."""
+"""The table of a sweep and its files, read back by mbla, csv, pandas and xarray; the keys of its record."""
 
 from __future__ import annotations
 
 import csv
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
 import pytest
 import xarray
 
-from mbla.errors import FileError, UsageError
+from mbla.errors import FileError, Notice, UsageError
+from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Values
-from mbla.sweeps.fragility import fragility_of
+from mbla.sweeps.fragility import fragility_json, fragility_of
 from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, SweepRun, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
 from tests.sweeps.tables.synthetic import (
@@ -235,3 +238,42 @@ def test_a_file_that_is_no_table_is_refused_in_one_line(
     with pytest.raises(FileError, match=words) as caught:
         read_sweep_table(tmp_path)
     assert "\n" not in str(caught.value)
+
+
+TYPES: dict[str, Any] = {
+    "string": str,
+    "number": float,
+    "integer": int,
+    "boolean": bool,
+    "object": dict,
+    "list": list,
+    "any": object,
+}
+
+
+def paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Every key path with its value; ``*`` where names are those of parameters."""
+    if path:
+        yield path, value
+    if isinstance(value, dict):
+        for key, inside in value.items():
+            name = "*" if path.endswith(".at") else key
+            yield from paths(inside, f"{path}.{name}" if path else name)
+    if isinstance(value, list):
+        for item in value:
+            yield from paths(item, f"{path}[]")
+
+
+def test_keys_and_types_of_the_record() -> None:
+    full = table()
+    found = fragility_json(fragility_of(full, "load_factor", (0.2, 0.4), 0.95))
+    run = SweepRun(**{**vars(RUN), "notices": (Notice("warning", "some", "words"),)})
+    record = json.loads(json_line(sweep_json(run, full, found, ("sweep.csv",))))
+    described = {key.path: key for key in SWEEP_RECORD}
+    seen = set()
+    for path, value in paths(record):
+        assert path in described, path
+        kind = described[path].kind
+        assert (value is None and kind.endswith("?")) or isinstance(value, TYPES[kind.rstrip("?")]), path
+        seen.add(path)
+    assert seen == set(described)

@@ -192,10 +192,6 @@ def test_what_was_solved_before_an_interruption_is_told_and_written(
     assert f"not run: {word} before" in " ".join(told.err.split())
 
 
-
-
-
-
 def test_without_the_extra_for_pictures_the_rest_is_written(
     left: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
