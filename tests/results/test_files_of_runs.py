@@ -12,7 +12,6 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
-import xarray
 
 from mbla.cli.check import check
 from mbla.deck import read_deck
@@ -123,18 +122,6 @@ def test_every_dataset_is_described(folder: Path, name: str) -> None:
             )
             assert set(dataset.attrs) - standard == of_text | not_verified
             assert tuple(dimension.label for dimension in dataset.dims) == field.dims
-
-
-def test_real_runs_open_in_xarray(folder: Path) -> None:
-    results = read_results_hdf5(folder / "tilting_block.h5")
-    with xarray.open_datatree(folder / "tilting_block.h5", engine="h5netcdf") as tree:
-        for case in results.cases:
-            mechanics, tilt = case.solution.mechanics, case.load_case.tilt
-            assert mechanics is not None
-            assert tilt is not None
-            group = f"cases/{case.load_case.name}"
-            assert np.array_equal(np.asarray(tree[f"{group}/contact_forces"]), mechanics.contact_forces)
-            assert np.array_equal(np.asarray(tree[f"{group}/tilt/turning_axis"]), tilt.axis)
 
 
 @pytest.mark.parametrize("name", DECKS)

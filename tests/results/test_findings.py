@@ -1,4 +1,4 @@
-"""What solver and verification say, as notices."""
+"""What solver and verification say, as notices, and magnitudes that lie too far apart."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.errors import Message, Notice
-from mbla.results.findings import found_notices
-from mbla.results.listing.listing import listing
-from mbla.results.listing.summary import summary_lines
-from mbla.results.outcome import notices_of
-from mbla.results.record.json_record import results_json
-from mbla.results.results import CaseResult
+from mbla.errors import Message
+from mbla.results.findings import found_notices, magnitude_notices, rounding_of
+from mbla.results.listing.verdict_words import uniqueness_words, verdict
+from mbla.results.outcome import extent_of, factor_unique, notices_of, range_of
+from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import GAP_TOLERANCE
+from tests.extremes.outcome import Scene, results_of
+from tests.extremes.shapes import PEBBLE, SLENDER
+from tests.extremes.weights import SIDE_BY_SIDE
+from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import full_results, standing_at, tower_results
 
 
@@ -91,31 +94,6 @@ def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
     assert severities(locked, locked) == ["warning", "warning"]
 
 
-def test_warnings_end_the_listing_numbered_and_the_summary_names_them() -> None:
-    results = tower_results()
-    case = replace(push(), status=Status.APPROXIMATE)
-    results = replace(results, cases=(case,), notices=(Notice("warning", "near-misses", "two blocks nearly touch"),))
-    end = listing(results).split("Summary\n")[1]
-    assert "2 warnings:" in end
-    assert "1. warning [near-misses]: two blocks nearly touch" in end
-    assert "2. warning [approximate]: push_x: verification confirms" in end
-    assert "`mbla explain ID`" in end
-    lines = summary_lines(results)
-    assert lines[-1] == "  2 warnings: near-misses, approximate; mbla explain ID says more"
-    assert "  warning [near-misses]: two blocks nearly touch" in lines
-    without = replace(results, cases=(push(),), notices=())
-    assert "mbla explain" not in listing(without)
-    assert "0 warnings" in listing(without)
-    assert not any("warning" in line for line in summary_lines(without))
-
-
-def test_json_names_the_case() -> None:
-    results = tower_results()
-    notices = results_json(results)["notices"]
-    assert [set(notice) for notice in notices[:2]] == [{"severity", "identifier", "message"}] * 2
-    assert (notices[-1]["identifier"], notices[-1]["case"]) == ("no-equilibrium", "fall")
-
-
 def test_what_is_said_twice_is_one_notice() -> None:
     """Two failures in the same words; a remark that is the reason of a case without an answer."""
     case = replace(push(), checks=replace(push().checks, failures=(Message("penetration", "it leaks"),) * 2))
@@ -129,3 +107,119 @@ def test_what_is_said_twice_is_one_notice() -> None:
     assert [notice.message for notice in found_notices(stopped)] == ["push_x: it rains", "push_x: it snows"]
     solved = replace(push(), solution=solution)
     assert [notice.message for notice in found_notices(solved)] == ["push_x: it rains", "push_x: it snows"]
+
+
+def slender(width: float, friction: float, rule: str = "associative", contact_model: str = "convex") -> Results:
+    """A block 1 m high, pushed, that tips at its width over its height."""
+    overrides = (
+        f"parameters.b={width!r}",
+        f"parameters.mu={friction!r}",
+        f"analysis.flow_rule={rule}",
+        f"analysis.contact_model={contact_model}",
+    )
+    return results_of(Scene("slender", "", SLENDER, overrides))
+
+
+def said_of(results: Results, identifier: str) -> list[str]:
+    return [notice.message for notice in notices_of(results) if notice.identifier == identifier]
+
+
+@pytest.mark.parametrize("rule", ["associative", "non_associative"])
+def test_friction_far_beyond_what_tips_a_narrow_block_is_named(rule: str) -> None:
+    """Friction of 1e5 times the arm of 0.5 over half the width: what slides it over what tips it."""
+    results = slender(1e-4, 1e5, rule)
+    assert results.cases[0].status is Status.NOT_VERIFIED
+    (text,) = said_of(results, "magnitudes-far-apart")
+    assert "sliding on an interface takes 1e+09 times the push that tips a block on it" in text
+
+
+def test_a_case_that_is_solved_is_not_doubted() -> None:
+    results = slender(1e-4, 1e5, contact_model="concave")
+    assert results.cases[0].status is Status.SOLVED
+    assert not said_of(results, "magnitudes-far-apart")
+
+
+@pytest.mark.parametrize("contact_model", ["concave", "convex"])
+def test_the_ratio_is_that_of_the_widths(contact_model: str) -> None:
+    """Half of the width is what tips, whatever the contact model, and the same in other units of length."""
+    for width, friction, named in ((0.1, 1e4, False), (0.1, 1.1e6, True), (10.0, 1e4, False)):
+        results = slender(width, friction, contact_model=contact_model)
+        (case,) = results.cases
+        stuck = replace(case, status=Status.ITERATION_LIMIT)
+        notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
+        assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
+
+
+def test_what_was_not_verified_came_from_a_program_that_failed() -> None:
+    """Silent before: the solver gave no reason, for another program had come to an answer that does not hold."""
+    (case,) = slender(1e-4, 1e5).cases
+    assert not case.solution.reason
+    first = found_notices(case)[0]
+    assert first.identifier == "not-verified"
+    assert "the solver failed numerically in program 1 (associative)" in first.message
+    kept = replace(case, solution=replace(case.solution, programs=()))
+    assert found_notices(kept)[0].message == "push: verification does not confirm the answer"
+
+
+@pytest.mark.parametrize(
+    ("friction", "words"),
+    [
+        (1e-10, "collapses at 0 g to within 2e-09 g, verified"),
+        (1e-6, "collapses at 1e-06 g to within 2e-09 g, verified"),
+        (1e-4, "collapses at 0.0001 g, verified"),
+    ],
+)
+def test_a_load_factor_that_rounding_could_have_made_says_so(friction: float, words: str) -> None:
+    """Friction of 1e-10 and 1e-6 is told from zero by less than a ten thousandth, 1e-4 by more."""
+    results = slender(0.5, friction, contact_model="concave")
+    (case,) = results.cases
+    assert verdict(results.model, case) == words
+    assert bool(said_of(results, "load-factor-rounding")) == (friction < 1e-5)
+
+
+def test_a_heavy_block_at_rest_makes_no_load_factor_next_to_nothing() -> None:
+    """The pushed block beside one of 1e8 times its weight slides alone at 0.4: dead over live load are 1e8."""
+    overrides = ("parameters.light=1.0e8", "analysis.flow_rule=associative", "analysis.contact_model=convex")
+    results = results_of(Scene("side by side", "", SIDE_BY_SIDE, overrides))
+    (case,) = results.cases
+    assert case.checks.static_bound <= 0.4 <= case.checks.kinematic_bound
+    assert case.checks.gap <= GAP_TOLERANCE
+    assert not said_of(results, "load-factor-rounding")
+    assert verdict(results.model, case) == "collapses at 0.4 g, verified"
+
+
+def test_a_pebble_tips_on_the_slab_below_it() -> None:
+    """Its interface is a millionth of the slab's, its weight 2e-19 of it: it has a unit of force of its own."""
+    results = results_of(Scene("pebble", "", PEBBLE, ("parameters.a=1.0e-6", "analysis.flow_rule=associative")))
+    (case,) = results.cases
+    assert case.checks.verified
+    assert case.solution.mechanics is not None
+    assert case.solution.mechanics.load_factor == pytest.approx(0.4, rel=1e-6)
+    assert said_of(results, "magnitudes-far-apart") == []
+
+
+def test_ends_of_a_range_that_rounding_could_have_parted_are_one_figure() -> None:
+    """At friction 1e-6 they lie 3e-11 apart, one part in thirty thousand, and forces tell 2e-9 from nothing."""
+    results = slender(0.5, 1e-6, "non_associative", "concave")
+    (case,) = results.cases
+    least, greatest = range_of(case) or (0.0, 0.0)
+    assert 1e-5 * greatest < greatest - least < rounding_of(results.model, case)
+    assert extent_of(results.model, case) is None
+    assert "every distribution of forces has the same load factor" in uniqueness_words(results.model, case)
+    assert factor_unique(results.model, case) is None
+
+
+@pytest.mark.parametrize(("friction", "named"), [(1e-9, True), (1e-3, False), (0.0, False)])
+def test_friction_that_is_next_to_none_is_named_where_a_case_is_not_settled(friction: float, named: bool) -> None:
+    results = slender(0.5, friction, contact_model="concave")
+    (case,) = results.cases
+    stuck = replace(case, status=Status.NUMERICAL_ERROR)
+    notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
+    assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
+    assert all("friction of 1e-09 is next to none" in notice.message for notice in notices)
+
+
+def test_without_contacts_no_magnitudes_are_compared() -> None:
+    results = tower_results()
+    case = replace(results.cases[0], status=Status.NOT_VERIFIED)
+    assert magnitude_notices(results.model, without_contacts(results.contacts), case, doubtful=False) == []

@@ -8,12 +8,10 @@ import pytest
 
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import listing
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
-from tests.results.synthetic import same
 
 ARCH = """\
 mbla: 1
@@ -43,12 +41,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def results(folder: Path) -> Results:
     return run(folder / "arch.yaml", RunOptions())
-
-
-def test_file_holds_the_run_in_full(folder: Path, results: Results) -> None:
-    back = read_results_hdf5(folder / "arch.out" / "arch.h5")
-    assert same(back, results)
-    assert listing(back) == (folder / "arch.out" / "arch.lst").read_text(encoding="utf-8")
 
 
 def test_four_hinges_alternate_between_intrados_and_extrados(results: Results) -> None:

@@ -1,5 +1,4 @@
 import json
-import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,7 +6,6 @@ import meshio
 import pytest
 
 from mbla.deck.sections.output import OutputSection
-from mbla.errors import FileError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import listing
@@ -50,13 +48,6 @@ def test_files_agree_with_each_other(tmp_path: Path, results: Results) -> None:
     assert record["time"]["write"] == final.time["write"]
 
 
-def test_pvd_names_frames_that_exist(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=True, frames=4, plots=False))
-    entries = ElementTree.parse(tmp_path / "tower_push_x.pvd").getroot().findall("Collection/DataSet")
-    assert len(entries) == 4
-    assert all((tmp_path / entry.get("file", "none")).is_file() for entry in entries)
-
-
 def test_without_vtu_there_is_none(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=3, plots=False))
     assert names(tmp_path) == {"tower.h5", "tower.lst", "tower.json"}
@@ -69,26 +60,6 @@ def test_case_that_moves_nothing_has_one_frame(tmp_path: Path, results: Results)
         replace(results, cases=(still,)), tmp_path, "tower", False, OutputSection(vtu=True, frames=5, plots=False)
     )
     assert [name for name in sorted(names(tmp_path)) if "frame" in name] == ["tower_fall_frame_000.vtu"]
-
-
-def test_forced_run_with_fewer_cases_leaves_no_stale_files(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=True, frames=3, plots=False))
-    write_outputs(
-        replace(results, cases=results.cases[:1]),
-        tmp_path,
-        "tower",
-        True,
-        OutputSection(vtu=True, frames=2, plots=False),
-    )
-    assert not [name for name in names(tmp_path) if "fall" in name or "frame_002" in name]
-
-
-def test_result_is_not_overwritten_without_force(tmp_path: Path, results: Results) -> None:
-    write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=False))
-    before = (tmp_path / "tower.h5").read_bytes()
-    with pytest.raises(FileError, match="--force"):
-        write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=2, plots=False))
-    assert (tmp_path / "tower.h5").read_bytes() == before
 
 
 def test_model_alone(tmp_path: Path, results: Results) -> None:

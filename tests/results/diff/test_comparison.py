@@ -316,15 +316,6 @@ def test_a_block_of_another_name_far_off_is_not_the_same(tmp_path: Path, two: Re
     assert found.model.only == (("other[0]",), ("new[0]",))
 
 
-@pytest.mark.parametrize("overrides", [(), ("parameters.mu=0.3",)])
-def test_two_solvers_give_the_same(tmp_path: Path, overrides: tuple[str, ...]) -> None:
-    first, second = (
-        results_of(tmp_path, BLOCK, *overrides, f"analysis.solver={solver}", name=solver)
-        for solver in ("mbla", "clarabel")
-    )
-    assert compare_results(first, second).differing == 0
-
-
 def test_the_angle_is_that_of_velocities_all_over_the_blocks(two: Results) -> None:
     """Both motions sampled on a grid in every box, as the kinetic energy weighs them."""
     blocks, rng = two.model.blocks, np.random.default_rng(3)

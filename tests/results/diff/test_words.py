@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.model.model import Ground
-from mbla.results.diff.cases import ReactionChange
 from mbla.results.diff.comparison import Comparison, compare_results
 from mbla.results.diff.matching import factors_between, match_models
-from mbla.results.diff.motion import InterfaceChange, angle_between
-from mbla.results.diff.words import MOST_LINES, MOST_NAMED, comparison_text
+from mbla.results.diff.words import MOST_LINES, comparison_text
 from tests.results.synthetic import tower_results
 
 
@@ -41,27 +39,6 @@ def test_of_a_long_diff_the_rest_is_counted(same: Comparison, more: int) -> None
     assert ("and 5 more lines; --json has them all" in text) is (more > 0)
 
 
-@pytest.mark.parametrize("more", [0, 3])
-def test_of_many_reactions_the_largest_are_named(same: Comparison, more: int) -> None:
-    changes = tuple(ReactionChange(f"pier[{i}]", np.array([0.0, 0.0, 2.0 + more])) for i in range(MOST_NAMED + more))
-    text = text_of(with_case(same, reactions=changes, load=10.0))
-    assert f"reaction of pier[0]: changes by (0, 0, {2 + more}), {0.2 + 0.1 * more:.2g} of the loads" in text
-    assert f"pier[{MOST_NAMED}]" not in text
-    assert ("and 3 more reactions" in text) is (more > 0)
-
-
-@pytest.mark.parametrize("more", [0, 2])
-def test_of_many_interfaces_in_another_mode_the_first_are_named(same: Comparison, more: int) -> None:
-    modes = same.cases[0].modes
-    assert modes is not None
-    place = np.array([1.0, 0.5, 2.0])
-    changes = tuple(InterfaceChange(f"a[{i}]/b[{i}]", place, ("slide", "hinge")) for i in range(MOST_NAMED + more))
-    text = text_of(with_case(same, modes=replace(modes, interfaces=changes)))
-    assert "interface a[0]/b[0] at (1, 0.5, 2): slide in A, hinge in B" in text
-    assert f"a[{MOST_NAMED}]" not in text
-    assert ("and 2 more interfaces; --json has them all" in text) is (more > 0)
-
-
 def test_without_a_motion_there_is_no_angle() -> None:
     """A case without equilibrium for which no motion was found, and a mechanism of which nothing moves."""
     results = tower_results()
@@ -76,15 +53,6 @@ def test_without_a_motion_there_is_no_angle() -> None:
     found = compare_results(results, replace(results, cases=(case, results.cases[1])))
     assert found.cases[0].mechanism.angle is None
     assert "mechanisms not compared: a motion is zero" in text_of(found)
-
-
-def test_structures_that_are_others_have_no_angle() -> None:
-    """Only the tower has a match, a small part of the volume."""
-    model = tower_results().model
-    matching = match_models(model, model, factors_between(model.units, model.units))
-    motion = np.ones((3, 6))
-    assert angle_between(model.blocks, motion, motion, matching, 1.0) == pytest.approx(0.0)
-    assert angle_between(model.blocks, motion, motion, replace(matching, shares=(0.3, 1.0)), 1.0) is None
 
 
 def test_grounds_are_matched_by_their_planes() -> None:

@@ -51,22 +51,6 @@ def test_every_dataset_written_is_in_the_layout_and_the_reverse(file: Any) -> No
     assert {pattern(path) for path in datasets(file)} == {field.path for field in STORED}
 
 
-def test_paths_are_unique() -> None:
-    assert len({field.path for field in STORED}) == len(STORED)
-
-
-def test_every_dataset_carries_units_and_long_name_and_named_dimensions(file: Any) -> None:
-    fields = {field.path: field for field in STORED}
-    for path, dataset in datasets(file).items():
-        field = fields[pattern(path)]
-        assert dataset.attrs["units"].decode() == unit_text(field.unit, Units())
-        assert dataset.attrs["long_name"].decode() == field.words
-        assert tuple(dimension.label for dimension in dataset.dims) == field.dims
-        for dimension, name in zip(dataset.dims, field.dims, strict=True):
-            assert [scale.name.rpartition("/")[2] for scale in dimension.values()] == [name]
-            assert len(dimension[0]) == dataset.shape[list(field.dims).index(name)]
-
-
 def test_arrays_are_compressed_which_checks_their_sum(file: Any) -> None:
     for dataset in datasets(file).values():
         if dataset.ndim and dataset.size:

@@ -110,12 +110,6 @@ def test_same_results_give_same_bytes_but_for_the_date(results: Results, image: 
     assert write_results_hdf5(replace(results, created="2026-01-01T00:00:00+00:00")) != image
 
 
-def test_deck_text_is_readable_without_mbla(path: Path, results: Results) -> None:
-    with h5py.File(path) as file:
-        assert file["deck/source_texts"][0].decode() == results.deck.sources[0][1]
-        assert float(file["cases/push_x/load_factor"][()]) == 0.5
-
-
 def test_what_follows_from_the_mechanism_is_there_for_others(path: Path, results: Results) -> None:
     with h5py.File(path) as file:
         case = file["cases/push_x"]

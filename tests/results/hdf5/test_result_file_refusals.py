@@ -44,24 +44,10 @@ def refused(path: Path) -> str:
     return str(caught.value)
 
 
-def test_missing_file(tmp_path: Path) -> None:
-    assert "No such file" in refused(tmp_path / "none.h5")
-
-
-def test_folder(tmp_path: Path) -> None:
-    refused(tmp_path)
-
-
 def test_not_hdf5(tmp_path: Path) -> None:
     path = tmp_path / "text.h5"
     path.write_text("mbla: 1\n")
     assert "not an HDF5 file" in refused(path)
-
-
-def test_empty_file(tmp_path: Path) -> None:
-    path = tmp_path / "empty.h5"
-    path.touch()
-    refused(path)
 
 
 def test_other_hdf5_file(tmp_path: Path) -> None:

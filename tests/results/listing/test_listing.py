@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,15 +11,13 @@ import pytest
 
 from mbla.errors import Message, Notice
 from mbla.model.model import Settlement, Tilt
-from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
-from mbla.results.record.json_record import results_json
 from mbla.results.results import Results
 from mbla.solution.solution import Status
-from tests.results.synthetic import full_results, tower_results
+from tests.results.synthetic import tower_results
 
 RESULTS = tower_results()
 MODEL, FIRST = RESULTS.model, RESULTS.cases[0]
@@ -81,15 +78,6 @@ def test_the_table_has_the_least_and_the_greatest_where_a_case_has_several() -> 
     table = summary_lines(replace(RESULTS, cases=(ranged,)))
     assert table[1].split() == ["load", "case", "status", *" ".join(heads).split()]
     assert table[2].split()[2:5] == ["0.5", "0.45", "0.52"]
-
-
-def test_everything_reads_the_same_from_the_file(tmp_path: Path) -> None:
-    results = full_results()
-    path = tmp_path / "full.h5"
-    path.write_bytes(write_results_hdf5(results))
-    back = read_results_hdf5(path)
-    assert listing(back) == listing(results)
-    assert results_json(back) == results_json(results)
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------
