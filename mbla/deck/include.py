@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.reader import Document, read_yaml
+from mbla.deck.reader import Document, Remarks, read_yaml
 from mbla.deck.sources import DECK, FileKind, SourceText, read_source, source_of_text
 from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
 from mbla.errors import DeckError, Fault, FileError, Message
@@ -22,16 +22,12 @@ NAMED = frozenset({"parameters", "materials", "joints", "loads", "load_cases", "
 
 
 @dataclass
-class Reading:
-    """Everything read so far: texts, faults, and marks of what is reported already (see ``Document``)."""
+class Reading(Remarks):
+    """Everything read so far: texts, and what was found wrong with them; ``active`` are files not yet at an end."""
 
     kind: FileKind = DECK
     sources: list[SourceText] = field(default_factory=list)
-    faults: list[Fault] = field(default_factory=list)
-    reported: set[int] = field(default_factory=set)
-    damaged: set[int] = field(default_factory=set)
     active: list[Path] = field(default_factory=list)
-    whole: bool = True
 
 
 def read_files(path: Path, text: str | None = None, kind: FileKind = DECK) -> tuple[Tree, Reading]:
@@ -44,7 +40,7 @@ def read_files(path: Path, text: str | None = None, kind: FileKind = DECK) -> tu
     DeckError
         if it is not a text
     """
-    reading = Reading(kind)
+    reading = Reading(kind=kind)
     source = read_source(path, str(path), kind) if text is None else source_of_text(text, path, str(path))
     tree = _read_file(reading, source)
     return tree, reading

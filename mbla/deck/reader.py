@@ -6,7 +6,7 @@ read numbers by YAML 1.1, and crash the process on deeply nested input.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
@@ -38,23 +38,31 @@ _PARSER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @dataclass
-class Document:
-    """What was read from one text.
+class Remarks:
+    """What was found wrong while reading.
 
-    data    : plain dicts, lists and scalars; None stands for a value that is already reported
-    marks   : places of all keys and values
-    faults  : everything that was wrong with the text
+    faults  : everything that was wrong with the texts
     reported: marks of the values that are reported already, so that nobody complains of them twice
     damaged : marks of the mappings in which a key had to be left out
-    whole   : false where the text could not be read to its end
+    whole   : false where a text could not be read to its end
     """
 
-    data: Any
-    marks: Marks
-    faults: list[Fault]
-    reported: set[int]
-    damaged: set[int]
+    faults: list[Fault] = field(default_factory=list)
+    reported: set[int] = field(default_factory=set)
+    damaged: set[int] = field(default_factory=set)
     whole: bool = True
+
+
+@dataclass
+class Document(Remarks):
+    """What was read from one text.
+
+    data  : plain dicts, lists and scalars; None stands for a value that is already reported
+    marks : places of all keys and values
+    """
+
+    data: Any = None
+    marks: Marks = 0
 
 
 def read_yaml(source: SourceText, file: int, offset: int = 0, kind: FileKind = DECK) -> Document:
@@ -71,10 +79,10 @@ def read_yaml(source: SourceText, file: int, offset: int = 0, kind: FileKind = D
     except yaml.YAMLError as error:
         builder.syntax_fault(error)
     except _StopError:
-        builder.whole = False
+        builder.document.whole = False
     finally:
         parser.dispose()
-    return Document(builder.root, builder.root_marks, builder.faults, builder.reported, builder.damaged, builder.whole)
+    return builder.document
 
 
 class _StopError(Exception):
@@ -96,12 +104,7 @@ class _Builder:
         self.source = source
         self.kind = kind
         self.base = base
-        self.root: Any = None
-        self.root_marks: Marks = base
-        self.faults: list[Fault] = []
-        self.reported: set[int] = set()
-        self.damaged: set[int] = set()
-        self.whole = True
+        self.document = Document(marks=base)
         self.documents = 0
         self.data: Any = None
         self.marks: Any = None
@@ -122,18 +125,10 @@ class _Builder:
             value = self.plain_value(text, mark)
         if event.anchor or event.tag:
             self.refuse_properties(event, mark)
-        data = self.data
-        if type(data) is list:
-            if len(data) == MOST_ITEMS:
-                self.refuse_entry(mark, ITEM_TOO_MANY, self.path())
-            data.append(value)
-            self.marks.items.append(mark)
-        elif type(data) is not dict:
-            self.root, self.root_marks = value, mark
-        elif self.key is _NO_KEY:
+        if type(self.data) is dict and self.key is _NO_KEY:
             self.take_key(value, text, mark)
         else:
-            self.put_under_key(value, mark)
+            self.put_value_or_key(value, mark)
 
     def event(self, event: Any) -> None:
         kind = type(event)
@@ -148,7 +143,7 @@ class _Builder:
         elif kind is yaml.AliasEvent:
             message = f"aliases (*{shorten(event.anchor)}) are not allowed: {self.kind.alias}"
             self.fault(mark, Message("yaml-not-allowed", message))
-            self.reported.add(mark)
+            self.document.reported.add(mark)
             self.put_value_or_key(None, mark)
         elif kind is yaml.DocumentStartEvent:
             self.start_document(event, mark)
@@ -183,19 +178,16 @@ class _Builder:
             data.append(value)
             self.marks.items.append(marks)
         elif type(data) is not dict:
-            self.root, self.root_marks = value, marks
+            self.document.data, self.document.marks = value, marks
         elif self.key is not _NO_KEY:
-            self.put_under_key(value, marks)
+            if self.key is not _DROPPED:
+                data[self.key] = value
+                self.marks.values[self.key] = marks
+            self.key = _NO_KEY
         else:
             if value is not None:  # an alias is already reported
                 self.fault(marks.own, Message("key-not-text", "a key must be text"))
             self.leave_out()
-
-    def put_under_key(self, value: Any, marks: Any) -> None:
-        if self.key is not _DROPPED:
-            self.data[self.key] = value
-            self.marks.values[self.key] = marks
-        self.key = _NO_KEY
 
     def take_key(self, value: Any, text: str, mark: int) -> None:
         if text == "<<":
@@ -219,7 +211,7 @@ class _Builder:
     def leave_out(self) -> None:
         """Drop the value of a key that is already reported."""
         self.key = _DROPPED
-        self.damaged.add(self.marks.own)
+        self.document.damaged.add(self.marks.own)
 
     def plain_value(self, text: str, mark: int) -> Any:
         """Value of a plain scalar; None, and reported, for what no key of a deck takes."""
@@ -227,12 +219,12 @@ class _Builder:
             value = plain_scalar(text)
         except ValueRefused as error:
             self.fault(mark, error.message, text)
-            self.reported.add(mark)
+            self.document.reported.add(mark)
             return None
         if value is None and not (type(self.data) is dict and self.key is _NO_KEY):
             if self.stack:  # an empty document has its own message
                 self.fault(mark, Message("no-value", "has no value: give one, or leave the key out"), text or None)
-                self.reported.add(mark)
+                self.document.reported.add(mark)
         else:
             self.plain[text] = value
         return value
@@ -253,10 +245,10 @@ class _Builder:
 
     def fault(self, mark: int, message: Message, value: str | None = None, path: KeyPath | None = None) -> None:
         key = key_text(self.path() if path is None else path)
-        self.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
-        if len(self.faults) == MOST_FAULTS:
+        self.document.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
+        if len(self.document.faults) == MOST_FAULTS:
             words = Message("more-faults", f"is read no further after {MOST_FAULTS} faults")
-            self.faults.append(Fault(self.place(mark), "", words))
+            self.document.faults.append(Fault(self.place(mark), "", words))
             raise _StopError
 
     def refuse_entry(self, mark: int, words: str, path: KeyPath) -> None:
@@ -272,7 +264,7 @@ class _Builder:
             self.fault(mark, Message("yaml-not-allowed", f"tags ({shorten(tag)}) are not allowed"))
 
     def syntax_fault(self, error: yaml.YAMLError) -> None:
-        self.whole = False
+        self.document.whole = False
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         begun = getattr(error, "context_mark", None)
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read"
@@ -286,4 +278,4 @@ class _Builder:
             words += f" (it began in line {line})"
         if self.source.text[offset : offset + 1] == "\t":
             words += " (indent with spaces, not with tabs)"
-        self.faults.append(Fault(self.source.place(offset), "", Message("not-yaml", words)))
+        self.document.faults.append(Fault(self.source.place(offset), "", Message("not-yaml", words)))
