@@ -134,7 +134,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     if not expected:
         tree.data.pop("expected", None)
     units = _units(tree.data)
-    parameters = Parameters(_mapping(tree.data.get("parameters")))
+    parameters = Parameters(given if isinstance(given := tree.data.get("parameters"), dict) else {})
     content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)
     if len(faults) > MOST_FAULTS:  # no more of them are told
         raise DeckError(_once(faults + reading.faults))
@@ -177,10 +177,6 @@ def _units(data: dict[str, Any]) -> Units:
     except ValueError:
         return Units()
     return Units(section.length, section.force, section.mass)
-
-
-def _mapping(value: Any) -> dict[str, Any]:
-    return value if isinstance(value, dict) else {}
 
 
 def _converter(parameters: Parameters, units: Units) -> Callable[[str, str], float]:

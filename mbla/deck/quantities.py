@@ -65,7 +65,9 @@ class Quantity:
         number = core_schema.float_schema(
             strict=True, allow_inf_nan=False, gt=self.gt, ge=self.ge, lt=self.lt, le=self.le
         )
-        return core_schema.union_schema([number, _from_text(self.dimension, _plain, number)], mode="left_to_right")
+        return core_schema.union_schema(
+            [number, _from_text(self.dimension, lambda value: value, number)], mode="left_to_right"
+        )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         pattern = EXPRESSION_PATTERN if self.dimension == "number" else QUANTITY_PATTERN
@@ -113,10 +115,6 @@ def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -
             raise PydanticCustomError("quantity", "{reason}", {"reason": error.message}) from None
 
     return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])
-
-
-def _plain(value: Any) -> Any:
-    return value
 
 
 def _whole(value: Any) -> Any:

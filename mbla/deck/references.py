@@ -150,11 +150,9 @@ def side_files(value: Any, at: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
     """Key paths and names of the files that a value of the deck names; ``at`` is where it stands, () the whole deck."""
     for pattern in SIDE_FILES:
         words = pattern.split(".")
-        if len(words) >= len(at) and all(_fits(word, key) for word, key in zip(words, at, strict=False)):
+        if len(words) >= len(at) and all(
+            isinstance(key, int) if word == "#" else word in ("*", key) for word, key in zip(words, at, strict=False)
+        ):
             for path, name in find(value, words[len(at) :], at):
                 if isinstance(name, str):
                     yield path, name
-
-
-def _fits(word: str, key: str | int) -> bool:
-    return isinstance(key, int) if word == "#" else isinstance(key, str) and word in ("*", key)

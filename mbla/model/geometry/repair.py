@@ -28,7 +28,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.surfaces import face_codes, repeated_faces, split_surfaces
-from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, welding_notices, with_faces
+from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, with_faces
 from mbla.model.solids.defects import Defects, coordinate_defects
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
@@ -76,8 +76,8 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
         _weld_near(work, everything, np.full(len(everything), weld_distance))
     if not geometry.cells and len(work.polyhedra):
         _pool_open_objects(work)
-        for step in (_drop_flat_faces, _drop_repeated_faces):
-            step(work)
+        _drop(work, flat_faces, "faces-flat", "without area, all corners on one line,")
+        _drop(work, repeated_faces, "faces-repeated", "listed twice")
         _close_gaps(work, tolerance)
         _split(work, geometry)
     if not work.pooled:
@@ -104,9 +104,11 @@ def _weld_equal(work: _Work, geometry: Geometry) -> None:
         return
     welded = weld(work.polyhedra)
     work.put(welded.polyhedra)
-    if geometry.indexed:
-        work.notices += welding_notices(welded)
-    elif welded.collapsed:
+    if geometry.indexed and welded.merged:
+        words = f"{counted(welded.merged, 'vertex')} at the same place as another of their block "
+        gone = f"; {counted(welded.collapsed, 'face')} without area went with them" if welded.collapsed else ""
+        work.tell("vertices-merged", f"{words}{was(welded.merged)} merged{gone}")
+    elif welded.collapsed and not geometry.indexed:
         words = f"{counted(welded.collapsed, 'face')} without area {was(welded.collapsed)} left out: "
         work.tell("faces-collapsed", f"{words}corners at the same place")
 
@@ -139,14 +141,6 @@ def _pool_open_objects(work: _Work) -> None:
     words = f"none of its {len(surfaces)} objects is closed by itself: their faces are taken together as one surface"
     work.notices.append(Notice("warning", "objects-joined", words))
     work.polyhedra, work.source, work.pooled = together, work.source[:1], True
-
-
-def _drop_flat_faces(work: _Work) -> None:
-    _drop(work, flat_faces, "faces-flat", "without area, all corners on one line,")
-
-
-def _drop_repeated_faces(work: _Work) -> None:
-    _drop(work, repeated_faces, "faces-repeated", "listed twice")
 
 
 def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:

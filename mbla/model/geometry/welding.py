@@ -10,11 +10,9 @@ from typing import TypeVar
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
-from mbla.errors import Notice
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.polyhedra import Polyhedra, drop_unused_vertices
 from mbla.model.solids.ragged import next_item
-from mbla.model.wording import counted, was
 
 Label = TypeVar("Label", bound=Hashable)
 
@@ -102,18 +100,6 @@ def take_faces(polyhedra: Polyhedra, kept: BoolArray) -> Polyhedra:
 def with_faces(polyhedra: Polyhedra) -> IntArray:
     """Polyhedra that have a face left, (n,)."""
     return np.flatnonzero(np.diff(polyhedra.face_start))
-
-
-def welding_notices(welded: Welded) -> tuple[Notice, ...]:
-    """What was merged, in words; nothing where nothing was."""
-    if not welded.merged:
-        return ()
-    words = (
-        f"{counted(welded.merged, 'vertex')} at the same place as another of their block {was(welded.merged)} merged"
-    )
-    if welded.collapsed:
-        words += f"; {counted(welded.collapsed, 'face')} without area went with them"
-    return (Notice("notice", "vertices-merged", words),)
 
 
 def surfaces_by_label(

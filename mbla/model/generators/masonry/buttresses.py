@@ -109,12 +109,8 @@ def buttress_leg(host: Leg, placed: PlacedButtress) -> Leg:
         passages=(Passage(0.0, inside, placed.courses),) if buttress.bonded else (),
         slopes=slopes,
         # it runs through its wall where the wall does not
-        swapped=_second_in_odd_courses(host) == (host.item.start == "full"),
+        swapped=host.interrupted(1) == (host.item.start == "full"),
         fitted=True,
         member="buttress",
         top_member="buttress",
     )
-
-
-def _second_in_odd_courses(host: Leg) -> bool:
-    return host.interrupted(1)
