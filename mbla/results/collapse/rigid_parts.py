@@ -146,6 +146,11 @@ def _axes(radius: FloatArray, velocity: FloatArray, rotation: FloatArray) -> tup
     return turns[:, 0], arms, directions
 
 
+def moving_blocks(model: Model, parts: IntArray) -> int:
+    """How many free blocks move, from the part of each, (n_blocks,)."""
+    return int(np.sum(~model.fixed & (parts > 0)))
+
+
 def moving_share(model: Model, parts: IntArray) -> float:
     """Share of the weight of the free blocks that moves; of their number where they weigh nothing."""
     free = ~model.fixed

@@ -16,7 +16,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, Failure
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.joint_planes import HingeLine
-from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.places import (
     direction_words,
@@ -70,7 +70,7 @@ def failure_sentences(
 
 def _scale(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``The mechanism is partial: 12 of 52 free blocks, 20.8 % of the weight, move in 1 rigid part.``"""
-    moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
+    moving = moving_blocks(model, collapse.parts)
     share = moving_share(model, collapse.parts)
     parts = len(failure.motions)
     text = (

@@ -38,7 +38,7 @@ from mbla.results.listing.model_words import (
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
-from mbla.results.outcome import result_of, unproved_words
+from mbla.results.outcome import dimension_of, result_of, unproved_words
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 
@@ -66,12 +66,11 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     if told is not None:
         sections.append(Section("Mechanism", spaced(mechanism_lines(model, contacts, told.failure))))
     if mechanics is not None and told is not None:
-        dimension = 3 if solution.size is None else solution.size.dimension
         work = enough_lines(case, enough_of(model, contacts, told.collapse.parts))
         work += work_lines(model, contacts, load_case, mechanics, told.collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
-        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension))
+        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))
         sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
         if solution.force_ranges is not None:
             ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
@@ -89,11 +88,11 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
 
 def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
     """Find how a case fails, which is kept for listing, files and pictures: takes longest on large models."""
-    model, mechanics, size = model.of_case(case.load_case), case.solution.mechanics, case.solution.size
+    model, mechanics = model.of_case(case.load_case), case.solution.mechanics
     if mechanics is not None:
         collapse = collapse_of(model, contacts, case.load_case, mechanics)
         failure_of(model, contacts, collapse, mechanics)
-        force_freedom(model, contacts, mechanics, 3 if size is None else size.dimension)
+        force_freedom(model, contacts, mechanics, dimension_of((case,)))
 
 
 def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:

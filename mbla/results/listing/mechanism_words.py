@@ -16,7 +16,7 @@ from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failu
 from mbla.results.collapse.cracks import Crack
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
-from mbla.results.collapse.rigid_parts import PartMotion
+from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.failure_words import as_parts, crack_kind, failure_sentences, hinge_side
 from mbla.results.listing.places import TABLE_DIGITS, block_names, direction_words, point_words
@@ -77,7 +77,7 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
     Of a mechanism of many joints first what moves, then how many they are.
     """
     count = collapse.interfaces.count
-    moving = int(np.sum(~model.fixed & (collapse.parts > 0)))
+    moving = moving_blocks(model, collapse.parts)
     words = [
         (count(InterfaceMode.HINGE), "{}", "hinge"),
         (count(InterfaceMode.SLIDE), "sliding at {}", "interface"),

@@ -28,11 +28,6 @@ def block_names(model: Model, blocks: IntArray) -> str:
     return ", ".join(words) + (f" and {left_out} more" if left_out else "")
 
 
-def stretches(model: Model, blocks: IntArray) -> int:
-    """How many stretches of blocks that follow each other in their group."""
-    return len(_stretches(model, blocks)[0])
-
-
 def _stretches(model: Model, blocks: IntArray) -> tuple[list[str], IntArray, IntArray]:
     """Group, first index and length of every stretch, by group and index."""
     groups, indices = np.array(model.blocks.groups)[blocks], model.blocks.group_indices[blocks]
@@ -120,7 +115,7 @@ def extents_of(model: Model, blocks: IntArray) -> tuple[FloatArray, FloatArray]:
 
 def group_words(model: Model, blocks: IntArray) -> str:
     """``arch[3..9]``, ``12 blocks of wall``, ``40 blocks of pier, wall and 2 more groups``."""
-    if stretches(model, blocks) <= MOST_STRETCHES:
+    if len(_stretches(model, blocks)[0]) <= MOST_STRETCHES:
         return block_names(model, blocks)
     names = list(dict.fromkeys(model.blocks.groups[block] for block in blocks.tolist()))
     more = len(names) - MOST_GROUPS

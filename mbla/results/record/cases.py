@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.rigid_parts import moving_share
+from mbla.results.collapse.rigid_parts import moving_blocks, moving_share
 from mbla.results.outcome import (
     angle_bounds,
     angle_of,
@@ -95,10 +95,6 @@ def _modes(mode: InterfaceMode) -> Column:
     return _of_scene(quantity, lambda s: None if s.interfaces is None else s.interfaces.count(mode), "table")
 
 
-def _moving(scene: Scene) -> int | None:
-    return None if scene.collapse is None else int(np.sum(~scene.model.fixed & (scene.collapse.parts > 0)))
-
-
 def _in_mechanism(quantity: Quantity, of: Callable[[Scene], Any]) -> Column:
     return _of_scene(replace(quantity, place="cases/*/mechanism"), of, "table")
 
@@ -168,7 +164,10 @@ CASE_COLUMNS: tuple[Column, ...] = (
         real("moving_weight_share", "share of the weight of the free blocks that moves"),
         lambda scene: None if scene.collapse is None else moving_share(scene.model, scene.collapse.parts),
     ),
-    _in_mechanism(whole("moving_blocks", "free blocks that move"), _moving),
+    _in_mechanism(
+        whole("moving_blocks", "free blocks that move"),
+        lambda scene: None if scene.collapse is None else moving_blocks(scene.model, scene.collapse.parts),
+    ),
     _in_mechanism(
         whole("moving_parts", "rigid parts that move"),
         lambda scene: None if scene.collapse is None else len(scene.collapse.motions),

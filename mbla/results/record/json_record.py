@@ -139,7 +139,6 @@ def case_json(scene: Scene) -> dict[str, Any]:
     case = scene.case
     assert case is not None  # the record of a model alone has no cases
     solution, mechanics, model = case.solution, result_of(case), scene.model
-    dimension = 3 if solution.size is None else solution.size.dimension
     solver = float(sum(program.seconds for program in solution.programs))
     return {
         "name": case.load_case.name,
@@ -157,7 +156,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "mechanism": None
         if mechanics is None
-        else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension),
+        else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension_of((case,))),
         "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }

@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class, moving_joints
@@ -17,7 +15,7 @@ from mbla.results.collapse.force_freedom import ForceFreedom, enough_of, force_f
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.mechanics import dissipated_by_joint, loads_by_group
-from mbla.results.collapse.rigid_parts import PartMotion, moving_share, reach
+from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.record.json_values import as_json, number
 from mbla.solution.solution import ContactMode, Mechanics
 
@@ -77,7 +75,7 @@ def mechanism_json(
             "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},
             "hinges": lambda: collapse().interfaces.count(InterfaceMode.HINGE),
             "reach": lambda: reach(share()),
-            "moving_blocks": lambda: int(np.sum(~model.fixed & (collapse().parts > 0))),
+            "moving_blocks": lambda: moving_blocks(model, collapse().parts),
             "moving_weight_share": lambda: number(share()),
             "moving_parts": lambda: len(collapse().motions),
             "parts": lambda: parts(collapse().motions),
