@@ -28,9 +28,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
 from mbla.model.model import LoadCase, Model
-from mbla.model.supports.guides import Guides
 
 
 @dataclass(frozen=True)

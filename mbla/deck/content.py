@@ -1,7 +1,8 @@
 """The type of a whole deck: the source of the schema, of the checks on single values and of the key reference.
 
 Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
-Each section and each item of `blocks` has a file of its own in ``sections`` and ``items``, with its rules.
+Sections and items of `blocks` stand in ``sections`` and ``items``, with their rules; here are `units`, `output` and
+`expected`.
 """
 
 from __future__ import annotations
@@ -13,14 +14,13 @@ from pydantic import BeforeValidator, Field
 
 from mbla.deck.include import MAX_FILES
 from mbla.deck.items import BlockItem
-from mbla.deck.quantities import Line, Name, Number, ParameterName
+from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
-from mbla.deck.sections.output import Expectation, OutputSection
 from mbla.deck.sections.supports import Support, SymmetryPlane
 from mbla.errors import Finding
 
@@ -36,6 +36,45 @@ class UnitsSection(Section):
     length: Literal["m", "mm", "cm", "ft", "in"] = Field("m", description="unit of length")
     force: Literal["N", "kN", "MN", "lbf", "kip"] = Field("N", description="unit of force")
     mass: Literal["kg", "t", "lb"] = Field("kg", description="unit of mass")
+
+
+class OutputSection(Section):
+    """Which result files are written."""
+
+    vtu: Switch = Field(True, description="VTU and PVD files for ParaView")
+    frames: Annotated[int, Integer(ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
+    plots: Switch = Field(
+        False, description="pictures of model, mechanisms and forces beside the results, as of ``mbla plot``"
+    )
+    positions: Literal["worst", "all"] = Field(
+        "worst", description="positions of a travelling load that have files, pictures and a section of the listing"
+    )
+
+
+class Expectation(Section):
+    """What a load case should give, with its source."""
+
+    load_factor: Number | None = Field(None, description="by the deck's own flow rule")
+    angle: Number | None = Field(None, description="tilt: angle of collapse in degrees")
+    position: Count | None = Field(None, description="travel: number of the worst position, from 1")
+    associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
+    reaction: Number | None = Field(None, description="of the support that gives way")
+    lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
+    status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
+        None, description="status of the case"
+    )
+    tolerance: PositiveNumber = Field(1e-5, description="relative difference that is allowed")
+    source: Line = Field(min_length=1, description="where the figure is from")
+
+
+FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "reaction", "lower", "status")
+
+
+@rule(Expectation)
+def expectation(item: Expectation) -> Iterator[Finding]:
+    """Something must be expected."""
+    if not given(item, FIGURES):
+        yield Finding("missing-key", f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}")
 
 
 class DeckContent(Section):

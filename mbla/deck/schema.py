@@ -109,20 +109,6 @@ def between(text: str, markers: tuple[str, str], content: str) -> str:
     return f"{before}{markers[0]}\n\n{content}\n{markers[1]}{after}"
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Entry of ``python -m mbla.deck.schema``."""
-    parser = argparse.ArgumentParser(
-        prog="python -m mbla.deck.schema", description="Generated files of the deck types."
-    )
-    parser.add_argument("--write", action="store_true", required=True, help="write schema and key reference")
-    parser.parse_args(arguments)
-    write_schema()
-
-
-if __name__ == "__main__":
-    main()
-
-
 def key_reference() -> str:
     """A table for every section of the deck: key, value with its unit, default, meaning."""
     introduction = (
@@ -266,3 +252,17 @@ def _quantity(quantity: Quantity) -> str:
     signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
     bounds = [f"{sign} {getattr(quantity, key):g}" for key, sign in signs.items() if getattr(quantity, key) is not None]
     return ", ".join([words, *bounds])
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Entry of ``python -m mbla.deck.schema``."""
+    parser = argparse.ArgumentParser(
+        prog="python -m mbla.deck.schema", description="Generated files of the deck types."
+    )
+    parser.add_argument("--write", action="store_true", required=True, help="write schema and key reference")
+    parser.parse_args(arguments)
+    write_schema()
+
+
+if __name__ == "__main__":
+    main()

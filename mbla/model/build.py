@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray
+from mbla.deck.content import OutputSection
 from mbla.deck.deck import Deck
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
-from mbla.deck.sections.output import OutputSection
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.interfaces import read_interfaces
@@ -31,7 +31,7 @@ from mbla.model.solids.blocks import Blocks, carried_masses, distance_outside
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
-from mbla.model.supports.build import Supports, build_supports, does_nothing
+from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
 from mbla.model.wording import named, vector
 from mbla.process.sharing import once

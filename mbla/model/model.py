@@ -10,9 +10,9 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
+from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
-from mbla.model.supports.guides import NO_GUIDES, Guides, joined
 
 
 @dataclass(frozen=True)

@@ -21,12 +21,12 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.load_cases import SettlementSection
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase, Settlement
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
-from mbla.model.supports.build import Supports
-from mbla.model.supports.guides import slide, turn
+from mbla.model.supports import Supports
 from mbla.model.wording import counted, named, vector
 
 

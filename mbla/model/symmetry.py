@@ -21,6 +21,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
+from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.load_kind import entries_of
@@ -31,8 +32,7 @@ from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_l
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.supports.build import plane_of
-from mbla.model.supports.guides import Guides
+from mbla.model.supports import plane_of
 from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 

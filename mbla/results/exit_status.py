@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from mbla.deck.sections.output import Expectation
+from mbla.deck.content import Expectation
 from mbla.errors import Notice
 from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
 from mbla.results.results import CaseResult

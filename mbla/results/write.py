@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mbla.deck.sections.output import OutputSection
+from mbla.deck.content import OutputSection
 from mbla.errors import DeckError, FileError, MblaError, Notice, UsageError
 from mbla.results.failures import StoppedRun, words_of
 from mbla.results.files import OutputFolder, is_partial, partial_stem

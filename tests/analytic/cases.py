@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
-from mbla.deck.sections.output import Expectation
+from mbla.deck.content import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced

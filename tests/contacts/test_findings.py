@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import guides_at_odds
 from mbla.errors import DeckError
-from mbla.model.supports.guides import Guides
+from mbla.model.guides import Guides
 from tests.line import HEAD, case_of, factor_of, line_of_file
 
 TOWER = (

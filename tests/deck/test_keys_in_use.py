@@ -22,13 +22,12 @@ from tests.decks.folder import PATHS, deck_of
 MODEL = Path(__file__).parents[1] / "model"
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges gap interior max_iterations path peak proximal range reductions residual "
+    "AnalysisSection": "force_ranges gap interior max_iterations peak proximal range reductions residual "
     "standing time_limit tolerance",
     "InteriorScheme": "max_factorizations tries",
     "LowestScheme": "seed",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
-    "PathScheme": "steps",
     "ProximalScheme": "max_programs",
     "PublishedScheme": "averaging max_programs",
     "SymmetryPlane": "z",

@@ -13,9 +13,9 @@ import numpy as np
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
+from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, no_labels
-from mbla.model.supports.guides import Guides
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (

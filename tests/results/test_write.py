@@ -5,7 +5,7 @@ from pathlib import Path
 import meshio
 import pytest
 
-from mbla.deck.sections.output import OutputSection
+from mbla.deck.content import OutputSection
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import listing

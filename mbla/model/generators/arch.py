@@ -1,7 +1,10 @@
-"""Generator of arches: straight-edged voussoirs in one or more rings over a curve, with springers, ground or piers.
+"""Generators of arches, of straight-edged voussoirs in one or more rings over a curve, and of barrel vaults.
 
 The left springing of the curve lies at the origin, the right one at x = span; the section in the x-z plane is carried
 along +y, on a skew plan with x growing by y tan(skew).
+
+A barrel vault has courses of straight prisms along its axis, in the section of an arch: its volume is the area of that
+times the length, with joints at equal angles d of a circle n (R2^2 - R1^2)/2 sin d.
 """
 
 from __future__ import annotations
@@ -10,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.arch import ArchItem
+from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
@@ -24,6 +28,7 @@ from mbla.model.generators.arch_sections import (
     springing_grounds,
     springing_joints,
     unfit_rise,
+    vault_section,
     voussoir_polygons,
 )
 from mbla.model.generators.curves import Curve, named_curve
@@ -142,3 +147,37 @@ def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) 
 
 def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:
     return prisms(polygons, _full_width(item, len(polygons)), shear)
+
+
+NO_UNIT = 1e-6
+"""length of a remainder, relative to the unit, that is no unit of its own"""
+
+
+def amount_barrel_vault(item: BarrelVaultItem) -> Amount:
+    """About how many units such an item has."""
+    return Amount(item.courses * item.length / item.unit, "length")
+
+
+def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
+    """Units course by course from the left springing, along +y in each."""
+    section = vault_section(item, item.span)
+    rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
+    course = np.repeat(np.arange(item.courses), [len(row) for row in rows])
+    polygons = voussoir_polygons(section)[0]
+    units = prisms([polygons[number] for number in course.tolist()], np.concatenate(rows))
+    labels = {"course": course, "unit": np.concatenate([np.arange(len(row)) for row in rows])}
+    parts = [Part(units, labels=labels)]
+    if item.springers == "blocks":
+        behind = prisms(springer_polygons(section, item.thickness), np.tile([0.0, item.length], (2, 1)))
+        parts.append(Part(behind, "_springers", fixed=True))
+    grounds = springing_grounds(section, course, item.joint) if item.springers == "ground" else ()
+    return Generated(tuple(parts), grounds)
+
+
+def _ends(item: BarrelVaultItem, shifted: bool) -> FloatArray:
+    """Both ends of each unit of a course along y, (n, 2); the first unit is half a one where shifted."""
+    first = item.unit / 2 if shifted else item.unit
+    joints = first + item.unit * np.arange(int(np.ceil(item.length / item.unit)) + 1)
+    inner = joints[joints < item.length - NO_UNIT * item.unit]
+    ends = np.concatenate([[0.0], inner, [item.length]])
+    return np.stack([ends[:-1], ends[1:]], axis=1)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.vaults import BarrelVaultItem
-from mbla.model.generators.barrel_vault import generate_barrel_vault
+from mbla.model.generators.arch import generate_barrel_vault
 from mbla.model.generators.generator import Generated, Site
 from tests.model.generators.assembly import assemble
 from tests.model.shapes import build_raw

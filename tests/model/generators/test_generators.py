@@ -9,8 +9,8 @@ from mbla.deck.items import BlockItem
 from mbla.deck.items.cuboids import BoxItem, PolyhedronItem
 from mbla.deck.items.files import MeshItem
 from mbla.model.generators import KINDS, generator_of
+from mbla.model.generators.files import generate_mesh
 from mbla.model.generators.generator import ItemRefused, Part, Site
-from mbla.model.generators.mesh import generate_mesh
 from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import TETRAHEDRON, box, build_raw
 

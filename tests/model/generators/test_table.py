@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from mbla.deck.items.files import TableItem
+from mbla.model.generators.files import generate_table
 from mbla.model.generators.generator import ItemRefused, Part, Site
-from mbla.model.generators.table import generate_table
 from tests.model.shapes import box, build_raw
 
 SHAPES = {"low": box((0, 0, 0), (1, 1, 1)), "high": box((0, 0, 1), (1, 2, 3))}

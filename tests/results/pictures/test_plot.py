@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.cli import main
-from mbla.deck.sections.output import OutputSection
+from mbla.deck.content import OutputSection
 from mbla.errors import FileError, UsageError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements

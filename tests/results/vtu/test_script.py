@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from mbla.deck.sections.output import OutputSection
+from mbla.deck.content import OutputSection
 from mbla.results.record.scene import FIGURES
 from mbla.results.results import Results
 from mbla.results.write import write_outputs

@@ -9,8 +9,8 @@ import numpy as np
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
+from mbla.model.guides import Guides, held_components, joined, rigid_motions, slide, turn
 from mbla.model.model import Model
-from mbla.model.supports.guides import Guides, held_components, joined, rigid_motions, slide, turn
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
 from mbla.solution.settings import solver_settings

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
-from mbla.model.generators.curves.curve import Curve as Curve
+from mbla.model.generators.curves.shapes import Curve as Curve
 from mbla.model.generators.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
 from mbla.model.generators.curves.shapes import Symmetric as Symmetric
 from mbla.model.generators.curves.shapes import radius_of as radius_of

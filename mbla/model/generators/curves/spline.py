@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.generators.curves.curve import beside, invert
+from mbla.model.generators.curves.shapes import beside, invert
 
 PANELS = 16
 """between two points; the rule below is then exact to rounding for all but cusps"""

@@ -12,12 +12,12 @@ from mbla.deck.deck import Deck
 from mbla.deck.sections.supports import GroundPlane, SymmetryPlane
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.supports.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.wording import named, vector
 
 

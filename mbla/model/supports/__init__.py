@@ -1,1 +1,0 @@
-"""Supports: ground planes, fixed blocks, guides."""
