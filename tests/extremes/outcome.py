@@ -19,15 +19,11 @@ from __future__ import annotations
 
 import io
 import re
-import signal
 import time
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import FrameType
 
 from mbla.deck import read_deck
 from mbla.errors import MblaError
@@ -41,6 +37,7 @@ from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
+from tests.limited import Hang, limited
 
 GREEN = ("right", "diagnosed")
 LIMIT, LONG_LIMIT = 20.0, 300.0
@@ -95,22 +92,18 @@ class Outcome:
         return self.verdict not in GREEN
 
 
-class Hangs(BaseException):
-    """Raised by the clock; no exception that the program could catch."""
-
-
 def outcome_of(scene: Scene) -> Outcome:
     """Run a scene as ``mbla run`` does, with listing, summary and JSON, and judge."""
     started = time.process_time()
     try:
-        with warnings.catch_warnings(), _limited(LONG_LIMIT if scene.long else LIMIT):
+        with warnings.catch_warnings(), limited(LONG_LIMIT if scene.long else LIMIT):
             warnings.simplefilter("error")
             outcome = _judged(scene, results_of(scene))
     except MblaError as error:
         outcome = _refused(scene, str(error))
     except Warning as warning:
         outcome = Outcome(scene, "warning", words=f"{type(warning).__name__}: {warning}")
-    except Hangs:
+    except Hang:
         outcome = Outcome(scene, "hang", words=f"nothing within {LONG_LIMIT if scene.long else LIMIT:g} s")
     except Exception as error:  # that is what is looked for
         outcome = Outcome(scene, "crash", words=f"{type(error).__name__}: {error}")
@@ -172,19 +165,3 @@ def _refused(scene: Scene, message: str) -> Outcome:
 
 def _number(value: float) -> float | None:
     return value if value == value else None
-
-
-@contextmanager
-def _limited(seconds: float) -> Iterator[None]:
-    """Raise Hangs after so many seconds of the processor; a call that never returns to Python is not stopped."""
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise Hangs
-
-    earlier = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        signal.signal(signal.SIGPROF, earlier)

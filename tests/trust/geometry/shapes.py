@@ -8,6 +8,7 @@ from enum import Enum
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from tests.trust.geometry.formats import Format
 from tests.trust.geometry.stones import Face, Stone, triangles
 
@@ -113,11 +114,6 @@ def one_face(stone: Stone, random: Generator) -> Stone:
     return replace(stone, faces=(stone.faces[_face(stone, random)],))
 
 
-def turned_face(stone: Stone, random: Generator) -> Stone:
-    row = _face(stone, random)
-    return stone.with_face(row, stone.faces[row][::-1])
-
-
 def inside_out(stone: Stone, random: Generator) -> Stone:
     return replace(stone, faces=tuple(face[::-1] for face in stone.faces))
 
@@ -171,54 +167,19 @@ def t_junction(stone: Stone, random: Generator) -> Stone:
     return replace(stone, corners=corners).with_face(row, (face[0], len(stone.corners), *face[1:]))
 
 
-def corner_twice(stone: Stone, random: Generator) -> Stone:
-    """A face that names a corner twice in a row."""
-    row = _face(stone, random)
-    face = stone.faces[row]
-    return stone.with_face(row, (face[0], *face))
+def _loop(change: Callable[[Face], Face]) -> Callable[[Stone, Generator], Stone]:
+    """Other corners, or another order of them, in a face."""
+
+    def changed(stone: Stone, random: Generator) -> Stone:
+        row = _face(stone, random)
+        return stone.with_face(row, change(stone.faces[row]))
+
+    return changed
 
 
-def corner_again(stone: Stone, random: Generator) -> Stone:
-    """A face that comes back to a corner."""
-    row = _face(stone, random)
-    a, b, c, d = stone.faces[row]
-    return stone.with_face(row, (a, b, c, b, d))
-
-
-def bow_tie(stone: Stone, random: Generator) -> Stone:
-    """Two corners of a face in the wrong order."""
-    row = _face(stone, random)
-    a, b, c, d = stone.faces[row]
-    return stone.with_face(row, (a, c, b, d))
-
-
-def two_corners(stone: Stone, random: Generator) -> Stone:
-    row = _face(stone, random)
-    return stone.with_face(row, stone.faces[row][:2])
-
-
-def beyond(stone: Stone, random: Generator) -> Stone:
-    """A corner that does not exist."""
-    row = _face(stone, random)
-    return stone.with_face(row, (10**6, *stone.faces[row][1:]))
-
-
-def far_beyond(stone: Stone, random: Generator) -> Stone:
-    """A number that no machine word holds."""
-    row = _face(stone, random)
-    return stone.with_face(row, (10**30, *stone.faces[row][1:]))
-
-
-def below_zero(stone: Stone, random: Generator) -> Stone:
-    """A corner of a number below the first; -5 000, for in OBJ -1 has a meaning."""
-    row = _face(stone, random)
-    return stone.with_face(row, (-5000, *stone.faces[row][1:]))
-
-
-def just_below_zero(stone: Stone, random: Generator) -> Stone:
-    """The number before the first, which a program might take for the last."""
-    row = _face(stone, random)
-    return stone.with_face(row, (-1, *stone.faces[row][1:]))
+def _first_corner(number: int) -> Callable[[Stone, Generator], Stone]:
+    """Another number for the first corner of a face."""
+    return _loop(lambda face: (number, *face[1:]))
 
 
 # --- corners ---------------------------------------------------------------------------------------------------------
@@ -279,25 +240,9 @@ def bent(stone: Stone, random: Generator) -> Stone:
     return stone.with_corner(row, stone.corners[row] + [0.0, 0.07, 0.0])
 
 
-def flat(stone: Stone, random: Generator) -> Stone:
-    """All corners in one plane."""
-    return stone.with_corners(stone.corners * [1, 0, 1] + [0, 0.5, 0])
-
-
-def thin(stone: Stone, random: Generator) -> Stone:
-    """So thin that rounding leaves nothing of it."""
-    return stone.with_corners(stone.corners * [1, 1e-17, 1])
-
-
-def line(stone: Stone, random: Generator) -> Stone:
-    """All corners on one line; the outline of an elevation, too."""
-    at = stone.corners[0] + np.linspace(0, 1, len(stone.corners))[:, None] * [1, 0, 1]
-    return stone.with_corners(at)
-
-
-def point(stone: Stone, random: Generator) -> Stone:
-    """All corners at one place."""
-    return stone.with_corners(np.repeat(stone.corners[:1], len(stone.corners), axis=0))
+def _corners(change: Callable[[FloatArray], FloatArray]) -> Callable[[Stone, Generator], Stone]:
+    """Every corner elsewhere."""
+    return lambda stone, random: stone.with_corners(change(stone.corners))
 
 
 def pulled_through(stone: Stone, random: Generator) -> Stone:
@@ -397,13 +342,18 @@ TURNED = frozenset({"faces-turned-outwards"})
 GONE = frozenset({"faces-collapsed", "vertices-merged"})
 AGAIN = frozenset({"faces-repeated", "surfaces-repeated"})
 
+FLAT = _corners(lambda corners: corners * [1, 0, 1] + [0, 0.5, 0])
+THIN = _corners(lambda corners: corners * [1, 1e-17, 1])
+LINE = _corners(lambda corners: corners[0] + np.linspace(0, 1, len(corners))[:, None] * [1, 0, 1])
+POINT = _corners(lambda corners: np.repeat(corners[:1], len(corners), axis=0))
+
 MUTATIONS = (
     Mutation("face missing", _one(hole), REFUSED),
     Mutation("triangle missing", _one(hole_of_a_triangle), REFUSED),
     Mutation("two faces missing", _one(two_holes), REFUSED),
     Mutation("one face only", _one(one_face), REFUSED, suits=lambda kind: kind.shapes and kind.apart),
     Mutation("face missing in every block", _all(hole), REFUSED),
-    Mutation("face turned", _one(turned_face), SAME, told=TURNED),
+    Mutation("face turned", _one(_loop(lambda face: face[::-1])), SAME, told=TURNED),
     Mutation("block inside out", _one(inside_out), SAME, told=TURNED),
     Mutation("everything inside out", _all(inside_out), SAME, told=TURNED),
     Mutation("faces turned at random", _all(turned_at_random), SAME, told=TURNED),
@@ -414,26 +364,38 @@ MUTATIONS = (
     Mutation("face through the inside", _one(wall_within), REFUSED),
     Mutation("face without area", _one(flat_face), SAME, told=frozenset({"faces-flat", "t-junctions"})),
     Mutation("corner in the middle of an edge", _one(t_junction), SAME, told=frozenset({"t-junctions", "faces-flat"})),
-    Mutation("corner named twice in a row", _one(corner_twice), EITHER),
-    Mutation("face comes back to a corner", _one(corner_again), REFUSED, suits=of_polygons),
-    Mutation("corners of a face in wrong order", _one(bow_tie), REFUSED),
-    Mutation("face of two corners", _one(two_corners), REFUSED),
-    Mutation("corner that does not exist", _one(beyond), REFUSED, suits=lambda kind: kind.shapes and kind.by_number),
+    Mutation("corner named twice in a row", _one(_loop(lambda face: (face[0], *face))), EITHER),
+    Mutation(
+        "face comes back to a corner",
+        _one(_loop(lambda face: (*face[:3], face[1], face[3]))),
+        REFUSED,
+        suits=of_polygons,
+    ),
+    Mutation(
+        "corners of a face in wrong order", _one(_loop(lambda face: (face[0], face[2], face[1], face[3]))), REFUSED
+    ),
+    Mutation("face of two corners", _one(_loop(lambda face: face[:2])), REFUSED),
+    Mutation(
+        "corner that does not exist",
+        _one(_first_corner(10**6)),
+        REFUSED,
+        suits=lambda kind: kind.shapes and kind.by_number,
+    ),
     Mutation(
         "corner of an immense number",
-        _one(far_beyond),
+        _one(_first_corner(10**30)),
         REFUSED,
         suits=lambda kind: kind.shapes and kind.by_number and not kind.binary and kind.name != "gltf",
     ),
     Mutation(
-        "corner of a number below the first",
-        _one(below_zero),
+        "corner of a number below the first",  # in OBJ -1 has a meaning
+        _one(_first_corner(-5000)),
         REFUSED,
         suits=lambda kind: kind.shapes and kind.by_number and kind.name != "gltf",
     ),
     Mutation(
         "corner of the number before the first",
-        _one(just_below_zero),
+        _one(_first_corner(-1)),
         REFUSED,
         suits=lambda kind: kind.shapes and kind.by_number and kind.name not in ("gltf", "obj"),
     ),
@@ -472,12 +434,12 @@ MUTATIONS = (
     Mutation("renumbered", _all(renumbered), SAME),
     Mutation("in triangles", _all(split_faces), SAME),
     Mutation("corner off the plane", _one(bent), REFUSED, suits=lambda kind: kind.polygons and not kind.flat),
-    Mutation("block without thickness", _one(flat), REFUSED, lambda kind: not kind.flat),
-    Mutation("block thinner than rounding", _one(thin), REFUSED, lambda kind: not kind.flat),
-    Mutation("block on a line", _one(line), REFUSED, lambda kind: kind.apart),
-    Mutation("block at a point", _one(point), REFUSED, lambda kind: kind.apart),
-    Mutation("part on a line", _one(line), TOLD, lambda kind: not kind.apart, frozenset({"faces-flat"})),
-    Mutation("part at a point", _one(point), TOLD, lambda kind: not kind.apart, GONE),
+    Mutation("block without thickness", _one(FLAT), REFUSED, lambda kind: not kind.flat),
+    Mutation("block thinner than rounding", _one(THIN), REFUSED, lambda kind: not kind.flat),
+    Mutation("block on a line", _one(LINE), REFUSED, lambda kind: kind.apart),
+    Mutation("block at a point", _one(POINT), REFUSED, lambda kind: kind.apart),
+    Mutation("part on a line", _one(LINE), TOLD, lambda kind: not kind.apart, frozenset({"faces-flat"})),
+    Mutation("part at a point", _one(POINT), TOLD, lambda kind: not kind.apart, GONE),
     Mutation("block through itself", _one(pulled_through), REFUSED),
     Mutation("outline crosses itself", _one(crossed_outline), REFUSED, anything),
     Mutation("surface inside a block", _one(hollow), REFUSED),

@@ -45,16 +45,9 @@ class TextFault:
     told: frozenset[str] = frozenset()
 
 
-def empty(content: bytes, random: Generator) -> bytes:
-    return b""
-
-
-def blank(content: bytes, random: Generator) -> bytes:
-    return b" \n\t\n\n"
-
-
-def first_line(content: bytes, random: Generator) -> bytes:
-    return content.split(b"\n")[0] + b"\n"
+def _as(change: Callable[[bytes], bytes]) -> Damage:
+    """The same for every seed."""
+    return lambda content, random: change(content)
 
 
 def cut(content: bytes, random: Generator) -> bytes:
@@ -70,46 +63,25 @@ def cut_at_the_start(content: bytes, random: Generator) -> bytes:
     return content[int(random.uniform(0.05, 0.9) * len(content)) :]
 
 
-def windows(content: bytes, random: Generator) -> bytes:
-    return content.replace(b"\n", b"\r\n")
+def _line_ends(*kinds: bytes) -> Damage:
+    """Each line with one of these at its end."""
+
+    def damage(content: bytes, random: Generator) -> bytes:
+        lines = content.split(b"\n")
+        ends = [kinds[int(random.integers(len(kinds)))] for _ in lines]
+        return b"".join(line + end for line, end in zip(lines, ends, strict=True))
+
+    return damage
 
 
-def old_mac(content: bytes, random: Generator) -> bytes:
-    return content.replace(b"\n", b"\r")
+def _amid(more: bytes) -> Damage:
+    """Some bytes more."""
 
+    def damage(content: bytes, random: Generator) -> bytes:
+        at = int(random.integers(len(content)))
+        return content[:at] + more + content[at:]
 
-def mixed(content: bytes, random: Generator) -> bytes:
-    lines = content.split(b"\n")
-    ends = [(b"\n", b"\r\n")[int(random.integers(2))] for _ in lines]
-    return b"".join(line + end for line, end in zip(lines, ends, strict=True))
-
-
-def mixed_with_old_mac(content: bytes, random: Generator) -> bytes:
-    lines = content.split(b"\n")
-    ends = [(b"\n", b"\r\n", b"\r")[int(random.integers(3))] for _ in lines]
-    return b"".join(line + end for line, end in zip(lines, ends, strict=True))
-
-
-def byte_order_mark(content: bytes, random: Generator) -> bytes:
-    return b"\xef\xbb\xbf" + content
-
-
-def utf_16(content: bytes, random: Generator) -> bytes:
-    return content.decode("latin-1").encode("utf-16")
-
-
-def nul(content: bytes, random: Generator) -> bytes:
-    at = int(random.integers(len(content)))
-    return content[:at] + b"\0" + content[at:]
-
-
-def not_utf_8(content: bytes, random: Generator) -> bytes:
-    at = int(random.integers(len(content)))
-    return content[:at] + b"\xff\xfe" + content[at:]
-
-
-def blank_lines(content: bytes, random: Generator) -> bytes:
-    return content.replace(b"\n", b"\n\n")
+    return damage
 
 
 def line_missing(content: bytes, random: Generator) -> bytes:
@@ -135,21 +107,21 @@ def random_bytes(content: bytes, random: Generator) -> bytes:
 UNUSED = frozenset({"file-vertices-unused"})
 
 TEXT_FAULTS = (
-    TextFault("empty file", empty, REFUSED, anything),
-    TextFault("blank file", blank, REFUSED, anything),
-    TextFault("first line only", first_line, REFUSED, anything),
+    TextFault("empty file", _as(lambda _: b""), REFUSED, anything),
+    TextFault("blank file", _as(lambda _: b" \n\t\n\n"), REFUSED, anything),
+    TextFault("first line only", _as(lambda content: content.split(b"\n")[0] + b"\n"), REFUSED, anything),
     TextFault("random bytes", random_bytes, REFUSED, anything),
     TextFault("cut off", cut, TOLD, anything, times=4, told=UNUSED),
     TextFault("last figures missing", cut_short, EITHER, anything),
     TextFault("begins in the middle", cut_at_the_start, REFUSED, anything),
-    TextFault("line ends of Windows", windows, SAME),
-    TextFault("mixed line ends", mixed, SAME),
-    TextFault("line ends of old Macs", old_mac, EITHER),
-    TextFault("line ends of three kinds", mixed_with_old_mac, EITHER),
-    TextFault("byte order mark", byte_order_mark, EITHER),
-    TextFault("UTF-16", utf_16, EITHER),
-    TextFault("NUL amid the text", nul, EITHER),
-    TextFault("bytes that are no UTF-8", not_utf_8, EITHER),
+    TextFault("line ends of Windows", _as(lambda content: content.replace(b"\n", b"\r\n")), SAME),
+    TextFault("mixed line ends", _line_ends(b"\n", b"\r\n"), SAME),
+    TextFault("line ends of old Macs", _as(lambda content: content.replace(b"\n", b"\r")), EITHER),
+    TextFault("line ends of three kinds", _line_ends(b"\n", b"\r\n", b"\r"), EITHER),
+    TextFault("byte order mark", _as(lambda content: b"\xef\xbb\xbf" + content), EITHER),
+    TextFault("UTF-16", _as(lambda content: content.decode("latin-1").encode("utf-16")), EITHER),
+    TextFault("NUL amid the text", _amid(b"\0"), EITHER),
+    TextFault("bytes that are no UTF-8", _amid(b"\xff\xfe"), EITHER),
     TextFault("line missing", line_missing, EITHER, checked, times=4),
     TextFault("line twice", line_twice, EITHER, checked, times=4),
     TextFault("rubbish at the end", rubbish_at_the_end, EITHER, anything),

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
-from typing import Any
 
 from mbla.cli.check import check
 from mbla.deck import read_deck
@@ -20,6 +17,7 @@ from mbla.process.run_options import RunOptions
 from mbla.sweeps.command import SweepOptions, prepare
 from mbla.sweeps.file.content import SweepContent
 from mbla.sweeps.file.read import read_sweep
+from tests.limited import limited
 from tests.line import WALL
 from tests.trust.hostile.samples import MESHES, NAMED_DECK
 
@@ -29,10 +27,6 @@ LONGEST = 5.0
 """seconds of processor time that reading a file may take"""
 FEW_BLOCKS = 300
 """what the program allows here in the place of millions: whatever it lets through is then small"""
-
-
-class Hang(BaseException):
-    """Not an Exception: nothing in the program may take it for one of its own."""
 
 
 class Broken(AssertionError):
@@ -68,7 +62,7 @@ def give(kind: str, content: bytes, folder: Path) -> str:
         named = folder / "names.yaml"
         named.write_text(NAMED_DECK.format(file=path.name, more=", extrude: 1" if kind == "dxf" else ""))
     try:
-        with small_amounts(), limited():
+        with small_amounts(), limited(LONGEST):
             if kind == "sweep":
                 prepare(read_sweep(named), SweepOptions())
             else:
@@ -100,19 +94,3 @@ def small_amounts() -> Iterator[None]:
         yield
     finally:
         amounts.MOST = usual
-
-
-@contextmanager
-def limited(seconds: float = LONGEST) -> Iterator[None]:
-    """Raise ``Hang`` in what takes longer, in processor time."""
-
-    def hang(number: int, frame: FrameType | None) -> Any:
-        raise Hang(f"more than {seconds} s of processor time")
-
-    before = signal.signal(signal.SIGPROF, hang)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)

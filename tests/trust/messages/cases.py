@@ -83,6 +83,15 @@ def brings(identifier: str) -> Callable[[Bring], Bring]:
     return register
 
 
+def raising(error: type[Exception] | Exception) -> Callable[..., None]:
+    """A function that fails."""
+
+    def fails(*arguments: object) -> None:
+        raise error
+
+    return fails
+
+
 def command(*arguments: str) -> int:
     """Run the program; what it prints is the error."""
     return main(arguments)
@@ -124,28 +133,19 @@ def deck_in_latin_1(folder: Path, patch: Patch) -> object:
 
 @brings("file-system")
 def disk_that_fails(folder: Path, patch: Patch) -> object:
-    def fails(*arguments: object) -> None:
-        raise OSError(errno.EIO, "Input/output error", "deck.yaml")
-
-    patch.setattr(api, "_read", fails)
+    patch.setattr(api, "_read", raising(OSError(errno.EIO, "Input/output error", "deck.yaml")))
     return api.run("deck.yaml")
 
 
 @brings("out-of-memory")
 def memory_that_is_used_up(folder: Path, patch: Patch) -> object:
-    def fails(*arguments: object) -> None:
-        raise MemoryError
-
-    patch.setattr(api, "_read", fails)
+    patch.setattr(api, "_read", raising(MemoryError))
     return api.run("deck.yaml")
 
 
 @brings("internal-error")
 def defect_of_the_program(folder: Path, patch: Patch) -> object:
-    def fails(*arguments: object) -> None:
-        raise ZeroDivisionError("first second")
-
-    patch.setattr("mbla.cli.decks.refuse_unfit_name", fails)
+    patch.setattr("mbla.cli.decks.refuse_unfit_name", raising(ZeroDivisionError("first second")))
     return command("run", "deck.yaml")
 
 
@@ -356,20 +356,14 @@ def journal_of_another_deck(folder: Path, patch: Patch) -> object:
 
 @brings("locks-missing")
 def file_system_without_locks(folder: Path, patch: Patch) -> object:
-    def none_here(*arguments: object) -> None:
-        raise OSError(errno.ENOSYS, "Function not implemented")
-
-    patch.setattr(fcntl, "flock", none_here)
+    patch.setattr(fcntl, "flock", raising(OSError(errno.ENOSYS, "Function not implemented")))
     return journal(folder).__enter__()
 
 
 @brings("another-run-at-work")
 def sweep_that_is_running(folder: Path, patch: Patch) -> object:
-    def busy(*arguments: object) -> None:
-        raise BlockingIOError
-
     patch.setattr(journal_lock, "PATIENCE", 0.0)
-    patch.setattr(fcntl, "flock", busy)
+    patch.setattr(fcntl, "flock", raising(BlockingIOError))
     return journal_lock._taken(folder / "journal.csv", folder / "lock", False, None)
 
 
