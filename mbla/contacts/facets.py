@@ -14,6 +14,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.overlay import frames_from_normals, unit
 from mbla.contacts.polygons import Polygons, areas, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import next_item, rows_and_items
 
 # Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude
@@ -167,14 +168,8 @@ def facets_on_one_plane(blocks: Blocks, centres: FloatArray) -> IntArray:
     i, j = i[alike], j[alike]
     if not len(i):
         return facet_of_face
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    _, label = connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(n, n)), directed=False)
-    _, first, dense = np.unique(label, return_index=True, return_inverse=True)
-    rank = np.argsort(np.argsort(first))  # numbered by first occurrence, to stay in order of blocks
-    joined = rank[dense]
-    return joined[facet_of_face].astype(np.int64)
+    joined = connected_labels(np.stack([i, j], axis=1), n)  # in order of blocks still
+    return joined[facet_of_face]
 
 
 def _same_normal(block: IntArray, normals: FloatArray) -> tuple[IntArray, IntArray]:

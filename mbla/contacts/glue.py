@@ -31,6 +31,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
 from mbla.model.model import LoadCase, Model
+from mbla.model.solids.measures import connected_labels
 
 
 @dataclass(frozen=True)
@@ -63,14 +64,9 @@ def glue_blocks(model: Model, bodies: IntArray) -> Glue:
     n_blocks = len(model.blocks)
     if not len(bodies):
         return Glue(None, np.zeros(n_blocks, dtype=bool))
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     node = np.append(np.where(still, n_blocks, np.arange(len(still))), n_blocks)  # all supports are one node
-    a, b = node[bodies].T
-    graph = coo_array((np.ones(len(a)), (a, b)), shape=(n_blocks + 1, n_blocks + 1))
-    _, part = connected_components(graph, directed=False)
+    part = connected_labels(node[bodies], n_blocks + 1)
     held = (part[:n_blocks] == part[n_blocks]) & ~model.fixed
     own = part.max() + 1 + np.arange(n_blocks)
     _, first, label = np.unique(

@@ -21,6 +21,7 @@ from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.overlaps import Overlaps
 from mbla.contacts.third_block import SeparatedPairs
 from mbla.model.model import Model
+from mbla.model.solids.measures import connected_labels
 
 
 @dataclass(frozen=True)
@@ -126,17 +127,13 @@ def unsupported_parts(fixed: BoolArray, bodies: IntArray) -> tuple[IntArray, ...
     fixed  : (n_blocks,)
     bodies : (n, 2) bodies in contact; those from n_blocks on are ground
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     n_blocks = len(fixed)
     support = np.ones(max(n_blocks, int(bodies.max(initial=-1)) + 1), dtype=bool)
     support[:n_blocks] = fixed
     # Supports do not hang together with each other through their contacts: links between free blocks only.
     free_links = bodies[~support[bodies].any(axis=1)]
-    graph = coo_array((np.ones(len(free_links)), (free_links[:, 0], free_links[:, 1])), shape=(n_blocks, n_blocks))
-    n_parts, part = connected_components(graph, directed=False)
-    held = np.zeros(n_parts, dtype=bool)
+    part = connected_labels(free_links, n_blocks)
+    held = np.zeros(n_blocks, dtype=bool)  # by part
     a, b = bodies.T
     held[part[a[support[b] & ~support[a]]]] = True
     held[part[b[support[a] & ~support[b]]]] = True

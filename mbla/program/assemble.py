@@ -18,6 +18,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
+from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.restrict import guide_projector, guided_program
@@ -129,13 +130,9 @@ def own_units(loads: FloatArray, bodies: IntArray) -> FloatArray:
     units = np.ones(len(loads))
     if not light.any():
         return units
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     is_light = np.append(light, False)[bodies]  # −1 takes the last entry
     inside, edge = bodies[is_light.all(axis=1)], bodies[is_light.sum(axis=1) == 1]
-    shape = (len(loads), len(loads))
-    pile = connected_components(coo_array((np.ones(len(inside)), inside.T), shape=shape), directed=False)[1]
+    pile = connected_labels(inside, len(loads))
     second = np.append(light, False)[edge[:, 1]]
     lighter, heavier = np.where(second, edge[:, ::-1].T, edge.T)
     touched = np.unique(np.stack([heavier, pile[lighter]], axis=1), axis=0)

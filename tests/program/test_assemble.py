@@ -1,9 +1,11 @@
+"""Programs from model, contacts and loads: equilibrium, units of force, and units of light blocks."""
+
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from mbla.program.assemble import _scaling, equilibrium_matrix
+from mbla.program.assemble import LIGHT, _scaling, equilibrium_matrix, own_units
 from mbla.solution.verification.statics import contact_resultants, contact_velocities
 from tests.line import BLOCK, WALL, line_of
 
@@ -77,3 +79,26 @@ def test_units_grow_with_the_loads_however_small_these_are(size: float) -> None:
     assert (scaling.force, scaling.live) == pytest.approx((0.5 * size, 0.25 * size))
     weightless = _scaling(np.ones(2), 0.0 * dead.ravel(), size * live.ravel())
     assert (weightless.force, weightless.live) == pytest.approx((2.0 * size, 1.0))
+
+
+FIXED = -1
+
+
+@pytest.mark.parametrize(
+    ("loads", "bodies", "units"),
+    [
+        ([1, 1e-12], [(FIXED, 0), (0, 1)], [1, 1e-12]),
+        ([1, 1e-12], [(FIXED, 0), (1, 0), (0, 1)], [1, 1e-12]),
+        ([1, 2 * LIGHT], [(FIXED, 0), (0, 1)], [1, 1]),
+        ([1e-12, 1], [(FIXED, 0), (0, 1)], [1, 1]),  # light below heavy
+        ([1, 1e-12, 1], [(FIXED, 0), (0, 1), (1, 2)], [1, 1, 1]),
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (1, 2)], [1, 1e-10, 1e-10]),  # a pile has the unit of its largest load
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (0, 2)], [1, 1e-12, 1e-10]),
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (1, 2), (FIXED, 2)], [1, 1, 1]),
+        ([1, 1e-12], [(FIXED, 0), (FIXED, 1)], [1, 1e-12]),
+        ([1, 0], [(FIXED, 0), (0, 1)], [1, 1]),  # without a load there is nothing to measure by
+        ([1, 1], [(FIXED, 0), (0, 1)], [1, 1]),
+    ],
+)
+def test_units(loads: list[float], bodies: list[tuple[int, int]], units: list[float]) -> None:
+    assert own_units(np.array(loads, dtype=np.float64), np.array(bodies)).tolist() == units

@@ -149,13 +149,14 @@ def faces_to_turn(polyhedra: Polyhedra, edges: Edges) -> tuple[BoolArray, BoolAr
 
 
 def connected_labels(pairs: IntArray, n_nodes: int) -> IntArray:
-    """Label of the connected part of each node, (n_nodes,), from (n, 2) pairs of joined nodes."""
+    """Connected part of each node, (n_nodes,), in the order of first nodes, from (n, 2) pairs of joined nodes."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     ones = np.ones(len(pairs), dtype=np.int8)
     graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(n_nodes, n_nodes)).tocsr()
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    _, first, label = np.unique(connected_components(graph, directed=False)[1], return_index=True, return_inverse=True)
+    return np.asarray(np.argsort(np.argsort(first))[label], dtype=np.int64)
 
 
 def volumes_and_centroids(polyhedra: Polyhedra) -> tuple[FloatArray, FloatArray]:

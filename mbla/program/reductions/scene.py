@@ -17,11 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
@@ -144,12 +144,7 @@ def part_of_blocks(scene: Scene) -> IntArray:
     pairs = scene.bodies[both]
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
-    graph = sp.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    count, label = connected_components(graph, directed=False)
-    first = np.unique(label, return_index=True)[1]
-    rank = np.empty(count, dtype=np.int64)
-    rank[np.argsort(first)] = np.arange(count)
-    return np.asarray(rank[label])
+    return connected_labels(pairs, n)
 
 
 def split_into_parts(scene: Scene) -> list[Scene]:

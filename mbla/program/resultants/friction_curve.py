@@ -34,6 +34,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.model.solids.plane import signed_areas
 
 DIRECTIONS = 24
 RADII = np.concatenate([np.linspace(0.02, 1.0, 14), np.geomspace(1.3, 30.0, 8)])
@@ -66,15 +67,9 @@ def friction(outlines: FloatArray, centres: FloatArray) -> tuple[FloatArray, Flo
     height = np.einsum("nkmj,nmj->nkm", arm, normal)
     start = np.einsum("nkmj,nmj->nkm", arm, along)
     integral = _primitive(start + length[:, None], height) - _primitive(start, height)
-    area = areas(outlines)[:, None]
+    area = signed_areas(outlines)[:, None]
     rho = (height * integral).sum(axis=2) / (3.0 * area)
     return rho, np.einsum("nkm,nmj->nkj", integral, normal) / area[..., None]
-
-
-def areas(outlines: FloatArray) -> FloatArray:
-    """Areas of polygons, (n,), from corners (n, m, 2)."""
-    after = np.roll(outlines, -1, axis=1)
-    return np.asarray(0.5 * (outlines[..., 0] * after[..., 1] - outlines[..., 1] * after[..., 0]).sum(axis=1))
 
 
 def rectangle_curve(sides: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

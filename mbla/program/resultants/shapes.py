@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.convex import convex_loops
+from mbla.contacts.convex import convex_loops, signed_areas
 from mbla.contacts.polygons import convex_hulls
 from mbla.model.solids.ragged import items_of_rows, next_item, row_sums
 from mbla.program.resultants.friction_curve import disc_radius, fitted_curves, rectangle_curve
@@ -83,7 +83,7 @@ def interface_shapes(contacts: Contacts) -> InterfaceShapes:
         return InterfaceShapes(empty, starts(none), none, none, empty, np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0))
     outlines, outline_start = _outlines(contacts)
     convex_outline = convex_loops(outlines, outline_start)
-    solid = _loop_areas(outlines, outline_start) <= contacts.areas * (1.0 + SOLID)
+    solid = signed_areas(outlines, outline_start) <= contacts.areas * (1.0 + SOLID)
     corners, start = _hulls(outlines, outline_start, convex_outline)
     rectangles, sides, axes = _rectangles(corners, start, convex_outline & solid)
     radii, thetas = disc_radius(contacts.areas), np.ones(n)  # outlines with holes: the least that is possible
@@ -98,11 +98,6 @@ def _outlines(contacts: Contacts) -> tuple[FloatArray, IntArray]:
     position = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
     outer = position < contacts.outline[contacts.interface_of_point]
     return local_points(contacts)[outer], starts(contacts.outline.astype(np.int64))
-
-
-def _loop_areas(points: FloatArray, start: IntArray) -> FloatArray:
-    after = points[next_item(start)]
-    return np.asarray(0.5 * row_sums(points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0], start))
 
 
 def _hulls(outlines: FloatArray, start: IntArray, convex: BoolArray) -> tuple[FloatArray, IntArray]:

@@ -14,12 +14,11 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.polygons import box_pairs
+from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import items_of_rows
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_radii
 from mbla.results.collapse.joint_planes import ClusterJoints
@@ -134,9 +133,7 @@ def _connected(contacts: Contacts, joints: ClusterJoints, moving: IntArray) -> I
     """Number of the connected chain of each moving interface."""
     i, j = touching_pairs(contacts, moving)
     same = np.all(joints.pairs[moving[i]] == joints.pairs[moving[j]], axis=1)
-    n = len(moving)
-    graph = sp.coo_array((np.ones(int(same.sum())), (i[same], j[same])), shape=(n, n))
-    return np.asarray(connected_components(graph, directed=False)[1])
+    return connected_labels(np.stack([i[same], j[same]], axis=1), len(moving))
 
 
 def _crack(

@@ -11,13 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
+from mbla.model.solids.measures import connected_labels
 from mbla.results.collapse.interface_modes import TOGETHER, stuck_interfaces
 
 TURNS = 0.01
@@ -64,10 +63,9 @@ def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray) -> In
     n_blocks = len(model.blocks)
     blocks = np.where(resting_blocks(model, motion), n_blocks, np.arange(n_blocks))  # whatever rests is one node
     node = np.append(blocks, np.full(len(model.grounds), n_blocks))
-    a, b = node[contacts.bodies[stuck_interfaces(model, contacts, motion)]].T
-    graph = sp.coo_array((np.ones(len(a)), (a, b)), shape=(n_blocks + 1, n_blocks + 1))
-    _, label = connected_components(graph, directed=False)
-    return _numbered(model, np.asarray(label[blocks], dtype=np.int64), int(label[n_blocks]))
+    pairs = node[contacts.bodies[stuck_interfaces(model, contacts, motion)]]
+    label = connected_labels(pairs, n_blocks + 1)
+    return _numbered(model, label[blocks], int(label[n_blocks]))
 
 
 def _numbered(model: Model, label: IntArray, at_rest: int) -> IntArray:

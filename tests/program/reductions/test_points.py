@@ -1,15 +1,25 @@
-"""Which contact points reductions leave out, and which stand for one place."""
+"""Which contact points reductions leave out, and which stand for one place.
+
+Points as stiff as their shares: torsion by the trapezoidal rule, and unknowns that stand for the same forces.
+"""
 
 from __future__ import annotations
+
+import itertools
+import math
 
 import numpy as np
 import pytest
 
 from mbla.arrays import IntArray
-from mbla.program.reductions.points import without_inner_points
+from mbla.program.reductions import Reduced, reduce_program
+from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
-from mbla.program.reductions.scene import Scene, part_of
-from tests.line import BLOCK, HEAD
+from mbla.program.reductions.scene import Scene, part_of, scene_of
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.solution.settings import SolverSettings
+from mbla.solution.standing.standing import assess_dead_load
+from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 from tests.program.reductions.scenes import scene
 
 SADDLE = (
@@ -71,3 +81,122 @@ def test_of_points_on_one_line_its_ends_are_kept(axis: int) -> None:
     edge = points_alone(whole, np.flatnonzero(whole.points[:, 1 - axis] == 0.0))
     assert len(edge.points) == 5
     assert sorted(without_inner_points(edge).points[:, axis].tolist()) == [0.0, 1.0]
+
+
+SETTINGS = SolverSettings(tolerance=1e-8)
+
+TWIST = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {flow_rule: non_associative}").replace(
+    "live: [{acceleration: [1, 0, 0]}]",
+    "live: [{force: [0, 1, 0], on: block, at: [1, 0.5, 1]}, {force: [0, -1, 0], on: block, at: [0, 0.5, 1]}]",
+)
+"""A block 1 × 1 on the ground turned about its vertical middle axis by a couple of 1 N m."""
+
+
+def reduced(line: Line) -> Reduced:
+    return reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
+
+
+@pytest.mark.parametrize("n", [2, 4, 7])
+def test_torsion_without_dilatancy_follows_the_trapezoidal_rule(n: int) -> None:
+    """Pressed evenly, every point slides with friction on its share: μ W Σ s r. With n → ∞ that is 0.3826 μ W a, from
+    which the rule is away by O(1/n²); equally stiff points would give 0.428 for n = 8."""
+    solution, checks, status = verified(line_of(TWIST, f"contacts.points.per_edge={n}"))
+    assert status == "solved", checks.failures
+    weight = 2000 * 9.81 * 2
+    at = np.arange(n + 1) / n - 0.5
+    share = np.where(np.abs(at) < 0.5 - 1e-9, 1.0, 0.5) / n
+    torsion = sum(share[i] * share[j] * math.hypot(at[i], at[j]) for i, j in itertools.product(range(n + 1), repeat=2))
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.5 * weight * torsion, rel=1e-7)
+    assert 0 < torsion - (math.sqrt(2) + math.asinh(1)) / 6 < 0.32 / n**2
+
+
+@pytest.mark.parametrize("planar", [True, False])
+def test_points_share_the_dead_load_as_they_share_the_area(planar: bool) -> None:
+    """In the plane two lines of points, one behind the other, with a point between them that bears half of it all."""
+    push = "[1, 0, 0]" if planar else "[1, 0.3, 0]"
+    line = line_of(BLOCK, "contacts.points.per_edge=2", f"load_cases.push.live=[{{acceleration: {push}}}]")
+    (part,) = reduced(line).parts
+    assert part.components == (2 if planar else 3)
+    assert part.reduction is not None
+    state = assess_dead_load(part, SETTINGS)
+    assert state.forces is not None
+    forces = part.reduction.forces @ state.forces.ravel()
+    normal = forces[:: part.components]
+    expected = [0.25, 0.25, 0.5] if planar else [0.0625] * 4 + [0.125] * 4 + [0.25]
+    assert np.sort(normal / normal.sum()) == pytest.approx(np.array(expected), rel=1e-6)
+
+
+def test_standing_is_verified_with_unlike_points() -> None:
+    """The displacements are those of the stiffest point: others are pressed by less than they close."""
+    solution, checks, status = verified(line_of(BLOCK, "contacts.points.per_edge=3", "parameters.mu=0.3"))
+    assert status == "solved"
+    assert solution.standing is not None
+    assert solution.standing.settlement is not None
+    assert not checks.failures
+
+
+def test_strengths_stay_those_of_the_points() -> None:
+    """x = √s y: cohesion, tension and compression of y are those of x over √s."""
+    mortar = "joints.dry={friction: 0.5, cohesion: 3000, tensile_strength: 1000, compressive_strength: 2.e5}"
+    line = line_of(BLOCK, "contacts.points.per_edge=3", mortar, "load_cases.push.live=[{acceleration: [1, 0.3, 0]}]")
+    (part,) = reduced(line).parts
+    assert part.reduction is not None
+    root = part.reduction.forces.diagonal()[::3]
+    assert len(np.unique(root.round(9))) == 3
+    full = part.reduction.full.limits
+    assert root * part.limits.cohesion == pytest.approx(full.cohesion, rel=1e-12)
+    assert root * part.limits.tension == pytest.approx(full.tension, rel=1e-12)
+    assert root * part.limits.compression == pytest.approx(full.compression, rel=1e-12)
+    assert np.mean(root**2) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_corners_are_all_alike() -> None:
+    """Nothing is changed where interfaces have their corners only."""
+    line = line_of(WALL, "load_cases.push.live=[{acceleration: [1, 0.3, 0]}]", "analysis.flow_rule=non_associative")
+    assert reduced(line).parts == (line.program,)
+
+
+SMALL_ABOVE = BLOCK.replace(
+    "supports:",
+    '  - box: {group: cap, material: stone, min: [0.1, 0.1, "=h"], max: [0.5, 0.5, "=h+1"]}\nsupports:',
+)
+"""A block on the ground, and one on it that is smaller than the spacing of points."""
+
+
+def test_an_interface_with_its_corners_alone_stays_beside_one_with_more() -> None:
+    whole = scene(SMALL_ABOVE, "contacts.points.spacing=0.5")
+    by_shares = program_by_shares(whole, whole.program)
+    assert by_shares.reduction is not None
+    stiffness = by_shares.reduction.forces.diagonal()[::3] ** 2
+    finer = (whole.bodies < 0).any(axis=1)
+    assert stiffness[~finer] == pytest.approx(np.ones(4))
+    shares = whole.areas[finer] / whole.areas[finer].mean()
+    assert len(np.unique(shares.round(9))) == 3
+    assert stiffness[finer] == pytest.approx(shares)
+
+
+def test_in_the_plane_points_stand_for_those_behind_them() -> None:
+    """A triangle over the ground, its axis in the plane: one point at its tip, two or more elsewhere."""
+    text = BLOCK.replace(
+        'box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", 1, "=h"]}',
+        "polyhedron: {group: block, material: stone, vertices: [[0, 0, 0], [2, -1, 0], [2, 1, 0], [0, 0, 1],"
+        " [2, -1, 1], [2, 1, 1]], faces: [[0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]]}",
+    )
+    line = line_of(text, "contacts.points.per_edge=2", "analysis.flow_rule=non_associative")
+    (part,) = reduced(line).parts
+    assert part.components == 2
+    state = assess_dead_load(part, SETTINGS)
+    assert state.forces is not None
+    assert part.reduction is not None
+    forces = (part.reduction.forces @ state.forces.ravel()).reshape(-1, 2)
+    full = part.reduction.full
+    while full.reduction is not None:
+        forces = (full.reduction.forces @ forces.ravel()).reshape(-1, 3)
+        full = full.reduction.full
+    whole = scene_of(line.model, line.contacts, line.program)
+    # springs as stiff as the shares follow a plane: pressures are linear in the place
+    pressure = forces[:, 0] / whole.areas
+    plane = np.column_stack([np.ones(len(pressure)), whole.points[:, 0]])
+    fit, *_ = np.linalg.lstsq(plane, pressure, rcond=None)
+    assert plane @ fit == pytest.approx(pressure, rel=1e-6)

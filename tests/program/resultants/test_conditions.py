@@ -1,4 +1,7 @@
-"""The rows of torsion and crushing allow the resultants that the formulas of these modules allow, and no others."""
+"""The rows of torsion and crushing allow the resultants that the formulas of these modules allow, and no others.
+
+The size of a program with conditions on interfaces.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +15,14 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.kinematic import ConeProgram
-from mbla.program.resultants.assemble import resultants_map
+from mbla.program.resultants.assemble import assemble_convex, resultants_map, size_of_convex
 from mbla.program.resultants.conditions import M1, M2, MN, ConditionRows, N
 from mbla.program.resultants.crushing import crushing_limits, crushing_rows, crushing_violation
 from mbla.program.resultants.shapes import InterfaceShapes
 from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
+from tests.line import BLOCK, WALL, line_of
 from tests.program.resultants.test_shapes import prism_line, shapes_of
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
@@ -126,3 +130,24 @@ def test_moments_of_the_smallest_interface_are_forces_by_arms(size: float) -> No
     scaled = replace(contacts, points=size * contacts.points, centroids=size * contacts.centroids)
     lengths = np.array([1.0, 1.0, 1.0, size, size, size])
     assert np.array_equal(resultants_map(scaled).toarray(), lengths[:, None] * resultants_map(contacts).toarray())
+
+
+@pytest.mark.parametrize(
+    ("text", "strength", "of_each"),
+    [(WALL, (), (8, 2)), (BLOCK, (), (8, 2)), (BLOCK, ("joints.dry.compressive_strength=1e6",), (8 + 34, 2 + 10))],
+    ids=["wall", "block", "block that can crush"],
+)
+def test_every_interface_adds_the_unknowns_and_cones_of_its_conditions(
+    text: str, strength: tuple[str, ...], of_each: tuple[int, int]
+) -> None:
+    """Torsion: 8 unknowns, 2 cones.
+
+    Crushing of a rectangle: at its corners, and of what is left of full stress, 5 unknowns and one for each of 4
+    bounds, 3 cones; 4 of each of 4 edges, one cone.
+    """
+    line = line_of(text, *strength)
+    size = size_of_convex(assemble_convex(line.model, line.contacts, line.load_case, "convex"))
+    n_free, n_points, n = len(line.model.free), len(line.contacts.points), len(line.contacts)
+    assert size.unknowns == size.largest == 6 * n_free + of_each[0] * n
+    assert size.cones == n_points + of_each[1] * n
+    assert size.entries > line.program.equilibrium_matrix.nnz
