@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.model.solids.plane import signed_areas
 
 SAME_POINT = 1e-12
 """distance of two points, relative to the length of the bridge, that is rounding"""
@@ -188,8 +189,7 @@ def _short(polygon: FloatArray, masonry: Masonry) -> bool:
 
 
 def _area(polygon: FloatArray) -> float:
-    x, z = polygon.T
-    return float((x * np.roll(z, -1) - np.roll(x, -1) * z).sum()) / 2
+    return float(signed_areas(polygon[None])[0])
 
 
 def _piece(outline: Outline, course: Course, left: float, right: float, same: float) -> FloatArray:

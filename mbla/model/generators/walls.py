@@ -14,17 +14,21 @@ from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
-from mbla.model.generators.masonry.bonds import random_levels
-from mbla.model.generators.masonry.buttresses import (
+from mbla.model.generators.masonry.additions import (
     PlacedButtress,
+    PlacedOpening,
     buttress_leg,
     check_buttresses,
+    check_opening,
+    check_spans,
     levels_with_top,
     place_buttress,
+    place_opening,
+    spans_of,
 )
+from mbla.model.generators.masonry.bonds import random_levels
 from mbla.model.generators.masonry.courses import units_of
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Slopes
-from mbla.model.generators.masonry.openings import PlacedOpening, check_opening, check_spans, place_opening, spans_of
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
 
 

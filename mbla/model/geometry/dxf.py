@@ -19,6 +19,7 @@ from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed
 from mbla.model.solids.defects import LARGEST_COORDINATE
 from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.plane import signed_areas
 from mbla.model.solids.polyhedra import prisms
 from mbla.model.wording import counted, was
 
@@ -83,10 +84,7 @@ def read_dxf(path: Path) -> Geometry:
 
 def _counter_clockwise(outline: FloatArray) -> FloatArray:
     """The outline, (n, 2), in this sense; a field that no line crosses twice has one."""
-    arms = outline - outline.mean(axis=0)
-    ahead = np.roll(arms, -1, axis=0)
-    area = (arms[:, 0] * ahead[:, 1] - arms[:, 1] * ahead[:, 0]).sum()
-    return outline if area > 0 else outline[::-1]
+    return outline if signed_areas(outline[None])[0] > 0 else outline[::-1]
 
 
 def _collect(document: Any, drawing: _Drawing) -> None:
