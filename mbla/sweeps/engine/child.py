@@ -42,6 +42,8 @@ from mbla.sweeps.results import reason_of, result_places, values_of
 STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
 LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
 """libraries that the stages import when they need them; some are optional"""
+IDLE = 60.0
+"""seconds without a task after which it ends: whoever asked a worker of a cluster is gone"""
 
 
 def main() -> None:
@@ -58,11 +60,12 @@ def main() -> None:
         return
     most = None if plan.memory_limit is None else written() + plan.memory_limit
     pipe.send("")
-    while True:
-        task: Task = questions.get()
-        with limited(most):
-            outcome = runner.run(task)
-        pipe.send(outcome)
+    with contextlib.suppress(queue.Empty):
+        while True:
+            task: Task = questions.get(timeout=IDLE)
+            with limited(most):
+                outcome = runner.run(task)
+            pipe.send(outcome)
 
 
 def _listen(pipe: Connection[Any, Any], questions: queue.Queue[Any]) -> None:

@@ -1,7 +1,7 @@
 """Points in a worker of a cluster, each solved in a supervised process of the worker.
 
-The functions are called by their import path. A worker has as many processes as it has threads that ask; they are kept
-for the next batch of the same plan, and ended when none has come for a while or the client says so.
+The functions are called by their import path. A worker has a process for each of its threads that ask; it is kept for
+the next batch of the same plan. The client ends all of them; where that is gone they end by themselves.
 """
 
 from __future__ import annotations
@@ -18,76 +18,11 @@ from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
 from mbla.sweeps.identity import difference, library_versions, program_identity
 from mbla.sweeps.plan import Outcome, Plan, Task
 
-IDLE = 60.0
-"""seconds without a batch after which the processes are ended: their client is gone"""
 ENOUGH = 2.0
 """seconds after which a batch is handed back, what is left of it undone: so much is lost where a worker is killed, and
 no worker waits longer than that for one whose points take more than was expected"""
-
-
-class Processes:
-    """The processes of this worker."""
-
-    def __init__(self) -> None:
-        """None yet."""
-        self._lock = threading.Lock()
-        self._free: list[SupervisedRunner] = []
-        self._busy: list[SupervisedRunner] = []
-        self._plan: Plan | None = None
-        self._timer: threading.Timer | None = None
-
-    def lend(self, plan: Plan) -> SupervisedRunner:
-        """One that no other thread has; those of another plan are ended."""
-        with self._lock:
-            self._stop_timer()
-            if plan != self._plan:
-                self._end_free()
-                self._plan = plan
-            runner = self._free.pop() if self._free else SupervisedRunner(plan)
-            self._busy.append(runner)
-            return runner
-
-    def give_back(self, runner: SupervisedRunner) -> None:
-        """Keep it for the next batch, if that may be of the same plan."""
-        with self._lock:
-            if runner in self._busy:
-                self._busy.remove(runner)
-            if runner.plan == self._plan and not runner.stopped:
-                self._free.append(runner)
-            else:
-                runner.__exit__(None, None, None)
-            self._start_timer()
-
-    def end(self) -> None:
-        """End all of them, also in the middle of a point."""
-        with self._lock:
-            self._stop_timer()
-            for runner in self._busy:
-                runner.kill()
-            self._end_free()
-
-    def _end_idle(self) -> None:
-        with self._lock:
-            if not self._busy:
-                self._end_free()
-
-    def _end_free(self) -> None:
-        for runner in self._free:
-            runner.__exit__(None, None, None)
-        self._free.clear()
-
-    def _start_timer(self) -> None:
-        self._stop_timer()
-        self._timer = threading.Timer(IDLE, self._end_idle)
-        self._timer.daemon = True
-        self._timer.start()
-
-    def _stop_timer(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-
-
-PROCESSES = Processes()
+RUNNERS: dict[int, SupervisedRunner] = {}
+"""of this worker, by the thread that asks"""
 
 
 def describe() -> dict[str, Any]:
@@ -108,21 +43,31 @@ def run_batch(plan: Plan, tasks: Sequence[Task], libraries: Mapping[str, str]) -
     outcomes: list[Outcome] = []
     if words := difference(libraries, library_versions()):
         return outcomes, words
-    runner = PROCESSES.lend(plan)
     until = time.monotonic() + ENOUGH
     try:
         with suppress(StoppedError):  # nobody waits for these any more
+            runner = _runner_of_this_thread(plan)
             for task in tasks:
                 outcomes.append(runner.run(task))
                 if time.monotonic() > until:
                     break
     except UsageError as error:
         return outcomes, str(error)
-    finally:
-        PROCESSES.give_back(runner)
     return outcomes, ""
 
 
+def _runner_of_this_thread(plan: Plan) -> SupervisedRunner:
+    """That of the batch before, unless it was of another plan or stopped."""
+    thread = threading.get_ident()
+    runner = RUNNERS.get(thread)
+    if runner is None or runner.stopped or runner.plan != plan:
+        if runner is not None:
+            runner.kill()
+        runner = RUNNERS[thread] = SupervisedRunner(plan)
+    return runner
+
+
 def end_processes() -> None:
-    """End the processes of this worker."""
-    PROCESSES.end()
+    """End the processes of this worker, also in the middle of a point."""
+    for runner in list(RUNNERS.values()):
+        runner.kill()

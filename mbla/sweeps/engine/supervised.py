@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -74,6 +75,7 @@ class SupervisedRunner:
         self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection[Any, Any] | None = None
         self._errors: IO[bytes] | None = None
+        self._at_work = threading.Lock()
 
     def __enter__(self) -> SupervisedRunner:
         return self
@@ -84,10 +86,13 @@ class SupervisedRunner:
         self._stop()
 
     def kill(self) -> None:
-        """End what is under way, from another thread; ``run`` raises StoppedError there, now and later."""
+        """End it for good, from whatever thread; ``run`` raises StoppedError where it is under way, and later."""
         self.stopped = True
         if (process := self._process) is not None and process.poll() is None:  # else its number may be another's
             _kill_all(process)
+        if self._at_work.acquire(blocking=False):
+            self._stop()
+            self._at_work.release()
 
     def run(self, task: Task) -> Outcome:
         """Solve one point.
@@ -102,13 +107,15 @@ class SupervisedRunner:
         StoppedError
             ``kill`` was called
         """
-        for tries in range(1, TRIES + 1):
-            fresh = self._make_ready()
-            outcome, settled = self._attempt(task, fresh)
-            if self.stopped:
-                raise StoppedError
-            if settled or tries == TRIES:
-                return replace(outcome, tries=tries)
+        with self._at_work:
+            for tries in range(1, TRIES + 1):
+                fresh = self._make_ready()
+                outcome, settled = self._attempt(task, fresh)
+                if self.stopped:
+                    self._stop()
+                    raise StoppedError
+                if settled or tries == TRIES:
+                    return replace(outcome, tries=tries)
         raise AssertionError  # the last try always returns
 
     def _attempt(self, task: Task, fresh: bool) -> tuple[Outcome, bool]:
@@ -144,7 +151,7 @@ class SupervisedRunner:
 
     def _make_ready(self) -> bool:
         """Have a process that is ready for a point; whether it is a new one."""
-        if self._process is not None and self._process.poll() is None:
+        if not self.stopped and self._process is not None and self._process.poll() is None:
             return False
         words, status = "", 0
         for number in range(1, STARTS + 1):

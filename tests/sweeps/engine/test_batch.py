@@ -10,7 +10,8 @@ import pytest
 from mbla.errors import UsageError
 from mbla.sweeps.engine import on_worker
 from mbla.sweeps.engine.cluster import MOST, Batches
-from mbla.sweeps.engine.on_worker import Processes, end_processes, run_batch
+from mbla.sweeps.engine.on_worker import end_processes, run_batch
+from mbla.sweeps.engine.supervised import StoppedError
 from mbla.sweeps.identity import library_versions
 from mbla.sweeps.plan import DONE, Outcome, Plan, Task
 from tests.sweeps.small_plan import frictions, plan_over
@@ -60,7 +61,7 @@ class Runner:
     """what the second point comes to"""
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, self.stopped, self.ended, self.points = plan, False, False, 0
+        self.plan, self.stopped, self.points = plan, False, 0
 
     def kill(self) -> None:
         """As from another thread."""
@@ -73,85 +74,54 @@ class Runner:
             raise self.error
         return Outcome(task.key, DONE, 0, "", {}, 1, 0.0)
 
-    def __exit__(self, *_: object) -> None:
-        self.ended = True
-
 
 @pytest.fixture
-def processes(monkeypatch: pytest.MonkeyPatch) -> Processes:
+def runners(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     """Those of a worker, none yet."""
+    found: dict[int, Any] = {}
     monkeypatch.setattr(on_worker, "SupervisedRunner", Runner)
-    monkeypatch.setattr(on_worker, "PROCESSES", found := Processes())
-    monkeypatch.setattr(Runner, "error", None)
+    monkeypatch.setattr(on_worker, "RUNNERS", found)
     return found
 
 
-def answer(folder: Path, **libraries: str) -> tuple[list[str], str]:
+def answer(folder: Path, *, keep: str = "none", **libraries: str) -> tuple[list[str], str]:
     """Of three points: keys of those that were solved, and the refusal."""
-    outcomes, refused = run_batch(plan_over(folder), frictions(3), library_versions() | libraries)
+    outcomes, refused = run_batch(plan_over(folder, keep=keep), frictions(3), library_versions() | libraries)
     return [outcome.key for outcome in outcomes], refused
 
 
-def lent(processes: Processes, plan: Plan) -> Any:
-    """A process that stands in for one, with what became of it."""
-    return processes.lend(plan)
-
-
-def test_all_points_of_a_batch(processes: Processes, tmp_path: Path) -> None:
-    assert answer(tmp_path) == (["key1", "key2", "key3"], "")
-    end_processes()
-
-
 def test_a_batch_is_handed_back_when_enough_time_is_over(
-    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    runners: dict[int, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    assert answer(tmp_path) == (["key1", "key2", "key3"], "")
     monkeypatch.setattr(on_worker, "ENOUGH", -1.0)
     assert answer(tmp_path) == (["key1"], "")
-    processes.end()
 
 
-def test_other_libraries_than_those_of_the_client_are_refused(processes: Processes, tmp_path: Path) -> None:
+def test_other_libraries_than_those_of_the_client_are_refused(runners: dict[int, Any], tmp_path: Path) -> None:
     words = f"its numpy is {library_versions()['numpy']}, here it is 0.1"
     assert answer(tmp_path, numpy="0.1") == ([], words)
 
 
-def test_a_process_that_refuses_the_plan_leaves_what_was_solved(
-    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("error", "refused"), [(UsageError("deck-changed", "another deck"), "another deck"), (StoppedError(), "")]
+)
+def test_what_was_solved_before_a_process_refuses_or_is_stopped_is_left(
+    runners: dict[int, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, refused: str
 ) -> None:
-    monkeypatch.setattr(Runner, "error", UsageError("deck-changed", "another deck"))
-    assert answer(tmp_path) == (["key1"], "another deck")
-    processes.end()
+    monkeypatch.setattr(Runner, "error", error)
+    assert answer(tmp_path) == (["key1"], refused)
 
 
-def test_a_process_is_kept_for_the_next_batch_of_the_same_plan_only(processes: Processes, tmp_path: Path) -> None:
-    plan, other = plan_over(tmp_path), plan_over(tmp_path, keep="all")
-    first = lent(processes, plan)
-    processes.give_back(first)
-    assert lent(processes, plan) is first
-    processes.give_back(first)
-    second = lent(processes, other)
-    assert second is not first
-    assert first.ended
-    late = lent(processes, plan)
-    processes.give_back(second)
-    assert second.ended  # its plan is over
-    processes.give_back(late)
-    processes.give_back(late)
-    processes.end()
-    assert late.ended
-
-
-def test_processes_that_nobody_asks_for_are_ended(
-    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(on_worker, "IDLE", 0.01)
-    plan = plan_over(tmp_path)
-    processes.give_back(lent(processes, plan))
-    assert processes._timer is not None
-    processes._timer.join()
-    assert processes._free == []
-    busy = lent(processes, plan)
-    processes._end_idle()
-    assert not busy.ended
-    processes.give_back(busy)
-    processes.end()
+def test_a_process_is_kept_for_the_next_batch_of_the_same_plan_only(runners: dict[int, Any], tmp_path: Path) -> None:
+    answer(tmp_path)
+    (first,) = runners.values()
+    answer(tmp_path)
+    assert list(runners.values()) == [first]
+    answer(tmp_path, keep="all")
+    (second,) = runners.values()
+    assert (second is first, first.stopped) == (False, True)
+    end_processes()
+    assert second.stopped
+    answer(tmp_path, keep="all")
+    assert list(runners.values()) != [second]

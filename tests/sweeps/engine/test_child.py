@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import UsageError
 from mbla.sweeps.engine import child
 from mbla.sweeps.engine.child import PointRunner, prepared
-from mbla.sweeps.engine.supervised import PACKAGES
+from mbla.sweeps.engine.supervised import PACKAGES, SupervisedRunner
 from mbla.sweeps.plan import DONE, Task
 from tests.sweeps.engine.test_supervised import wait_for
 from tests.sweeps.killed_sweeps import runs
@@ -89,3 +89,13 @@ def test_a_point_that_runs_out_of_memory_is_tried_without_what_others_left(
     monkeypatch.setattr(points, "_solve", short_of_memory)
     outcome = points.run(Task("key", 2, {}))
     assert (outcome.state, outcome.reason) == ((DONE, "") if solved_before else ("failed", "out of memory"))
+
+
+def test_one_that_nobody_asks_ends_and_another_takes_its_place(tmp_path: Path) -> None:
+    code = "from mbla.sweeps.engine import child; child.IDLE = 0.1; child.main()"
+    with SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner:
+        for number in (1, 2):
+            assert runner.run(Task("key", number, {})).state == DONE
+            assert runner._process is not None
+            runner._process.wait(30)
+        assert runner.started == 2
