@@ -6,16 +6,46 @@ Each section has an introduction by hand, then what is generated, which begins w
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from mbla.results.hdf5.layout import layout_table
-from mbla.results.record.keys import record_page
+from mbla.results.record.keys import Key, record_page
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
 from mbla.sweeps.interaction.study import INTERACT_RECORD
-from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, keys_page, sweep_columns_page
+from mbla.sweeps.tables.sweep_json import SWEEP_RECORD
+from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE
 
 PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
+
+OWN_WORDS = "parameters of the design, in the order of the sweep file, with their angles where they are directions"
+RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
+
+
+def keys_page(keys: Sequence[Key]) -> str:
+    """Keys of a record as a Markdown table."""
+    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in keys)]
+    return "\n".join(["| key | type | meaning |", "|---|---|---|", *rows]) + "\n"
+
+
+def sweep_columns_page() -> str:
+    """The columns of the table of a sweep as a Markdown table."""
+    own = [f"| `{column.name}` | {column.kind} | {column.unit or '–'} | {column.words} |" for column in (STATE, *AFTER)]
+    return (
+        "\n".join(
+            [
+                "| column | type | unit | content |",
+                "|---|---|---|---|",
+                f"| `{POINT.name}` | {POINT.kind} | – | {POINT.words} |",
+                f"| … | any | of the deck | {OWN_WORDS} |",
+                own[0],
+                f"| … | any | of the deck | {RESULT_WORDS} |",
+                *own[1:],
+            ]
+        )
+        + "\n"
+    )
 
 
 def generated() -> dict[str, str]:

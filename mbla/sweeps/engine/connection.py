@@ -202,7 +202,9 @@ class Connection:
             elif isinstance(answer, Exception):
                 if not isinstance(answer, OSError):  # that is one that has just gone
                     faults.append(f"worker {worker}: {type(answer).__name__}: {_line(answer)}")
-            elif words := difference({"mbla": program_identity()} | self.libraries, _versions(answer)):
+            elif words := difference(
+                {"mbla": program_identity()} | self.libraries, {"mbla": answer["program"], **answer["libraries"]}
+            ):
                 faults.append(f"worker {worker} on {answer['machine']}: {words}")
         if faults:
             raise UsageError(
@@ -298,10 +300,6 @@ def within(seconds: float, ask: Callable[[], Answer]) -> Answer:
 def _quietly(close: Callable[[], Any]) -> None:
     with suppress(Exception):
         within(2 * PARTING, close)
-
-
-def _versions(answer: dict[str, Any]) -> dict[str, str]:
-    return {"mbla": answer["program"], **answer["libraries"]}
 
 
 def _line(error: BaseException) -> str:

@@ -18,7 +18,7 @@ from mbla.results.record.keys import Key
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.fragility import fragility_keys
 from mbla.sweeps.plan import DONE, FAILED
-from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE, SweepTable
+from mbla.sweeps.tables.sweep_table import SweepTable
 
 VERSION = 1
 """of this record and of the layout of sweep.h5; raised by one with every change that an older reader would misread"""
@@ -154,31 +154,3 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("files", "list", "names of the files of the sweep"),
     Key("files[]", "string", "a file"),
 )
-
-OWN_WORDS = "parameters of the design, in the order of the sweep file, with their angles where they are directions"
-RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
-
-
-def keys_page(keys: Sequence[Key]) -> str:
-    """Keys of a record as a Markdown table."""
-    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in keys)]
-    return "\n".join(["| key | type | meaning |", "|---|---|---|", *rows]) + "\n"
-
-
-def sweep_columns_page() -> str:
-    """The columns of the table of a sweep as a Markdown table."""
-    own = [f"| `{column.name}` | {column.kind} | {column.unit or '–'} | {column.words} |" for column in (STATE, *AFTER)]
-    return (
-        "\n".join(
-            [
-                "| column | type | unit | content |",
-                "|---|---|---|---|",
-                f"| `{POINT.name}` | {POINT.kind} | – | {POINT.words} |",
-                f"| … | any | of the deck | {OWN_WORDS} |",
-                own[0],
-                f"| … | any | of the deck | {RESULT_WORDS} |",
-                *own[1:],
-            ]
-        )
-        + "\n"
-    )
