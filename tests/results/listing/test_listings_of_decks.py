@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from mbla import run
+from mbla.results.listing.figures import PURPOSES
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
@@ -46,6 +47,7 @@ KINDS = {
 @pytest.mark.parametrize("deck", KINDS)
 def test_a_listing_of_every_kind(deck: str) -> None:
     results = run(DECKS / f"{deck}.yaml").records
+    assert {program.kind for case in results.cases for program in case.solution.programs} <= set(PURPOSES)
     for text in (listing(results), "\n".join(summary_lines(results))):
         lines = text.splitlines()
         assert max(map(len, lines)) <= WIDTH
