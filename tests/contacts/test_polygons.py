@@ -6,7 +6,6 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.contacts import polygons
 from mbla.contacts.convex import signed_areas
 from mbla.contacts.polygons import (
     CrowdedError,
@@ -145,23 +144,3 @@ def test_triangles_of_a_polygon(outline: list[tuple[float, float]]) -> None:
 
 def test_triangles_of_an_outline_that_crosses_itself_are_a_fan() -> None:
     assert triangulate(np.array([(0, 0), (1, 1), (1, 0), (0, 1.0)])).tolist() == [[0, 1, 2], [0, 2, 3]]
-
-
-def test_a_square_with_a_hole_is_not_convex_and_needs_no_look_at_its_corners() -> None:
-    outer, hole = shapely.box(0, 0, 3, 3), shapely.box(1, 1, 2, 2)
-    assert convex_polygons(array(shapely.difference(outer, hole))).tolist() == [False]
-    assert convex_polygons(array(outer, shapely.Polygon())).tolist() == [True, False]
-
-
-def test_convex_polygons_apart_have_nothing_in_common() -> None:
-    first, second = array(shapely.box(0, 0, 1, 1)), array(shapely.box(2, 0, 3, 1))
-    (common,) = polygons._intersect_convex(first, second)
-    assert common.is_empty
-
-
-def test_of_points_and_lines_no_polygon_is_left() -> None:
-    line = shapely.LineString([(0, 0), (1, 0)])
-    (left,) = polygons._polygonal(array(line))
-    assert left.is_empty
-    (left,) = polygons._polygonal(array(shapely.GeometryCollection([line, shapely.box(0, 0, 2, 1)])))
-    assert left.area == pytest.approx(2.0)

@@ -17,7 +17,6 @@ import numpy as np
 import pytest
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.notices import overlap_messages
 from mbla.contacts.report import isolated_blocks, joining_gap, nearest_words, unsupported_parts
 from mbla.model.model import Ground
 from mbla.model.solids.polyhedra import join_polyhedra
@@ -202,15 +201,6 @@ def test_a_pair_that_overlaps_is_no_near_miss_too(order: tuple[int, ...]) -> Non
     assert report.near_misses.tolist() == []
 
 
-def test_a_block_twice_in_one_place_lies_inside_the_other() -> None:
-    twice = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, 1, 1]))
-    model = model_of(blocks_of(twice))
-    report = find_contacts(model, section()).report
-    assert overlap_messages(model, report) == (
-        "block[0] lies wholly inside block[1]: leave one of them out; a block has no hollows",
-    )
-
-
 PILE = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1.004], [1, 1, 2]), ([0, 0, 2.012], [1, 1, 3]), ([1.05, 0, 0], [2, 1, 3]))
 """Gaps of 0.004 and 0.012 in a pile on the ground, and of 0.05 to the pier beside it."""
 
@@ -249,20 +239,17 @@ def parts(fixed: list[bool], bodies: list[tuple[int, int]]) -> list[list[int]]:
     return [part.tolist() for part in unsupported_parts(np.array(fixed), links)]
 
 
-def test_chain_on_a_fixed_block() -> None:
-    assert parts([True, False, False], [(0, 1), (1, 2)]) == []
-
-
-def test_chain_on_the_ground_as_body_a() -> None:
-    assert parts([False, False], [(2, 0), (0, 1)]) == []
-
-
-def test_every_part_by_itself_in_order_of_its_first_block() -> None:
-    assert parts([False] * 6 + [True], [(5, 1), (0, 3), (2, 6)]) == [[0, 3], [1, 5], [4]]
-
-
-def test_two_fixed_blocks_in_contact_hold_nothing() -> None:
-    assert parts([True, True, False], [(0, 1)]) == [[2]]
+@pytest.mark.parametrize(
+    ("fixed", "bodies", "left"),
+    [
+        ([True, False, False], [(0, 1), (1, 2)], []),
+        ([False, False], [(2, 0), (0, 1)], []),  # on the ground as body a
+        ([False] * 6 + [True], [(5, 1), (0, 3), (2, 6)], [[0, 3], [1, 5], [4]]),  # in order of their first blocks
+        ([True, True, False], [(0, 1)], [[2]]),
+    ],
+)
+def test_parts_without_support(fixed: list[bool], bodies: list[tuple[int, int]], left: list[list[int]]) -> None:
+    assert parts(fixed, bodies) == left
 
 
 def test_isolated_blocks_ignore_the_ground() -> None:
@@ -343,18 +330,6 @@ def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.Monkey
     others = [at(4.0 + 3.0 * x, 0.0, 0.0) for x in range(4)]
     assert words_of_nearest([0, 1, 2, 3], *part, *others).startswith("; nearest to it is b4[0], 3 m from b0[0]")
     assert words_of_nearest([4, 5, 6, 7], *part, *others).startswith("; nearest to it is b0[0], 3 m from b4[0]")
-
-
-def test_the_box_around_many_reaches_to_its_farthest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of the part only the block that is nearest to the whole box of the others is looked at."""
-    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 1)
-    others = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0)]
-    assert words_of_nearest([2, 3], *others, at(11.5, 0.0, 0.0), at(-3.0, 0.0, 0.0)).startswith(
-        "; nearest to it is b1[0], 0.5 m from b2[0]"
-    )
-    assert words_of_nearest([2, 3], *others, at(13.0, 0.0, 0.0), at(-1.5, 0.0, 0.0)).startswith(
-        "; nearest to it is b0[0], 0.5 m from b3[0]"
-    )
 
 
 DRUMS = """\
