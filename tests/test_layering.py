@@ -31,7 +31,7 @@ DOORS = {
     "vtk": "results/pictures/space/renderer.py",
     "imageio_ffmpeg": "results/pictures/animation.py",
     "matplotlib": "results/pictures/page.py",
-    "jinja2": "results/report/page.py",
+    "jinja2": "results/report/report.py",
     "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
     "pyarrow": "results/tables/formats.py",

@@ -328,23 +328,3 @@ def _polygonal(shapes: Polygons) -> Polygons:
         present, dense = np.unique(row, return_inverse=True)
         result[present] = union_by_row(parts, dense.astype(np.int64), len(present))
     return result
-
-
-def triangulate(corners: FloatArray) -> IntArray:
-    """Triangles of a plane polygon without new corners, (n - 2, 3) rows of ``corners``, counter-clockwise.
-
-    corners : (n, 2), counter-clockwise, convex or not
-
-    An outline that crosses itself is no polygon: it is cut into a fan about its first corner.
-    """
-    count = len(corners)
-    fan = np.column_stack([np.zeros(count - 2, dtype=np.int64), np.arange(1, count - 1), np.arange(2, count)])
-    polygon = shapely.Polygon(corners)
-    if count == 3 or not polygon.is_valid:
-        return fan
-    found = shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))
-    row = {tuple(corner): i for i, corner in enumerate(corners.tolist())}
-    rows = np.array([[row[tuple(point)] for point in shapely.get_coordinates(each)[:3].tolist()] for each in found])
-    turned = signed_areas(corners[rows.ravel()], 3 * np.arange(len(rows) + 1)) < 0
-    rows[turned] = rows[turned][:, ::-1]
-    return rows

@@ -6,7 +6,6 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.contacts.convex import signed_areas
 from mbla.contacts.polygons import (
     CrowdedError,
     Polygons,
@@ -15,7 +14,6 @@ from mbla.contacts.polygons import (
     convex_polygons,
     intersect,
     polygons_from_loops,
-    triangulate,
     union_by_row,
     widths,
 )
@@ -119,28 +117,3 @@ def test_intersection_by_either_way_is_the_same() -> None:
     for convex in (True, False):
         common = intersect(first, second, np.full(3, convex))
         assert [shape.area for shape in common] == pytest.approx([0.25, 0.0, 0.0])
-
-
-@pytest.mark.parametrize(
-    "outline",
-    [
-        [(0, 0), (1, 0), (0, 1)],
-        [(0, 0), (2, 0), (2, 1), (0, 1)],
-        [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)],
-        [(0, 3), (0, 0), (3, 0), (1, 1)],
-    ],
-    ids=["triangle", "rectangle", "L", "dart"],
-)
-def test_triangles_of_a_polygon(outline: list[tuple[float, float]]) -> None:
-    """As many as corners less two, counter-clockwise, that fill the outline and nothing else."""
-    corners = np.array(outline, dtype=float)
-    rows = triangulate(corners)
-    assert rows.shape == (len(corners) - 2, 3)
-    loops = corners[rows]
-    assert (signed_areas(loops.reshape(-1, 2), 3 * np.arange(len(rows) + 1)) > 0).all()
-    whole = shapely.union_all([shapely.Polygon(loop) for loop in loops])
-    assert whole.symmetric_difference(shapely.Polygon(corners)).area < 1e-12
-
-
-def test_triangles_of_an_outline_that_crosses_itself_are_a_fan() -> None:
-    assert triangulate(np.array([(0, 0), (1, 1), (1, 0), (0, 1.0)])).tolist() == [[0, 1, 2], [0, 2, 3]]

@@ -18,8 +18,9 @@ import numpy as np
 
 from mbla.cli import main
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import INK, VERMILION, Page, add_legend, add_words, open_page
+from mbla.results.pictures.page import INK, VERMILION, Page, add_words, open_page
 from mbla.results.series import series_of
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from html import escape
@@ -15,6 +13,9 @@ from mbla.model.model import Model
 from mbla.results.disk import write_whole
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.verdict_words import bound_words, reasons
+from mbla.results.pictures.image import Picture, drawn_image
+from mbla.results.pictures.options import format_of
+from mbla.results.pictures.page import WARNING
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
 
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from mbla.results.notebook.run import Run
 
 
-ALARM = "#B00020"
 SURE = (Status.SOLVED, Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
 """statuses that are answers"""
 MOST_ROWS = 30
@@ -33,7 +33,7 @@ MOST_ROWS = 30
 def run_html(run: Run) -> str:
     """Title, table of all load cases, warnings, and one picture."""
     title = escape(run.records.model.title or run.records.deck.name)
-    warnings = "".join(f'<p style="color: {ALARM}">{escape(str(each))}</p>' for each in run.warnings)
+    warnings = "".join(f'<p style="color: {WARNING}">{escape(str(each))}</p>' for each in run.warnings)
     pictured = run.pictured
     picture = "" if pictured is None else _picture(pictured)
     return f"<div><strong>{title}</strong>{_table(run.records.model, run.cases)}{warnings}{picture}</div>"
@@ -58,7 +58,7 @@ def _table(model: Model, cases: Sequence[Case]) -> str:
 
 
 def _row(cells: Sequence[str], tag: str, *, alarm: bool = False) -> str:
-    style = f' style="color: {ALARM}"' if alarm else ""
+    style = f' style="color: {WARNING}"' if alarm else ""
     return f"<tr{style}>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"
 
 
@@ -73,55 +73,14 @@ def _picture(case: Case) -> str:
     return words + image
 
 
-# --- A picture as bytes that a notebook shows -----------------------------------------------------------------------
-
-
-MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A picture; ``content`` is what its file would hold."""
-
-    format: str
-    content: bytes = field(repr=False)
-
-    def save(self, path: str | Path) -> Path:
-        """Write it; the suffix must be that of its format. FileError if that fails, UsageError for another suffix."""
-        path = Path(path)
-        if path.suffix.lower() != f".{self.format}":
-            raise UsageError("output-format", f"{path}: the picture is {self.format}; ask picture() for another format")
-        write_whole(path, self.content)
-        return path
-
-    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str | bytes]:
-        if self.format == "svg":
-            return {MIME["svg"]: self.content.decode("utf-8")}
-        return {MIME[self.format]: self.content}
-
-    @property
-    def data_uri(self) -> str:
-        """For the source of an image in a page."""
-        return f"data:{MIME[self.format]};base64,{base64.b64encode(self.content).decode('ascii')}"
-
-
 def case_picture(results: Results, case: CaseResult, kind: str, path: Path | None, format: str | None) -> Picture:
     """Draw a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
-    from mbla.results.pictures.options import format_of
-    from mbla.results.pictures.plot import plot_case
+    from mbla.results.pictures import plot
 
-    if path is None:
-        ending = format_of(Path(f"picture.{format or 'png'}"))
-    else:
-        ending = format_of(path)
-        if format not in (None, ending):
-            raise UsageError(
-                "output-format", f"{path}: its suffix says {ending}, the format {format}: give one of them"
-            )
-    with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
-        drawn = Path(folder) / f"picture.{ending}"
-        plot_case(results, case, drawn, kind)
-        picture = Picture(ending, drawn.read_bytes())
+    ending = format_of(path or Path(f"picture.{format or 'png'}"))
+    if format not in (None, ending):
+        raise UsageError("output-format", f"{path}: its suffix says {ending}, the format {format}: give one of them")
+    picture = drawn_image(ending, lambda drawn: plot.plot_case(results, case, drawn, kind))
     if path is not None:
         write_whole(path, picture.content)
     return picture

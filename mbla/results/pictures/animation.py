@@ -19,7 +19,7 @@ import numpy as np
 from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
-from mbla.results.pictures.scene import Scene, motion_as_drawn, scene_of
+from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.space.camera import focus_of, panels_of
 from mbla.results.pictures.space.drawings import mechanism_drawing
 from mbla.results.pictures.space.picture import frame_between, images_of, view_of_case
@@ -100,8 +100,7 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
         panels = panels_of(drawing.extent, focus, view, width / height, frame_between(bottom, top))
         artists: list[Any] = []
         for share in displacements():
-            motion = motion_as_drawn(widest.results, widest.case, share * options.scale)
-            moved = replace(widest, motion=motion)
+            moved = widest.moved_to(share * options.scale)
             frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
             with Renderer(frame.solid_from(view[1]), frame.marks, frame.loads) as renderer:
                 images = images_of(renderer, panels, frame, (width, height))

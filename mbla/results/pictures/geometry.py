@@ -6,11 +6,13 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 
 THIN = 0.35
 """extent over the next larger one below which a structure is seen from the front"""
+SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+"""of a box whose corners have the first coordinate fastest, outwards where these axes are right-handed"""
 
 
 def block_edges(blocks: Blocks) -> IntArray:
@@ -50,40 +52,6 @@ def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> F
     low[0], high[0] = sorted((0.0, -float(np.sign(frame[0] @ plane.normal)) * 0.02 * size))
     corners = np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])])
     return np.asarray(corners @ frame + plane.point)
-
-
-def hinge_axes(contacts: Contacts, chosen: BoolArray) -> IntArray:
-    """Chosen points that follow each other on one interface, as pairs of points, (n, 2)."""
-    rows = np.flatnonzero(chosen)
-    owners = contacts.interface_of_point[rows]
-    chained = owners[1:] == owners[:-1]
-    return np.column_stack([rows[:-1][chained], rows[1:][chained]])
-
-
-def interface_sides(contacts: Contacts, chosen: BoolArray) -> IntArray:
-    """Sides of the outer boundaries of chosen interfaces, as pairs of points, (n, 2)."""
-    place = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
-    corners = contacts.outline[contacts.interface_of_point]
-    following = np.where(place + 1 < corners, np.arange(len(place)) + 1, np.arange(len(place)) - place)
-    on_outline = chosen[contacts.interface_of_point] & (place < corners)
-    return np.column_stack([np.flatnonzero(on_outline), following[on_outline]])
-
-
-def live_load_arrow(model: Model, load_case: LoadCase, low: FloatArray, high: FloatArray, length: float) -> FloatArray:
-    """Start and tip of an arrow above a box, in the direction of the live load on free blocks, (2, 3) m.
-
-    Both are the same point where the live load has no resultant to speak of.
-    """
-    forces = load_case.live_load[model.free, :3]
-    sizes = np.linalg.norm(forces, axis=1)
-    resultant = forces.sum(axis=0)
-    anchor = np.array([*((low + high) / 2)[:2], high[2] + 0.35 * length])
-    if sizes.sum() == 0 or np.linalg.norm(resultant) < 0.05 * sizes.sum():
-        return np.array([anchor, anchor])
-    anchor[:2] = np.average(model.blocks.centroids[model.free, :2], axis=0, weights=sizes)
-    step = length * resultant / np.linalg.norm(resultant)
-    start = anchor - step * [0.5, 0.5, 1.0 if step[2] < 0 else 0.0]
-    return np.array([start, start + step])
 
 
 def front_axis(extents: FloatArray, travel: FloatArray) -> int | None:

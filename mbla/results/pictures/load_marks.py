@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model, TravelPosition
+from mbla.model.solids.blocks import Blocks
 from mbla.results.series import without_vehicle
 
 SAME = 1e-6
@@ -27,6 +28,14 @@ IN_WORDS = re.compile(r"(?:([-+.\de]+) times )?(gravity|acceleration) \(([^)]*)\
 """an acceleration of all blocks in the words of a load case"""
 WRITTEN = 1e-5
 """relative accuracy of numbers in words"""
+LONGEST, SHORTEST = 0.12, 0.03
+"""of arrows, over the size of the structure"""
+LONGEST_OF_MANY, MANY = 0.04, 24
+"""the same of more forces than that, which would cover the structure and each other"""
+FEW = 4
+"""forces up to which arrows are thick"""
+OFF = 0.01
+"""distance of an arrow from what it belongs to, over the same size"""
 MOST = 0.5
 """share of the loaded blocks that must have one acceleration, where words do not say it, for it to be one arrow"""
 
@@ -59,6 +68,11 @@ class LoadMarks:
     accelerated: BoolArray
     beside: FloatArray
     beside_forces: FloatArray
+
+    @property
+    def largest(self) -> float:
+        """Of all forces and axles, N."""
+        return float(np.linalg.norm(np.vstack([self.forces, self.beside_forces]), axis=1).max(initial=0.0))
 
     @property
     def uniform(self) -> bool:
@@ -99,16 +113,11 @@ def _marks_of_blocks(model: Model, loads: FloatArray, words: Sequence[str]) -> L
         if _turns(model, loads - _mass_loads(model, acceleration, accelerated), accelerated):
             acceleration, accelerated = np.zeros(3), np.zeros(len(loads), dtype=bool)
     rest = loads - _mass_loads(model, acceleration, accelerated)
-    blocks = model.blocks
     size = np.linalg.norm(loads[:, :3], axis=1).max(initial=0.0)
-    force = np.linalg.norm(rest[:, :3], axis=1)
-    pushed = np.flatnonzero(force > WRITTEN * size)
-    vectors, moments = rest[pushed, :3], rest[pushed, 3:]
-    square = np.einsum("ij,ij->i", vectors, vectors)[:, None]
-    points = blocks.centroids[pushed] + np.cross(vectors, moments) / square
-    about = np.zeros((len(loads), 3))
-    about[:, :] = rest[:, 3:]
-    about[pushed] = np.einsum("ij,ij->i", vectors, moments)[:, None] / square * vectors
+    pushed = np.flatnonzero(np.linalg.norm(rest[:, :3], axis=1) > WRITTEN * size)
+    points, left = lines_of_action(model.blocks.centroids[pushed], rest[pushed])
+    vectors, about = rest[pushed, :3], rest[:, 3:].copy()
+    about[pushed] = left
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > WRITTEN * _moment_size(model, loads))
     return LoadMarks(
         blocks=pushed,
@@ -123,6 +132,21 @@ def _marks_of_blocks(model: Model, loads: FloatArray, words: Sequence[str]) -> L
         beside=np.zeros((0, 3)),
         beside_forces=np.zeros((0, 3)),
     )
+
+
+def lines_of_action(centroids: FloatArray, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Points of the lines along which forces act, (n, 3) m, level with the centroids, and the moments along the forces.
+
+    That is c + F × M / F² and (F · M / F²) F; without a force the centroid, and the moment as it is.
+
+    loads : (n, 6) forces, and moments about the centroids, (n, 3) m
+    """
+    forces, moments = loads[:, :3], loads[:, 3:]
+    square = np.einsum("ij,ij->i", forces, forces)[:, None]
+    acts = square > 0
+    square = np.where(acts, square, 1.0)
+    along = np.einsum("ij,ij->i", forces, moments)[:, None] / square * forces
+    return centroids + np.cross(forces, moments) / square, np.where(acts, along, moments)
 
 
 def _in_words(model: Model, words: Sequence[str]) -> FloatArray:
@@ -197,3 +221,42 @@ def _entry(model: Model, block: int, point: FloatArray, force: FloatArray) -> Fl
         steps = distance / along
     begin, end = steps[~level & (along < 0)].max(initial=-np.inf), steps[~level & (along > 0)].min(initial=np.inf)
     return np.asarray(point + begin * force) if np.isfinite(begin) and begin <= end + SAME else point
+
+
+# --- Arrows, for a structure of a size in m -------------------------------------------------------------------------
+
+
+def arrow_steps(forces: FloatArray, largest: float, size: float) -> FloatArray:
+    """Arrows of forces by their sizes over the largest, (n, 3) m from (n, 3) N; short ones of many."""
+    sizes = np.linalg.norm(forces, axis=1, keepdims=True)
+    longest = LONGEST if len(forces) <= MANY else LONGEST_OF_MANY
+    lengths = size * np.maximum(longest * sizes / largest, min(SHORTEST, longest / 2))
+    return np.asarray(forces * lengths / sizes)
+
+
+def axles_near(marks: LoadMarks, points: FloatArray, size: float) -> BoolArray:
+    """Axles off their path that are drawn: those further off than half the structure's size would shrink it.
+
+    points : (n, 3) m, of the structure
+    """
+    low, high = points.min(axis=0) - BESIDE * size, points.max(axis=0) + BESIDE * size
+    return np.asarray(np.all((marks.beside > low) & (marks.beside < high), axis=1))
+
+
+def arrow_above(blocks: Blocks, marks: LoadMarks, top: float, size: float) -> tuple[FloatArray, FloatArray]:
+    """Start and step of the arrow of an acceleration, (3,) m each, above the middle of what it accelerates."""
+    step = LONGEST * size * marks.acceleration / np.linalg.norm(marks.acceleration)
+    middle = np.append(blocks.centroids[marks.accelerated, :2].mean(axis=0), top)
+    return middle - step * [0.5, 0.5, 1.0 if step[2] < 0 else 0.0], step
+
+
+def settlement_arrow(vertices: FloatArray, way: FloatArray, size: float) -> tuple[FloatArray, FloatArray]:
+    """Start and step of an arrow from the box around what gives way, away from its middle, (3,) m each.
+
+    vertices : (n, 3) m, of what gives way; way : (3,) its mean motion, which is not zero
+    """
+    unit = way / np.linalg.norm(way)
+    with np.errstate(divide="ignore"):
+        reach = float(np.min(np.ptp(vertices, axis=0) / 2 / np.abs(unit)))
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    return middle + (reach + OFF * size) * unit, LONGEST * size * unit

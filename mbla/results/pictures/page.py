@@ -48,9 +48,9 @@ def rgb(colour: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def pale(colour: str) -> str:
-    """The colour with two thirds of white in it."""
-    return "#" + "".join(f"{round(255 * (part + 2) / 3):02X}" for part in rgb(colour))
+def pale(colour: str, white: float = 2 / 3) -> str:
+    """The colour with a share of white in it."""
+    return "#" + "".join(f"{round(255 * (part + white * (1 - part))):02X}" for part in rgb(colour))
 
 
 def group_colours(groups: tuple[str, ...]) -> dict[str, str]:
@@ -140,6 +140,10 @@ class Page:
         """Height of words or a legend, share of the page."""
         return float(self.extent_of(artist).height / (self.figure.dpi * self.figure.get_figheight()))
 
+    def width_of(self, artist: Any) -> float:
+        """Width of words or a legend, share of the page."""
+        return float(self.extent_of(artist).width / (self.figure.dpi * self.figure.get_figwidth()))
+
     def extent_of(self, artist: Any) -> Any:
         """Box of words or a legend in pixels."""
         return artist.get_window_extent(self.figure.canvas.get_renderer())
@@ -205,33 +209,18 @@ def add_words(page: Page, words: Sequence[str], mark: str = "") -> float:
     return used + gap / 2
 
 
-def add_legend(page: Page, handles: Sequence[Any]) -> float:
-    """A legend along the lower edge, in as many columns as fit; the share of the height that it takes."""
-    if not handles:
-        return 0.0
-    style = {"loc": "lower center", "frameon": False, "fontsize": 0.9 * page.letter, "labelcolor": INK}
-    for columns in range(len(handles), 0, -1):
-        legend = page.figure.legend(handles=handles, ncols=columns, **style)
-        for text in legend.get_texts():
-            text.set_parse_math(False)
-        if columns == 1 or page.extent_of(legend).width <= 0.98 * page.figure.dpi * page.figure.get_figwidth():
-            break
-        legend.remove()
-    return page.height_of(legend)
-
-
 # --- Files ----------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Picture:
+class PictureFile:
     """One file to make: the end of its name after the stem, and what writes it."""
 
     name: str
     write: Callable[[Path], None]
 
 
-def write_pictures(pictures: Sequence[Picture], target: Path, stem: str, ending: str, choice: str) -> list[Path]:
+def write_pictures(pictures: Sequence[PictureFile], target: Path, stem: str, ending: str, choice: str) -> list[Path]:
     """Pictures put in place each in one go; the paths written.
 
     target : a file for a single picture; else a folder, created if missing, for ``STEM`` and their names

@@ -11,7 +11,7 @@ from mbla.errors import UsageError
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_single
-from mbla.results.pictures.page import Picture, write_pictures
+from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.plane.draw import draw_plane
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
@@ -52,7 +52,7 @@ def _chosen_cases(results: Results, name: str | None) -> Sequence[CaseResult]:
     return told_cases(results.cases) if name is None else chosen_cases(results, [name])
 
 
-def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[Picture]:
+def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[PictureFile]:
     """Every picture of some cases, kind by kind of each case; the model first."""
 
     def of(case: CaseResult, kind: str) -> Callable[[Path], None]:
@@ -60,18 +60,18 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
 
     if not cases:
         return []
-    pictures = [Picture("_model", of(cases[0], "model"))] if "model" in options.kinds else []
+    pictures = [PictureFile("_model", of(cases[0], "model"))] if "model" in options.kinds else []
     names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
         for kind in (kind for kind in options.kinds if kind != "model"):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
-            pictures.append(Picture(name, of(case, kind)))
+            pictures.append(PictureFile(name, of(case, kind)))
     if "history" in options.kinds:
         for series in series_of(results.cases):
             if len(series.cases) > 1 and options.case in (None, series.name):
                 scene = scene_of(results, series.cases[0], options, "history")
                 write = partial(draw_series, scene=scene, series=series, options=options)
-                pictures.append(Picture(f"_{series.name}_history", write))
+                pictures.append(PictureFile(f"_{series.name}_history", write))
     return pictures
 
 
@@ -88,7 +88,7 @@ def _mechanism_names(cases: Sequence[str]) -> dict[str, str]:
     return names
 
 
-def _films(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[Picture]:
+def _films(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[PictureFile]:
     """A film of every case that moves; UsageError where none does."""
 
     def of(case: CaseResult) -> Callable[[Path], None]:
@@ -100,7 +100,7 @@ def _films(results: Results, cases: Sequence[CaseResult], options: PictureOption
         raise UsageError(
             "no-mechanism", f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves"
         )
-    return [Picture(f"_{each.load_case.name}", of(each)) for each in moving]
+    return [PictureFile(f"_{each.load_case.name}", of(each)) for each in moving]
 
 
 def _check_name(target: Path, options: PictureOptions) -> None:

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
 from mbla.results.collapse.clusters import clusters_of
-from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, fall_of
+from mbla.results.collapse.collapse import Failure, failure_of, fall_of
 from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
-from mbla.results.collapse.motion import moved_contact_points, moved_vertices
+from mbla.results.collapse.motion import moved_contact_points, moved_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
-from mbla.results.collapse.thrust import Thrust, points_to_draw, thrust_lines, thrust_of
-from mbla.results.collapse.torsion_use import torsion_use
+from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import FIXED_BLOCK, REST
+from mbla.results.record.scene import Scene as RecordScene
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 
@@ -32,36 +32,31 @@ OUTSIDE_WORDS = "outside the joint (tension), drawn at its edge"
 
 
 @dataclass(frozen=True)
-class Scene:
-    """One load case as it is drawn.
+class Scene(RecordScene):
+    """One load case as it is drawn; also what is no result, ``is_result`` says which.
 
-    motion : (n_blocks, 6) displacement and rotation of each block as drawn, m and rad; zero in pictures at rest
+    drawn : (n_blocks, 6) displacement and rotation of each block as drawn, m and rad; zero in pictures at rest
     shown_cases : those whose loads a picture of the model shows
     """
 
-    results: Results
     case: CaseResult
-    motion: FloatArray
+    results: Results
+    drawn: FloatArray
     shown_cases: tuple[CaseResult, ...] = ()
-
-    def with_case(self, case: CaseResult) -> Scene:
-        """The same scene with another load case."""
-        return replace(self, case=case)
-
-    @cached_property
-    def model(self) -> Model:
-        """The model as it may move under the load case."""
-        return self.results.model.of_case(self.case.load_case)
-
-    @property
-    def contacts(self) -> Contacts:
-        """Of the model."""
-        return self.results.contacts
 
     @property
     def mechanics(self) -> Mechanics | None:
-        """Forces and velocities to draw, whether they are a result or not; ``is_result`` says which."""
+        """Forces and velocities to draw."""
         return self.case.solution.mechanics
+
+    @cached_property
+    def motion(self) -> FloatArray:
+        """Displacement and rotation of each block as drawn, (n_blocks, 6) m and rad."""
+        return self.drawn
+
+    def moved_to(self, scale: float) -> Scene:
+        """The same moved by a multiple of the usual displacements."""
+        return replace(self, drawn=finite_motion(self.model, self.contacts, self.case, scale))
 
     @property
     def is_result(self) -> bool:
@@ -84,12 +79,16 @@ class Scene:
         sides = [moved_contact_points(self.model, self.contacts, self.motion, side) for side in (0, 1)]
         return sides[0], sides[1]
 
-    @cached_property
-    def collapse(self) -> Collapse | None:
-        """Modes, parts and work of the mechanism; None without one."""
-        if self.mechanics is None:
-            return None
-        return collapse_of(self.model, self.contacts, self.case.load_case, self.mechanics)
+    def between(self, interfaces: IntArray, points: FloatArray) -> FloatArray:
+        """Points of interfaces, (n, 3) m, midway between where body a and where body b takes them."""
+        total = np.zeros_like(points)
+        for side in (0, 1):
+            owners = self.contacts.bodies[interfaces, side]
+            own = owners < len(self.model.blocks)
+            moved = points.copy()
+            moved[own] = moved_points(self.model.blocks, self.motion, owners[own], points[own])
+            total += moved / 2
+        return total
 
     @cached_property
     def failure(self) -> Failure | None:
@@ -127,39 +126,32 @@ class Scene:
         loads[load_case.settlement.blocks] = 0.0
         return loads
 
-    @cached_property
-    def forces(self) -> tuple[FloatArray | None, str]:
-        """Contact forces to draw, (n_points, 3) N, and what they are; None where there are none."""
+    @property
+    def forces(self) -> FloatArray | None:
+        """Contact forces to draw, (n_points, 3) N: at the load factor, else those that lock or carry the dead load."""
         solution = self.case.solution
         if solution.mechanics is not None:
+            return solution.mechanics.contact_forces
+        return solution.standing.forces if solution.lock is None and solution.standing is not None else solution.lock
+
+    @property
+    def force_words(self) -> str:
+        """What these forces are."""
+        if self.mechanics is not None:
             gives = self.case.load_case.settlement is not None
             besides = "as the support gives way" if gives else "and live load times load factor"
-            return solution.mechanics.contact_forces, f"contact forces under dead load {besides}"
-        if solution.lock is not None:
-            return solution.lock, "contact forces that balance the live load alone: any multiple of it is carried"
-        if solution.standing is not None and solution.standing.forces is not None:
-            return solution.standing.forces, "contact forces under the dead load alone"
-        return None, "no contact forces to draw: none were found that carry the loads"
-
-    @cached_property
-    def thrust(self) -> Thrust | None:
-        """Resultants of the interfaces and where they act; None without forces."""
-        forces = self.forces[0]
-        return None if forces is None else thrust_of(self.model, self.contacts, forces)
+            return f"contact forces under dead load {besides}"
+        if self.forces is None:
+            return "no contact forces to draw: none were found that carry the loads"
+        if self.case.solution.lock is not None:
+            return "contact forces that balance the live load alone: any multiple of it is carried"
+        return "contact forces under the dead load alone"
 
     @cached_property
     def thrust_points(self) -> FloatArray:
         """Where resultants are drawn, (n_interfaces, 3) m; those outside their joint at its edge."""
         assert self.thrust is not None  # asked for where there are forces
         return points_to_draw(self.contacts, self.thrust)
-
-    @cached_property
-    def joint_use(self) -> FloatArray | None:
-        """Shear and torsion over what each interface carries of both, (n_interfaces,); None without forces."""
-        forces = self.forces[0]
-        if forces is None:
-            return None
-        return torsion_use(self.model, self.contacts, forces, self.case.solution.contact_model)
 
     @cached_property
     def force_freedom(self) -> ForceFreedom | None:
@@ -174,9 +166,7 @@ class Scene:
     @cached_property
     def thrust_lines(self) -> list[FloatArray]:
         """Points of each line of thrust in their order, (n, 3) m each."""
-        if self.thrust is None:
-            return []
-        return [self.thrust_points[row] for row in thrust_lines(self.model, self.contacts, self.thrust)]
+        return [self.thrust_points[row] for row in self.lines]
 
     @cached_property
     def slabs(self) -> list[FloatArray]:
@@ -195,7 +185,7 @@ class Scene:
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.forces[1] + self._unpressed_words() + self._freedom_words())
+            lines.append(self.force_words + self._unpressed_words() + self._freedom_words())
         elif self.collapse is not None and self.failure is not None:
             lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
@@ -213,7 +203,7 @@ class Scene:
         """Whether forces other than these would do; nothing of forces that are no result."""
         solution, mechanics = self.case.solution, self.mechanics
         if mechanics is None:
-            return "" if self.forces[0] is None else "; others may do so too"
+            return "" if self.forces is None else "; others may do so too"
         if not self.is_result:
             return ""
         freedom = self.force_freedom
@@ -241,16 +231,12 @@ class Scene:
         )
 
 
-def motion_as_drawn(results: Results, case: CaseResult, scale: float) -> FloatArray:
-    """Displacement and rotation of each block, (n_blocks, 6) m and rad, at a multiple of the usual size."""
-    return finite_motion(results.model.of_case(case.load_case), results.contacts, case, scale)
-
-
 def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:
     """A case as a picture of that kind shows it: moved in a picture of the mechanism, at rest in others."""
-    motion = motion_as_drawn(results, case, options.scale)
+    model = results.model.of_case(case.load_case)
     shown = [each for each in results.cases if options.case in (None, each.load_case.name, each.load_case.deck_name)]
-    return Scene(results, case, motion if kind == "mechanism" else np.zeros_like(motion), tuple(shown))
+    scene = Scene(model, results.contacts, case, results, np.zeros((len(model.blocks), 6)), tuple(shown))
+    return scene.moved_to(options.scale) if kind == "mechanism" else scene
 
 
 # --- Tints of the parts that move: neighbours get different ones, however many parts there are ----------------------
@@ -276,3 +262,21 @@ def tint_of_part(scene: Scene, parts: IntArray, n_tints: int) -> IntArray:
         free = [tint for tint in range(n_tints) if tint not in taken]
         tints[part] = free[0] if free else part % n_tints
     return tints
+
+
+def part_colours(scene: Scene, palette: Sequence[str]) -> list[str]:
+    """Colour of each block by the part of the listing that it moves with: stone at rest, grey if fixed."""
+    tints = tint_of_part(scene, scene.clusters, len(palette))
+    of_part = [REST, *(palette[tint] for tint in tints[1:].tolist())]
+    fixed = scene.model.fixed.tolist()
+    return [FIXED_BLOCK if held else of_part[part] for held, part in zip(fixed, scene.clusters.tolist(), strict=True)]
+
+
+MOST_GROUPS = 12
+"""groups that a legend names"""
+
+
+def named_groups(of_group: Mapping[str, str]) -> tuple[list[tuple[str, str]], str]:
+    """Groups with their colours that a legend names, and how many more there are in words."""
+    left = len(of_group) - MOST_GROUPS
+    return list(of_group.items())[:MOST_GROUPS], f"and {counted(left, 'more group')}" if left > 0 else ""

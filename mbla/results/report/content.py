@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,10 +12,9 @@ from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.figures import residual_figures, verification_verdict
 from mbla.results.listing.listing import case_sections
-from mbla.results.listing.text import number, small
+from mbla.results.listing.text import Entry, Heading, Sentence, elements_of, number, small
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import case_notices, result_of
-from mbla.results.report.blocks import Block, Entries, blocks_of
 from mbla.results.report.figures import Figures
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
@@ -41,6 +40,53 @@ def notice_kinds(notices: Sequence[Notice]) -> list[NoticeKind]:
         NoticeKind(severity, identifier, tuple(texts), explanations().get(identifier))
         for (severity, identifier), texts in messages.items()
     ]
+
+
+# --- Lines of the words as parts of a page --------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of a page.
+
+    kind   : ``title``, ``paragraph``, ``entries`` (names and values) or ``table``
+    text   : of a title or paragraph, caption of a table
+    detail : a paragraph belongs to what stands above it
+    left   : columns of a table that are words; the others are figures
+    """
+
+    kind: str
+    text: str = ""
+    rows: tuple[tuple[str, ...], ...] = ()
+    head: tuple[str, ...] = ()
+    left: int = 0
+    detail: bool = False
+
+
+def blocks_of(lines: Iterable[str]) -> list[Block]:
+    """Blocks of lines in their order; nothing that the lines say is left out.
+
+    A sentence that ends in a colon becomes the caption of the table below it, a detail below an entry joins its value.
+    """
+    blocks: list[Block] = []
+    for element in elements_of(lines):
+        last = blocks[-1] if blocks else Block("")
+        if isinstance(element, Entry) and last.kind == "entries":
+            blocks[-1] = replace(last, rows=(*last.rows, (element.name.strip(), element.value)))
+        elif isinstance(element, Entry):
+            blocks.append(Block("entries", rows=((element.name.strip(), element.value),)))
+        elif isinstance(element, Sentence) and element.detail and last.kind == "entries":
+            name, value = last.rows[-1]
+            blocks[-1] = replace(last, rows=(*last.rows[:-1], (name, f"{value}\n{element.text}")))
+        elif isinstance(element, Sentence):
+            blocks.append(Block("paragraph", element.text, detail=element.detail))
+        elif isinstance(element, Heading):
+            blocks.append(Block("title", element.text))
+        else:
+            captioned = last.kind == "paragraph" and last.text.endswith(":")
+            caption = blocks.pop().text[:-1] if captioned else ""
+            blocks.append(Block("table", caption, element.rows, element.head, element.left))
+    return blocks
 
 
 # --- The verification of a case as rows: every residual, what it may be at most, and whether it is ------------------
@@ -138,12 +184,11 @@ class CaseContent:
 def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
-    sections = case_sections(results.model, results.contacts, case)
-    told, others = sections[0], sections[1:]
+    told, *others = case_sections(results.model, results.contacts, case)
     checked = {name for name, _, _ in residual_figures(case.checks)}
     parts = [
-        Part(f"{key}-{_slug(section.title)}", section.title, _without(blocks_of(section.lines), checked))
-        for section in others
+        Part(f"{key}-{each.title.lower().replace(' ', '-')}", each.title, _without(blocks_of(each.lines), checked))
+        for each in others
     ]
     return CaseContent(
         id=key,
@@ -191,17 +236,14 @@ def alarm_of(case: CaseResult) -> str:
     return "no load factor; figures, forces and mechanism below are the best that was reached, and no result."
 
 
-def _slug(title: str) -> str:
-    return title.lower().replace(" ", "-")
-
-
 def _without(blocks: list[Block], names: set[str]) -> list[Block]:
     """Entries that the table of checks shows with their tolerances are not said twice."""
-    kept = [
-        Entries(tuple(row for row in block.rows if row[0] not in names)) if isinstance(block, Entries) else block
-        for block in blocks
-    ]
-    return [block for block in kept if not isinstance(block, Entries) or block.rows]
+    kept = []
+    for each in blocks:
+        rows = tuple(row for row in each.rows if each.kind != "entries" or row[0] not in names)
+        if rows or not each.rows:
+            kept.append(replace(each, rows=rows))
+    return kept
 
 
 # --- The table at the head of a report: every load case with its status, answer and bounds --------------------------
@@ -229,12 +271,8 @@ class VerdictTable:
 def verdict_table(results: Results) -> VerdictTable:
     """The answers of every case, the associative ones with their bounds."""
     heads, figures = answer_columns(results.model, results.cases)
-    rows = tuple(
-        _verdict_row(case, number, (*own, *bound_figures(case)))
-        for number, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1)
-    )
-    return VerdictTable((*heads, "static bound", "kinematic bound"), rows)
-
-
-def _verdict_row(case: CaseResult, number: int, figures: tuple[str, ...]) -> VerdictRow:
-    return VerdictRow(f"case-{number}", case.load_case.name, status_words(case.status), tone_of(case), figures)
+    rows = []
+    for place, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1):
+        values = (*own, *bound_figures(case))
+        rows.append(VerdictRow(f"case-{place}", case.load_case.name, status_words(case.status), tone_of(case), values))
+    return VerdictTable((*heads, "static bound", "kinematic bound"), tuple(rows))

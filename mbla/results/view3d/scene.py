@@ -8,6 +8,7 @@ origin: graphics cards count with seven digits.
 from __future__ import annotations
 
 import base64
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any
@@ -15,20 +16,18 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.overlaps import triangulate_blocks
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
-from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
-from mbla.results.collapse.finite_motion import finite_motion
-from mbla.results.collapse.joint_planes import HingeLine
-from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
-from mbla.results.collapse.rigid_parts import rigid_parts
+from mbla.results.collapse.motion import largest_displacements, moved_points
 from mbla.results.listing.text import number
-from mbla.results.outcome import result_of
-from mbla.results.pictures.geometry import block_edges, box_of, front_axis, ground_slab
+from mbla.results.pictures.geometry import SLAB_FACES, block_edges, box_of, front_axis
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, group_colours, rgb
+from mbla.results.pictures.scene import Scene, tint_of_part
+from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.view3d.marks import LoadArrow, Mark, block_eccentricity, force_marks, load_arrow, mechanism_marks
-from mbla.results.view3d.surface import Colouring, by_group, by_part, by_value, face_triangles, triangle_normals
-from mbla.solution.solution import Status
+from mbla.results.view3d.marks import Mark, marks_of
 
 FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
@@ -38,31 +37,32 @@ LIGHT = np.array([0.83, -0.07, 0.95])
 """direction the light comes from: towards the eye along its first axis, to the right, up; see ``light_from``"""
 DARKEST = 0.55
 """share of its colour that a face turned away from the light keeps"""
-SIDES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
-SLAB = np.array([[side[0], side[i], side[i + 1]] for side in SIDES for i in (1, 2)])
-"""triangles of a box whose corners have the first coordinate fastest"""
+SLAB = SLAB_FACES[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
+"""triangles of a box"""
 SHADES = 32
+NO_VALUE = "#C8C8C8"
+STRONGEST = {"displacement": "#1A5E9B", "eccentricity": "#B2182B"}
+MOST_NAMES = 12
+"""entries of a legend; the others are counted"""
 
 
 def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | None = None) -> dict[str, Any]:
-    """Everything that the browser needs, ready for JSON.
+    """Everything that ``view.js`` draws, ready for JSON: numbers, texts and packed arrays.
 
     view : azimuth and elevation of the eye at first, degrees; None: what suits the structure
     """
-    model, contacts, blocks = results.model.of_case(case.load_case), results.contacts, results.model.blocks
-    size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
-    offset = offset_of(blocks.vertices, size)
-    motion = finite_motion(model, contacts, case)
-    moved = moved_vertices(blocks, motion)
-    told = _told(results, case, model) if motion.any() else None
-    parts = None if told is None else told.parts
-    slabs = [ground_slab(model, contacts, row, size) for row in range(len(model.grounds))]
-    grounds = [slab for slab in slabs if slab is not None]
-    low, high = box_of(np.vstack([moved, blocks.vertices]))
-    arrow = load_arrow(model, case.load_case, low, high, 0.13 * size)
-    seen = np.vstack([moved, blocks.vertices, *grounds, arrow.points])
-    triangles, faces = face_triangles(blocks)
-    eye = eye_of(blocks.vertices, moved, view)
+    scene = picture_of(results, case, PictureOptions(), "mechanism")
+    model, blocks, moves = scene.model, scene.model.blocks, bool(scene.motion.any())
+    offset = offset_of(blocks.vertices, scene.size)
+    marks = marks_of(scene)
+    loads = [points for mark in marks if mark.colour == LIVE_LOAD for points in (mark.points, _moved(scene, mark))]
+    seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *loads])
+    of_block = triangulate_blocks(blocks, np.arange(len(blocks)))
+    triangles = np.concatenate([of_block[block] for block in range(len(blocks))])
+    owners = np.repeat(np.arange(len(blocks)), [len(of_block[block]) for block in range(len(blocks))])
+    eye = eye_of(blocks.vertices, scene.moved, view)
+    slabs = np.concatenate([SLAB + 8 * row for row in range(len(scene.slabs))]) if scene.slabs else None
+    ground = slabs is not None and {"points": packed(np.concatenate(scene.slabs) - offset), "triangles": packed(slabs)}
     return {
         "unit": model.units.length,
         "offset": offset.tolist(),
@@ -71,21 +71,35 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "vertices": packed(blocks.vertices - offset),
         "vertexStart": packed(blocks.vertex_start),
         "triangles": packed(triangles),
-        "blockOfTriangle": packed(blocks.block_of_face[faces]),
+        "blockOfTriangle": packed(owners),
         "shades": packed(shades(triangle_normals(blocks.vertices, triangles), light_from(eye)), "u1"),
         "shadeCount": SHADES,
         "darkest": DARKEST,
         "edges": packed(block_edges(blocks)),
         "centroids": packed(blocks.centroids - offset),
-        "motion": packed(motion) if motion.any() else None,
-        "motionWords": motion_words(case) if motion.any() else "",
-        "texts": block_texts(model, parts),
-        "colourings": [_colouring(each) for each in colourings(results, case, model, motion, parts)],
-        "marks": [_mark(mark, offset) for mark in marks_of(results, case, model, size, told)],
-        "forceWords": force_words(case),
-        "ground": _ground(grounds, offset),
-        "arrow": _arrow(arrow, offset),
+        "motion": packed(scene.motion) if moves else None,
+        "motionWords": motion_words(scene) if moves else "",
+        "texts": block_texts(model, scene.clusters if moves else None),
+        "colourings": [_colouring(each) for each in colourings(scene)],
+        "marks": [_mark(mark, offset) for mark in marks],
+        "forceWords": "" if scene.forces is None else _with_mark(scene, scene.force_words),
+        "ground": ground or None,
     }
+
+
+def _moved(scene: Scene, mark: Mark) -> FloatArray:
+    """Points of a mark of which each follows one block or none, as moved, (n, 3) m."""
+    moved, own = mark.points.copy(), mark.bodies[:, 0] >= 0
+    moved[own] = moved_points(scene.model.blocks, scene.motion, mark.bodies[own, 0], mark.points[own])
+    return moved
+
+
+def triangle_normals(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """Unit normals, (n, 3); zero for triangles without area."""
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    return np.asarray(normals / np.where(lengths > 0, lengths, 1.0)[:, None])
 
 
 def offset_of(vertices: FloatArray, size: float) -> FloatArray:
@@ -119,26 +133,14 @@ def eye_of(vertices: FloatArray, moved: FloatArray, view: tuple[float, float] | 
     return {0: [1.6, -0.35, 0.4], 1: [0.35, -1.6, 0.4], None: [0.9, -1.6, 0.85]}[axis]
 
 
-def motion_words(case: CaseResult) -> str:
+def motion_words(scene: Scene) -> str:
     """What the motion is; where it belongs to no result, that it does not."""
-    if case.solution.mechanics is None:
-        known = "" if case.status is Status.NO_EQUILIBRIUM else ", NOT VERIFIED"
-        return f"motion in which the dead load falls{known}"
-    return f"mechanism{_reservation(case)}"
+    return _with_mark(scene, "motion in which the dead load falls" if scene.mechanics is None else "mechanism")
 
 
-def force_words(case: CaseResult) -> str:
-    """What the forces are, likewise."""
-    if case.solution.mechanics is None:
-        known = "" if case.status is Status.UNBOUNDED else ", NOT VERIFIED"
-        return f"forces that balance the live load alone{known}" if case.solution.lock is not None else ""
-    return f"forces at the load factor{_reservation(case)}"
-
-
-def _reservation(case: CaseResult) -> str:
-    if result_of(case) is None:
-        return " of the best iterate, NO RESULT"
-    return "" if case.status is Status.SOLVED else f", {case.status.value.replace('_', ' ').upper()}"
+def _with_mark(scene: Scene, words: str) -> str:
+    mark = scene.mark_of("mechanism")
+    return f"{words} ({mark})" if mark else words
 
 
 def block_texts(model: Model, parts: IntArray | None) -> list[str]:
@@ -161,56 +163,79 @@ def block_texts(model: Model, parts: IntArray | None) -> list[str]:
     return texts
 
 
-def colourings(
-    results: Results, case: CaseResult, model: Model, motion: FloatArray, parts: IntArray | None
-) -> list[Colouring]:
-    """The ways to colour that the case has, the first at first."""
-    found = [by_group(model)]
-    if parts is not None:
-        farthest = largest_displacements(model.blocks, motion)
-        share = farthest / (farthest.max() or 1.0)
-        found = [by_part(model, parts), by_value(model, "displacement", share, "none", "largest"), *found]
-    forces = forces_of(case)
-    if forces is not None and len(results.contacts):
-        eccentricity = block_eccentricity(model, results.contacts, forces)
-        found.append(by_value(model, "eccentricity", eccentricity, "0, central", "1, at the edge"))
-    return found
-
-
-def marks_of(results: Results, case: CaseResult, model: Model, size: float, told: _Told | None) -> list[Mark]:
-    """Marks of the mechanism and of the forces; none of what the case does not have."""
-    mechanics, forces, contacts = case.solution.mechanics, forces_of(case), results.contacts
-    if not len(contacts):
-        return []
-    found: list[Mark] = []
-    if mechanics is not None and told is not None and told.collapse is not None:
-        found = mechanism_marks(model, contacts, mechanics, told.collapse, told.hinge_lines)
-    return found + ([] if forces is None else force_marks(model, contacts, forces, size))
+# --- Colours of blocks ----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class _Told:
-    """What the words tell of a motion: parts with their numbers, and hinge lines; no collapse without a mechanism."""
+class Colouring:
+    """Colour of every block.
 
-    parts: IntArray
-    collapse: Collapse | None = None
-    hinge_lines: tuple[HingeLine, ...] = ()
+    colours : as #RRGGBB
+    rows    : (n_blocks,) rows of ``colours``
+    legend  : names and colours, for the reader
+    """
 
-
-def _told(results: Results, case: CaseResult, model: Model) -> _Told:
-    """Parts of a mechanism are the clusters of the words; those of a motion that proves no equilibrium are rigid."""
-    mechanics, contacts = case.solution.mechanics, results.contacts
-    if mechanics is None:
-        return _Told(rigid_parts(model, contacts, drawn_motion(model, case)))
-    collapse = collapse_of(model, contacts, case.load_case, mechanics)
-    failure = failure_of(model, contacts, collapse, mechanics)
-    return _Told(failure.clusters, collapse, failure.hinge_lines)
+    name: str
+    colours: tuple[str, ...]
+    rows: IntArray
+    legend: tuple[tuple[str, str], ...]
 
 
-def forces_of(case: CaseResult) -> FloatArray | None:
-    """Contact forces at the load factor; without one those that lock the structure, (n_points, 3)."""
-    mechanics = case.solution.mechanics
-    return case.solution.lock if mechanics is None else mechanics.contact_forces
+def colourings(scene: Scene) -> list[Colouring]:
+    """The ways to colour that the case has, the first at first; groups and parts as in the pictures."""
+    of_group = group_colours(scene.model.blocks.groups)
+    row = {name: i for i, name in enumerate(of_group)}
+    rows = np.array([row[group] for group in scene.model.blocks.groups])
+    found = [_by_name("group", rows, tuple(of_group), tuple(of_group.values()))]
+    if scene.motion.any():
+        farthest = largest_displacements(scene.model.blocks, scene.motion)
+        share = farthest / (farthest.max() or 1.0)
+        found = [by_part(scene, scene.clusters), _by_value(scene, "displacement", share, "none", "largest"), *found]
+    if scene.thrust is not None and len(scene.contacts):
+        found.append(_by_value(scene, "eccentricity", _block_eccentricity(scene), "0, central", "1, at the edge"))
+    return found
+
+
+def by_part(scene: Scene, parts: IntArray) -> Colouring:
+    """Parts that move together; what rests is pale, what is fixed grey."""
+    tints = tint_of_part(scene, parts, len(GROUPS)).tolist()
+    names = ["fixed", "at rest", *(f"part {i}" for i in range(1, len(tints)))]
+    colours = [FIXED_BLOCK, REST, *(GROUPS[tint] for tint in tints[1:])]
+    used, rows = np.unique(np.where(scene.model.fixed, 0, parts + 1), return_inverse=True)
+    return _by_name("part", rows, [names[i] for i in used], tuple(colours[i] for i in used.tolist()))
+
+
+def _by_value(scene: Scene, name: str, values: FloatArray, low: str, high: str, steps: int = 32) -> Colouring:
+    """Values from 0 to 1 in steps, (n_blocks,), nan for none; ``low`` and ``high`` name 0 and 1."""
+    ramp = tuple(mixed(REST, STRONGEST[name], i / (steps - 1)) for i in range(steps))
+    rows = np.rint(np.nan_to_num(np.clip(values, 0.0, 1.0)) * (steps - 1)).astype(np.int64)
+    rows = np.where(np.isnan(values), steps, rows)
+    rows = np.where(scene.model.fixed & (name == "displacement"), steps + 1, rows)
+    legend = [(low, ramp[0]), (high, ramp[-1])]
+    legend += [("none", NO_VALUE)] if (rows == steps).any() else []
+    legend += [("fixed", FIXED_BLOCK)] if (rows == steps + 1).any() else []
+    return Colouring(name, (*ramp, NO_VALUE, FIXED_BLOCK), rows, tuple(legend))
+
+
+def _by_name(name: str, rows: IntArray, names: Sequence[str], colours: tuple[str, ...]) -> Colouring:
+    legend = list(zip(names, colours, strict=True))
+    if len(legend) > MOST_NAMES:
+        legend = [*legend[: MOST_NAMES - 1], (f"and {len(legend) - MOST_NAMES + 1} more", "")]
+    return Colouring(name, colours, rows, tuple(legend))
+
+
+def mixed(first: str, second: str, share: float) -> str:
+    """The colour at a share of the way from the first to the second."""
+    red, green, blue = (round(255 * (a + share * (b - a))) for a, b in zip(rgb(first), rgb(second), strict=True))
+    return f"#{red:02X}{green:02X}{blue:02X}"
+
+
+def _block_eccentricity(scene: Scene) -> FloatArray:
+    """Greatest eccentricity among the interfaces of each block, (n_blocks,); nan where none carries a force."""
+    greatest = np.full(len(scene.model.blocks) + len(scene.model.grounds), np.nan)
+    if scene.thrust is not None:
+        np.fmax.at(greatest, scene.contacts.bodies.ravel(), np.repeat(scene.thrust.eccentricity, 2))
+    return greatest[: len(scene.model.blocks)]
 
 
 # --- as JSON ------------------------------------------------------------------------------------------------------
@@ -252,19 +277,3 @@ def _mark(mark: Mark, offset: FloatArray) -> dict[str, Any]:
         "inside": mark.inside,
         "dots": mark.dots,
     }
-
-
-def _ground(slabs: list[FloatArray], offset: FloatArray) -> dict[str, Any] | None:
-    if not slabs:
-        return None
-    points = np.concatenate(slabs) - offset
-    triangles = np.concatenate([SLAB + 8 * row for row in range(len(slabs))])
-    return {"points": packed(points), "triangles": packed(triangles)}
-
-
-def _arrow(arrow: LoadArrow, offset: FloatArray) -> dict[str, Any] | None:
-    """None where the live load has no direction."""
-    if not len(arrow.pairs):
-        return None
-    points = packed(arrow.points - offset)
-    return {"name": arrow.name, "points": points, "pairs": packed(arrow.pairs), "block": arrow.block}

@@ -14,7 +14,6 @@ window.mblaView3d = function (host, data) {
 
 window.mblaDrawView3d = function (host, data) {
   "use strict";
-  const LIVE_LOAD = "#0072B2";  // as in the pictures
   const MOST_MOVING = 3000;  // blocks that move smoothly; of more there are two states
   const kinds = { f4: Float32Array, i4: Int32Array, u1: Uint8Array };
   function unpacked(array) {
@@ -172,15 +171,6 @@ window.mblaDrawView3d = function (host, data) {
   if (data.ground) {
     const slab = mesh(unpacked(data.ground.points), unpacked(data.ground.triangles), { color: "#7A7A7A" });
     layers.push({ name: "ground", colour: "#7A7A7A", traces: [add(slab)], shown: true });
-  }
-  if (data.arrow) {
-    const points = unpacked(data.arrow.points), pairs = unpacked(data.arrow.pairs);
-    const bodies = new Int32Array((2 * points.length) / 3).fill(data.arrow.block);  // -1 stays where it is
-    const arrow = add(
-      line(points, pairs, LIVE_LOAD, 8, { hoverinfo: "name", name: data.arrow.name }),
-      (state) => segments(movedMark({ points, bodies }, state), pairs),
-    );
-    layers.push({ name: data.arrow.name, colour: LIVE_LOAD, traces: [arrow], shown: true });
   }
 
   // --- page --------------------------------------------------------------------------------------------------------

@@ -15,12 +15,10 @@ from importlib import resources
 from mbla.errors import UsageError
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
+from mbla.results.pictures.page import INK, WARNING
 from mbla.results.results import CaseResult, Results
 from mbla.results.view3d.scene import scene_of
 from mbla.solution.solution import Status
-
-INK, ALARM = "#222222", "#B00020"
-"""colour of a title of a verified result, and of any other"""
 
 
 def view_html(
@@ -93,5 +91,5 @@ def _title(results: Results, case: CaseResult) -> str:
     title = escape(results.model.title or results.deck.name)
     words = escape(f"load case {case.load_case.name}: {verdict(results.model.of_case(case.load_case), case)}")
     sure = result_of(case) is not None and case.status is Status.SOLVED
-    colour = INK if sure or case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) else ALARM
+    colour = INK if sure or case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) else WARNING
     return f'<div class="mbla-view3d-title">{title}<br><strong style="color: {colour}">{words}</strong></div>'

@@ -26,7 +26,8 @@ from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
-from mbla.results.pictures.geometry import ground_slab
+from mbla.results.pictures.geometry import SLAB_FACES, ground_slab
+from mbla.results.pictures.load_marks import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.series import without_vehicle
 from mbla.solution.verification.statics import contact_resultants
@@ -99,21 +100,16 @@ def write_loads_vtu(path: Path, scene: Scene) -> None:
 def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
     """Loads about centroids, (n_blocks, 6), as vectors at points; blocks without load are left out."""
     bodies = np.flatnonzero(loads.any(axis=1))
-    forces, moments = loads[bodies, :3], loads[bodies, 3:]
-    centroids = blocks.centroids[bodies]
-    size = np.einsum("ij,ij->i", forces, forces)
-    arms = np.zeros_like(forces)
-    acts = size > 0
-    arms[acts] = np.cross(forces[acts], moments[acts]) / size[acts, None]
-    low, high = _boxes(blocks)
-    points = centroids + arms
-    slack = ROUNDING * blocks.sizes[bodies, None]
-    inside = ((points >= low[bodies] - slack) & (points <= high[bodies] + slack)).all(axis=1)
-    left = moments - np.cross(arms, forces)
-    crosswise = np.linalg.norm(left, axis=1) <= ROUNDING * np.sqrt(size) * blocks.sizes[bodies]
-    there = acts & inside & crosswise
-    at = np.where(there[:, None], points, centroids)
-    return Vectors(kind, bodies, at, forces, np.where(there[:, None], 0.0, moments))
+    forces, moments, sizes = loads[bodies, :3], loads[bodies, 3:], blocks.sizes[bodies]
+    points, left = lines_of_action(blocks.centroids[bodies], loads[bodies])
+    first = blocks.vertex_start[:-1]
+    low, high = (each.reduceat(blocks.vertices, first)[bodies] for each in (np.minimum, np.maximum))
+    slack = ROUNDING * sizes[:, None]
+    inside = ((points >= low - slack) & (points <= high + slack)).all(axis=1)
+    force = np.linalg.norm(forces, axis=1)
+    there = ((force > 0) & inside & (np.linalg.norm(left, axis=1) <= ROUNDING * force * sizes))[:, None]
+    at = np.where(there, points, blocks.centroids[bodies])
+    return Vectors(kind, bodies, at, forces, np.where(there, 0.0, moments))
 
 
 def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
@@ -123,12 +119,6 @@ def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
     acting = travel.acting
     forces = travel.forces[acting]
     return (Vectors(LIVE, travel.blocks[acting], travel.points[acting], forces, np.zeros_like(forces)),)
-
-
-def _boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:
-    """Least and greatest coordinates of each block, (n_blocks, 3) each."""
-    first = blocks.vertex_start[:-1]
-    return np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)
 
 
 def _reactions(scene: Scene) -> tuple[Vectors, ...]:
@@ -174,8 +164,6 @@ def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
 
 GROUND, FIXED, GUIDED = 0, 1, 2
 """kinds of supports"""
-SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
-"""of a box whose corners are listed with the first coordinate fastest, outwards where these axes are right-handed"""
 
 
 def support_slabs(model: Model, contacts: Contacts) -> tuple[tuple[int, FloatArray], ...]:
@@ -210,7 +198,7 @@ def write_supports_vtu(path: Path, model: Model, contacts: Contacts) -> None:
 
 
 def _outward_faces(slab: FloatArray) -> IntArray:
-    """Faces of a slab, (6, 4), by rows of its corners."""
+    """Faces of a slab, (6, 4), by rows of its corners, whatever way round its axes are."""
     right_handed = np.linalg.det(slab[[1, 2, 4]] - slab[0]) > 0
     return np.asarray(SLAB_FACES if right_handed else SLAB_FACES[:, ::-1])
 

@@ -141,10 +141,7 @@ def case_record(results: Results, scene: Scene, files: Mapping[str, str]) -> dic
     """
     if scene.case is None:
         raise ValueError("standard views are those of a load case")
-    moved = np.vstack([scene.model.blocks.vertices, scene.model.blocks.vertices + scene.displacements])
     return {
-        "low": moved.min(axis=0).tolist(),
-        "high": moved.max(axis=0).tolist(),
         "files": dict(files),
         "words": _words(results, scene),
         "parts": int(scene.parts.max(initial=0)),

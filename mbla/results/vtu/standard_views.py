@@ -15,7 +15,6 @@ over what the joint carries of both), loads (dead, live, reactions), animation (
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import textwrap
 from collections.abc import Callable
@@ -146,22 +145,13 @@ class Picture:
         simple.Render(self.view)
 
     def aim(self, lines: int) -> None:
-        """Camera on the box around the structure and its mechanism, with room above it for lines of words."""
-        low, high, towards = self.case["low"], self.case["high"], _unit(self.case["look_from"])
-        right = _unit([-towards[1], towards[0], 0.0])
-        up = _cross(towards, right)
-        corners = [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-        middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
-        width = max(abs(_dot(corner, right) - _dot(middle, right)) for corner in corners)
-        height = max(abs(_dot(corner, up) - _dot(middle, up)) for corner in corners)
-        scale = max(height / (0.82 - 0.05 * lines), 1.3 * width * SIZE[1] / SIZE[0])
-        focus = [m + 0.05 * lines * scale * u for m, u in zip(middle, up, strict=True)]
+        """Camera on all that is shown, with room above it for lines of words."""
         self.view.CameraParallelProjection = 1
-        self.view.CameraFocalPoint = focus
-        self.view.CameraPosition = [f + 3.0 * self.length * t for f, t in zip(focus, towards, strict=True)]
-        self.view.CameraViewUp = up
-        self.view.CameraParallelScale = scale
-        self.view.CenterOfRotation = middle
+        self.view.CameraFocalPoint = [0.0, 0.0, 0.0]
+        self.view.CameraPosition = self.case["look_from"]
+        self.view.CameraViewUp = [0.0, 0.0, 1.0]
+        simple.ResetCamera(self.view)
+        self.view.GetActiveCamera().Zoom(1.0 - 0.06 * lines)
 
     def close(self) -> None:
         """Free what it holds."""
@@ -204,10 +194,11 @@ def thrust(picture: Picture) -> None:
     picture.supports()
     source = picture.read("thrust")
     arrows = picture.arrows(source, "resultant_forces", 0.15, at_tip=False)
-    picture.colour(picture.draw(arrows), "POINTS", "eccentricity", "eccentricity: 1 at the edge", 1.0)
+    drawn = [arrows]
     if picture.case["thrust_lines"]:
-        rods = picture.rods(picture.cells_with(source, "kind", 1))
-        picture.colour(picture.draw(rods), "POINTS", "eccentricity", "eccentricity: 1 at the edge", 1.0)
+        drawn.append(picture.rods(picture.cells_with(source, "kind", 1)))
+    for each in drawn:
+        picture.colour(picture.draw(each), "POINTS", "eccentricity", "eccentricity: 1 at the edge", 1.0)
     picture.legend = ["Arrows: resultant of each joint at its point of application, on its second body."]
 
 
@@ -215,11 +206,9 @@ def utilisation(picture: Picture) -> None:
     """Shear and torsion over what each joint carries of both."""
     picture.ghost()
     picture.supports()
-    interfaces = picture.read("interfaces")
-    shown = picture.draw(interfaces, "Surface", Opacity=0.8)
-    picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
-    frames = picture.draw(picture.read("interfaces"), "Wireframe", LineWidth=4.0)
-    picture.colour(frames, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
+    for kind, look in (("Surface", {"Opacity": 0.8}), ("Wireframe", {"LineWidth": 4.0})):
+        shown = picture.draw(picture.read("interfaces"), kind, **look)
+        picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
     picture.legend = ["Joints by shear and torsion over what friction and cohesion carry of both; grey: no force."]
 
 
@@ -267,18 +256,6 @@ def _set(target: Any, **properties: Any) -> None:
     for name, value in properties.items():
         if hasattr(target, name):
             setattr(target, name, value)
-
-
-def _dot(a: list[float], b: list[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
-def _cross(a: list[float], b: list[float]) -> list[float]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _unit(a: list[float]) -> list[float]:
-    return [x / math.sqrt(_dot(a, a)) for x in a]
 
 
 def views_of(case: str) -> list[str]:

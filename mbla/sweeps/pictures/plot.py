@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import file_errors
 from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
-from mbla.results.pictures.page import Picture, write_pictures
+from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
 from mbla.sweeps.tables.read_table import JSON, read_sweep_table
@@ -122,7 +122,7 @@ def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = N
     return write_pictures(pictures, target, "sweep_", chosen.page.format, "--kind and --result")
 
 
-def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Picture]:
+def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[PictureFile]:
     """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
     if not len(table):
         raise UsageError("nothing-to-draw", "the sweep has no points to draw")
@@ -138,9 +138,8 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[Picture]:
             found += _class_maps(table, chosen)
     if not found:
         raise UsageError("nothing-to-draw", _nothing(views))
-    return [
-        Picture(_name(kind, view), partial(KINDS[kind].draw, view=view, options=chosen.page)) for kind, view in found
-    ]
+    draw = {kind: partial(KINDS[kind].draw, options=chosen.page) for kind, _ in found}
+    return [PictureFile(_name(kind, view), partial(draw[kind], view=view)) for kind, view in found]
 
 
 def _name(kind: str, view: View) -> str:

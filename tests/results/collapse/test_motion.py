@@ -26,7 +26,8 @@ from mbla.results.collapse.motion import (
     screws,
     vertex_displacements,
 )
-from mbla.results.pictures.scene import motion_as_drawn
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.record.scene import scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.vtu import write_frame_vtu
@@ -186,7 +187,7 @@ def test_a_support_that_gives_way_keeps_its_direction(finite_results: Results) -
 def test_pictures_and_frames_for_paraview_move_parts_together(finite_results: Results, tmp_path: Path) -> None:
     model, contacts, case = parts_of(finite_results)
     together = finite_motion(model, contacts, case)
-    assert motion_as_drawn(finite_results, case, 1.0) == pytest.approx(together)
+    assert picture_of(finite_results, case, PictureOptions(), "mechanism").motion == pytest.approx(together)
     write_frame_vtu(tmp_path / "frame.vtu", scene_of(finite_results, case), 1.0)
     moved = moved_vertices(model.blocks, together) - model.blocks.vertices
     found = meshio.read(tmp_path / "frame.vtu").point_data["displacement"]

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.notebook.display import Picture
 from mbla.results.notebook.run import Run
+from mbla.results.pictures.image import Picture
 from mbla.solution.solution import Status
 from tests.results.synthetic import tower_results
 

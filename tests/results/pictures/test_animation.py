@@ -108,14 +108,6 @@ def test_a_place_that_cannot_be_written(tmp_path: Path, results: Results) -> Non
 
 @needs_opengl
 @pytest.mark.usefixtures("short")
-def test_a_film_whose_name_is_taken_by_a_folder_is_not_written(tmp_path: Path, results: Results) -> None:
-    (tmp_path / "a.gif").mkdir()
-    with pytest.raises(FileError, match=r"a\.gif: Is a directory"):
-        write_animation(results, results.cases[0], tmp_path / "a.gif", SMALL)
-
-
-@needs_opengl
-@pytest.mark.usefixtures("short")
 def test_mp4_without_its_extra_says_what_to_install(
     tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 import pytest
 
 from mbla.errors import FileError, UsageError
+from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import (
     KINDS,
     USUAL_KINDS,
@@ -22,7 +24,7 @@ from mbla.results.pictures.options import (
     parse_view,
     picture_options,
 )
-from mbla.results.pictures.page import COLUMNS, add_legend, add_words, open_page
+from mbla.results.pictures.page import COLUMNS, add_words, open_page
 
 UInt8Array = npt.NDArray[np.uint8]
 WIDTH, HEIGHT = PictureOptions().size
@@ -68,18 +70,13 @@ def test_words_of_an_svg_are_text(tmp_path: Path) -> None:
     assert sum(node.tag.endswith("}image") for node in tree.iter()) == 1
 
 
-def test_pdf(tmp_path: Path) -> None:
-    path = tmp_path / "page.PDF"
-    write_page(path, IMAGE, WORDS, [])
-    assert path.read_bytes().startswith(b"%PDF-")
-
-
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
 def test_the_same_picture_gives_the_same_file(tmp_path: Path, suffix: str) -> None:
     paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
     for path in paths:
         write_page(path, IMAGE, WORDS, LEGEND)
     assert paths[0].read_bytes() == paths[1].read_bytes()
+    assert paths[0].read_bytes().startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF-"}[suffix])
 
 
 def test_long_words_stay_on_the_page(tmp_path: Path) -> None:
@@ -97,7 +94,7 @@ def test_other_formats_and_places_are_refused(tmp_path: Path) -> None:
         write_page(tmp_path / "missing" / "page.png", IMAGE, WORDS, LEGEND)
 
 
-# ---  ---------------------------------------------------------------------------------------------------------------
+# --- Options --------------------------------------------------------------------------------------------------------
 
 
 def arguments(**changes: object) -> Namespace:
@@ -105,24 +102,21 @@ def arguments(**changes: object) -> Namespace:
     return Namespace(**(texts | {"format": "png", "zoom": "auto", "output": None, "animate": None} | changes))
 
 
-def test_kinds_come_in_their_own_order() -> None:
-    assert parse_kinds("history, model") == ("model", "history")
-    assert parse_kinds("all") == KINDS
-
-
-def test_views_by_name_and_by_angle() -> None:
-    assert parse_view("auto") is None
-    assert parse_view("top") == VIEWS["top"]
-    assert parse_view("-60,25") == (-60.0, 25.0)
-
-
-def test_scale_and_size() -> None:
-    assert (parse_scale("auto"), parse_scale("0"), parse_scale("2.5")) == (1.0, 0.0, 2.5)
-    assert parse_size("800X500") == (800, 500)
-
-
-def test_more_dots_for_each_inch_are_more_pixels() -> None:
-    assert PictureOptions(size=(800, 500), dpi=300).pixels == (2400, 1500)
+@pytest.mark.parametrize(
+    ("parse", "text", "value"),
+    [
+        (parse_kinds, "history, model", ("model", "history")),
+        (parse_kinds, "all", KINDS),
+        (parse_view, "auto", None),
+        (parse_view, "top", VIEWS["top"]),
+        (parse_view, "-60,25", (-60.0, 25.0)),
+        (parse_scale, "auto", 1.0),
+        (parse_scale, "2.5", 2.5),
+        (parse_size, "800X500", (800, 500)),
+    ],
+)
+def test_options_as_texts(parse: Any, text: str, value: object) -> None:
+    assert parse(text) == value
 
 
 @pytest.mark.parametrize(
@@ -141,11 +135,12 @@ def test_more_dots_for_each_inch_are_more_pixels() -> None:
         (parse_size, "800", "width x height"),
         (parse_size, "10x10", "200 to 20000"),
         (parse_size, "800x500x3", "width x height"),
+        (lambda dpi: picture_options(arguments(dpi=int(dpi))), "0", "--dpi 0"),
     ],
 )
-def test_what_is_none_of_them_is_told(parse: object, text: str, told: str) -> None:
+def test_what_is_none_of_them_is_told(parse: Any, text: str, told: str) -> None:
     with pytest.raises(UsageError, match=told):
-        parse(text)  # type: ignore[operator]
+        parse(text)
 
 
 def test_a_file_is_that_of_the_mechanism(tmp_path: Path) -> None:
@@ -153,8 +148,3 @@ def test_a_file_is_that_of_the_mechanism(tmp_path: Path) -> None:
     assert picture_options(arguments(output=tmp_path)).kinds == USUAL_KINDS
     assert picture_options(arguments(output=Path("one.svg"))).kinds == ("mechanism",)
     assert picture_options(arguments(output=Path("one.svg"), kind="forces")).kinds == ("forces",)
-
-
-def test_dots_per_inch_have_limits() -> None:
-    with pytest.raises(UsageError, match="--dpi 0"):
-        picture_options(arguments(dpi=0))

@@ -14,7 +14,7 @@ from mbla.errors import FileError, UsageError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.page import CASES, HINGE
+from mbla.results.pictures.page import CASES
 from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.results import Results
 from mbla.results.write import write_outputs
@@ -52,25 +52,6 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     assert not list(tmp_path.glob("*.png"))
 
 
-@needs_opengl
-def test_pictures_show_the_structure_and_its_hinge(tmp_path: Path, results: Results) -> None:
-    paths = plot_results(results, tmp_path / "pictures", "tower", IN_SPACE)
-    assert [path.name for path in paths] == ["tower_push_x.png", "tower_fall.png"]
-    rocking, falling = map(pixels, paths)
-    assert rocking.shape == (1000, 1600, 3)
-    blue = (rocking[..., 2] - rocking[..., 0] > 60).sum()
-    assert blue > 10_000
-    assert near(rocking, HINGE) > 200
-    assert near(falling, HINGE) < 20
-
-
-@needs_opengl
-def test_one_file_for_one_case(tmp_path: Path, results: Results) -> None:
-    target = tmp_path / "mine.png"
-    assert plot_results(results, target, "tower", replace(IN_SPACE, case="push_x")) == [target]
-    assert target.stat().st_size > 5000
-
-
 def test_usual_pictures_by_name(tmp_path: Path, results: Results) -> None:
     paths = plot_results(results, tmp_path, "tower", PictureOptions(format="svg"))
     assert [path.name for path in paths] == [
@@ -93,16 +74,6 @@ def test_plane_figures_need_no_opengl(tmp_path: Path, results: Results, monkeypa
 def test_two_kinds_for_one_file_are_refused(tmp_path: Path, results: Results) -> None:
     with pytest.raises(UsageError, match="--kind"):
         plot_results(results, tmp_path / "mine.png", "tower", PictureOptions(case="push_x"))
-
-
-def test_one_file_for_two_cases_is_refused(tmp_path: Path, results: Results) -> None:
-    with pytest.raises(UsageError, match="--case"):
-        plot_results(results, tmp_path / "mine.png", "tower")
-
-
-def test_unknown_case_is_refused(tmp_path: Path, results: Results) -> None:
-    with pytest.raises(UsageError, match="push_x, fall"):
-        plot_results(results, tmp_path, "tower", PictureOptions(case="push_y"))
 
 
 def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:

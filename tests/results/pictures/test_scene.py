@@ -1,11 +1,50 @@
-"""What a scene knows of a case without a result."""
+"""What a scene knows of a case, and the shapes and places of a picture."""
 
 from dataclasses import replace
+from typing import Any
 
+import numpy as np
+import pytest
+
+from mbla.model.model import Model
+from mbla.results.pictures.geometry import block_edges, edges_of_blocks, front_axis, ground_slab
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
-from mbla.solution.solution import Status
-from tests.results.synthetic import tower_results
+from mbla.results.view3d.marks import hinge_axes, interface_sides
+from mbla.solution.solution import Standing, StandingResult, Status
+from tests.results.shapes import BRICK, TETRA, WEDGE, blocks_of
+from tests.results.synthetic import full_results, tower_contacts, tower_mechanics, tower_model, tower_results
+
+FORCES = tower_mechanics().contact_forces
+
+
+@pytest.mark.parametrize(
+    ("status", "solution", "told"),
+    [
+        (Status.UNBOUNDED, {"lock": FORCES}, "that balance the live load alone: any multiple of it is carried"),
+        (
+            Status.NOT_VERIFIED,
+            {"standing": StandingResult(Standing.YES, 0, "", FORCES, np.zeros((3, 6)))},
+            "under the dead load alone",
+        ),
+    ],
+)
+def test_forces_without_a_load_factor_are_told_as_such(status: Status, solution: dict[str, Any], told: str) -> None:
+    results = tower_results()
+    case = replace(results.cases[0], status=status)
+    case = replace(case, solution=replace(case.solution, mechanics=None, status=status, **solution))
+    scene = scene_of(results, case, PictureOptions(), "forces")
+    assert scene.forces is FORCES
+    assert scene.words_of("forces")[-1] == f"contact forces {told}; others may do so too"
+
+
+def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> None:
+    results = full_results()
+    scene = scene_of(results, results.cases[0], PictureOptions(), "forces")
+    settlement = scene.case.load_case.settlement
+    assert settlement is not None
+    assert scene.force_words == "contact forces under dead load as the support gives way"
+    assert not scene.dead_load[settlement.blocks].any()
 
 
 def test_how_unique_forces_are_is_asked_of_results_only() -> None:
@@ -14,7 +53,7 @@ def test_how_unique_forces_are_is_asked_of_results_only() -> None:
     solved = scene_of(results, results.cases[0], PictureOptions(), "forces")
     assert solved.force_freedom is not None
     stopped = scene_of(results, replace(results.cases[0], status=Status.NOT_VERIFIED), PictureOptions(), "forces")
-    assert stopped.forces[0] is not None
+    assert stopped.forces is not None
     assert stopped.force_freedom is None
     assert not any("one possible state" in line or "unique" in line for line in stopped.words_of("forces"))
 
@@ -22,7 +61,62 @@ def test_how_unique_forces_are_is_asked_of_results_only() -> None:
 def test_without_forces_there_are_no_lines_of_thrust() -> None:
     results = tower_results()
     falls = scene_of(results, results.cases[1], PictureOptions(), "forces")
-    assert falls.forces[0] is None
+    assert falls.forces is None
     assert falls.thrust is None
     assert falls.thrust_lines == []
-    assert falls.joint_use is None
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return tower_model()
+
+
+def test_every_edge_is_drawn_once() -> None:
+    blocks = blocks_of([TETRA, BRICK, WEDGE])
+    edges = block_edges(blocks)
+    assert len(edges) == 6 + 12 + 9
+    chosen = np.array([False, True, False])
+    assert len(edges_of_blocks(blocks, edges, chosen)) == 12
+
+
+def test_diagonals_inside_a_plane_are_not_drawn() -> None:
+    corners = BRICK[0]
+    faces = [[0, 3, 2], [0, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+    blocks = blocks_of([(corners, faces, 2.0)])
+    assert len(block_edges(blocks)) == 13
+    low = blocks.face_normals @ blocks.face_normals.T > 0.999
+    facets = np.array([int(np.flatnonzero(row)[0]) for row in low])
+    object.__setattr__(blocks, "facet_of_face", facets)
+    assert len(block_edges(blocks)) == 12
+
+
+def test_slab_lies_behind_the_ground(model: Model) -> None:
+    slab = ground_slab(model, tower_contacts(), 0, 10.0)
+    assert slab is not None
+    assert slab[:, 2].max() == pytest.approx(0)
+    assert slab[:, 2].min() == pytest.approx(-0.2)
+    assert slab[:, 0].min() < 4 < 5 < slab[:, 0].max()
+    assert ground_slab(model, tower_contacts(), 1, 10.0) is None
+
+
+def test_hinge_axis_joins_the_closed_corners() -> None:
+    chosen = np.array([False, True, True, False, False, False, False, True])
+    assert hinge_axes(tower_contacts(), chosen).tolist() == [[1, 2]]
+
+
+def test_sides_of_an_interface_close() -> None:
+    assert interface_sides(tower_contacts(), np.array([False, True])).tolist() == [[4, 5], [5, 6], [6, 7], [7, 4]]
+
+
+@pytest.mark.parametrize(
+    ("extents", "travel", "axis"),
+    [
+        ([4, 0.2, 3], [1, 0, 0.2], 1),
+        ([0.2, 4, 3], [0, 1, 0.2], 0),
+        ([4, 0.2, 3], [0, 1, 0.2], None),
+        ([4, 4, 3], [1, 0, 0], None),
+        ([4, 0.2, 3], [0, 0, 0], 1),
+    ],
+)
+def test_thin_structures_are_seen_from_the_front(extents: list[float], travel: list[float], axis: int | None) -> None:
+    assert front_axis(np.array(extents, float), np.array(travel, float)) == axis

@@ -238,11 +238,6 @@ def test_one_case_alone() -> None:
     assert "2 load cases of the deck not shown here" in page.one("section", id="results").text
 
 
-def test_no_such_case() -> None:
-    with pytest.raises(UsageError, match="no load case pull in the result; it has push_x, fall"):
-        report_html(tower_results(), "pull")
-
-
 def test_a_result_without_cases() -> None:
     page = page_of(replace(tower_results(), cases=()))
     assert "No load case was solved." in page.one("section", id="results").text
@@ -285,12 +280,6 @@ def test_an_earlier_report_is_replaced_as_a_whole(tmp_path: Path) -> None:
     assert write_report(tower_results(), path, view=False) == []
     assert path.read_text(encoding="utf-8") == report_html(tower_results(), view=False)[0]
     assert list(path.parent.iterdir()) == [path]
-
-
-def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(FileError, match="file"):
-        write_report(tower_results(), tmp_path / "file" / "a.html", view=False)
 
 
 def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, tables_of
 from mbla.solution.solution import Status
-from tests.results.synthetic import TOWER_WEIGHT, full_results, standing_at, tower_results
+from tests.results.synthetic import TOWER_WEIGHT, standing_at, tower_results
 
 
 @pytest.fixture(scope="module")
@@ -73,23 +73,6 @@ def test_numbers_of_the_tower(results: Results) -> None:
     assert reactions["reaction_z"].sum() == pytest.approx(2 * TOWER_WEIGHT)
 
 
-def test_columns_are_the_arrays_of_the_result(results: Results) -> None:
-    tables = tables_of(results, cases=["push_x"])
-    mechanics, contacts = results.cases[0].solution.mechanics, results.contacts
-    assert mechanics is not None
-    points = tables["points"]
-    assert np.array_equal(
-        np.column_stack([points[f"contact_forces_{name}"] for name in ("N", "T1", "T2")]), mechanics.contact_forces
-    )
-    velocities = np.column_stack([points[f"contact_velocities_{name}"] for name in ("N", "T1", "T2")])
-    assert np.array_equal(velocities, mechanics.contact_velocities)
-    assert np.array_equal(points["interface"], contacts.interface_of_point)
-    assert np.array_equal(tables["interfaces"]["areas"], contacts.areas)
-    assert points["point_areas"].sum() == pytest.approx(contacts.areas.sum())
-    assert np.array_equal(tables["blocks"]["volumes"], results.model.blocks.volumes)
-    assert tables["blocks"]["weights"].sum() == pytest.approx(results.model.total_weight)
-
-
 def test_units_are_those_of_the_deck(results: Results) -> None:
     changed = replace(results, model=replace(results.model, units=Units("mm", "kN", "t")))
     header = tables_of(changed)["interfaces"].header
@@ -114,13 +97,6 @@ def test_the_best_iterate_is_no_result(results: Results) -> None:
         assert set(tables[name]["figures"].tolist()) == {"best_iterate"}
 
 
-def test_a_result_is_no_best_iterate(results: Results) -> None:
-    tables = tables_of(results, cases=["push_x"])
-    assert tables["cases"]["load_factor"].tolist() == [0.5]
-    assert np.isnan(tables["cases"]["best_iterate_load_factor"]).all()
-    assert set(tables["points"]["figures"].tolist()) == {"result"}
-
-
 def test_without_equilibrium_there_is_the_motion_that_proves_it_and_nothing_else(results: Results) -> None:
     tables = tables_of(results, cases=["fall"])
     blocks, interfaces, points = (tables[name] for name in ("blocks", "interfaces", "points"))
@@ -138,19 +114,6 @@ def test_without_equilibrium_there_is_the_motion_that_proves_it_and_nothing_else
     assert tables["cases"]["status"].tolist() == ["no_equilibrium"]
     assert tables["cases"]["reason"].tolist() == ["the dead load cannot be carried"]
     assert len(tables["reactions"]) == 0
-
-
-def test_forces_that_lock_it_say_so() -> None:
-    full = full_results()
-    points = tables_of(unsolved(full, Status.UNBOUNDED), cases=["push_x"])["points"]
-    assert points["contact_forces_N"].tolist() == full.cases[0].solution.lock[:, 0].tolist()  # type: ignore[index]
-    assert set(points["figures"].tolist()) == {"lock"}
-
-
-def test_ranges_of_forces_stand_with_the_interfaces() -> None:
-    interfaces = tables_of(full_results(), cases=["push_x"])["interfaces"]
-    assert interfaces["force_ranges_lower"].tolist() == [0, 5]
-    assert interfaces["force_ranges_upper"].tolist() == [10, np.inf]
 
 
 def test_blocks_without_a_position_have_none(results: Results) -> None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 import pytest
 
 from mbla.errors import UsageError
+from mbla.results.pictures.page import WARNING
 from mbla.results.results import Results
 from mbla.results.view3d import view
 from mbla.results.view3d.view import library_html, page_html, view_html
@@ -30,7 +31,7 @@ def test_title_says_what_the_figure_is_worth(results: Results, status: Status) -
     title = text[: text.index("<script>")]
     words = {"not_verified": "NOT VERIFIED", "approximate": "approximate", "iteration_limit": "NOT SOLVED"}
     assert words.get(status.value, "0.5 g, verified") in title
-    assert (view.ALARM in title) == (status is not Status.SOLVED)
+    assert (WARNING in title) == (status is not Status.SOLVED)
 
 
 def test_no_text_of_a_deck_is_markup(results: Results) -> None:

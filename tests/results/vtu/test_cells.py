@@ -6,7 +6,7 @@ import pytest
 
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.results.vtu.cells import block_cells
-from tests.results.reading import read_vtk, vtk_volumes
+from tests.results.reading import vtk_volumes
 from tests.results.shapes import BRICK, PYRAMID, TETRA, WEDGE, blocks_of
 
 CORNERS_OF_A_CELL = {
@@ -52,11 +52,3 @@ def test_block_that_only_counts_like_a_brick_is_a_polyhedron() -> None:
     faces = [[3, 0, 4, 7], [0, 3, 2, 1], [4, 5, 6], [4, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]]
     blocks = blocks_of([(corners, faces, 1.0)])
     assert block_cells(blocks).cells[0][0] == "polyhedron"
-
-
-def test_vtk_reads_the_cell_types(tmp_path: Path) -> None:
-    blocks = blocks_of([TETRA, BRICK, WEDGE])
-    path = tmp_path / "blocks.vtu"
-    write_mesh(path, blocks.vertices, block_cells(blocks).cells)
-    grid = read_vtk(path)
-    assert [grid.GetCellType(i) for i in range(3)] == [10, 13, 12]

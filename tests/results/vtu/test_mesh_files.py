@@ -111,12 +111,6 @@ def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any)
     assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS)
 
 
-def test_blocks_have_the_volume_of_the_model_in_both_readers(arch: Any) -> None:
-    results, folder = arch
-    for name in ("blocks", "frame_000", "frame_001", "frame_002"):
-        assert vtk_volumes(folder / f"deck_push_{name}.vtu") == pytest.approx(results.model.blocks.volumes)
-
-
 def test_thrust_points_lie_inside_their_interfaces(arch: Any) -> None:
     """Between the two ends of each joint: intrados at radius 2 m, extrados at 2.6 m, or a little less on the chords."""
     scene, mesh = scene_and_mesh(arch, "push", "thrust")

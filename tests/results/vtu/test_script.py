@@ -118,6 +118,7 @@ def stand_in(seen: set[str]) -> dict[str, ModuleType]:
         "GetScalarBar",
         "GetAnimationScene",
         "Render",
+        "ResetCamera",
         "Delete",
         "SaveScreenshot",
         "SaveAnimation",

@@ -1,5 +1,6 @@
 """Files of blocks, contact points and interfaces, and the frames of an animation."""
 
+import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,11 +11,18 @@ import pytest
 
 from mbla.model.solids.blocks import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.motion import SHARE_OF_SIZE, movable_size
+from mbla.results.collapse.motion import SHARE_OF_SIZE, drawn_motion, movable_size, moved_vertices
 from mbla.results.record.blocks import names_of
-from mbla.results.record.scene import Scene
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.vtu import write_blocks_vtu, write_contacts_vtu, write_interfaces_vtu
+from mbla.results.vtu.vtu import (
+    collection_pvd,
+    frame_times,
+    write_blocks_vtu,
+    write_contacts_vtu,
+    write_frame_vtu,
+    write_interfaces_vtu,
+)
 from mbla.solution.solution import Status
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import tower_mechanics, tower_results
@@ -140,13 +148,6 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
     assert "modes" not in cells
 
 
-def test_forces_at_the_load_factor_go_before_those_that_lock(path: Path, results: Results) -> None:
-    solution = replace(results.cases[0].solution, lock=np.ones((8, 3)))
-    write_contacts_vtu(path, Scene(results.model, results.contacts, replace(results.cases[0], solution=solution)))
-    forces = tower_mechanics().contact_forces
-    assert meshio.read(path).point_data["normal_forces"] == pytest.approx(forces[:, 0])
-
-
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])}, -1)
     blocks = replace(results.model.blocks, labels=labels)
@@ -155,3 +156,33 @@ def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     assert data["members"] == [0, 2, 1]
     assert data["course"] == [0, 1, -1]
     assert "voussoir" not in data
+
+
+# --- Frames of an animation, and the collection that plays them -----------------------------------------------------
+
+
+def test_blocks_keep_their_volume_in_every_frame(tmp_path: Path, results: Results) -> None:
+    path = tmp_path / "frame.vtu"
+    for time in frame_times(4):
+        write_frame_vtu(path, scene_of(results, results.cases[0]), time)
+        assert vtk_volumes(path) == pytest.approx(results.model.blocks.volumes, rel=1e-12)
+
+
+def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Results) -> None:
+    path = tmp_path / "frame.vtu"
+    vertices = results.model.blocks.vertices
+    write_frame_vtu(path, scene_of(results, results.cases[0]), 0.0)
+    assert meshio.read(path).points == pytest.approx(vertices)
+    write_frame_vtu(path, scene_of(results, results.cases[0]), 1.0)
+    mesh = meshio.read(path)
+    moved = moved_vertices(results.model.blocks, drawn_motion(results.model, results.cases[0]))
+    assert mesh.points == pytest.approx(moved)
+    assert mesh.point_data["displacement"] == pytest.approx(moved - vertices)
+    assert np.abs(moved - vertices).max() > 0.1
+
+
+def test_collection_names_the_frames_in_order_whatever_they_are_called() -> None:
+    text = collection_pvd(['a & "b"_000.vtu', "b.vtu"], [0.0, 1.0])
+    entries = ElementTree.fromstring(text).findall("Collection/DataSet")
+    assert [entry.get("file") for entry in entries] == ['a & "b"_000.vtu', "b.vtu"]
+    assert [float(entry.get("timestep", "nan")) for entry in entries] == [0.0, 1.0]

@@ -10,7 +10,7 @@ from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.fragility import Fragility
-from mbla.sweeps.pictures.plot import SweepPictures, pictures_of, plot_sweep
+from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import TableFiles, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample
@@ -64,14 +64,6 @@ def test_kinds_suit_the_table() -> None:
 def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes: Any, told: str) -> None:
     with pytest.raises(UsageError, match=told):
         pictures_of(swept, SweepPictures(**changes))
-
-
-def test_the_same_picture_is_the_same_file(tmp_path: Path) -> None:
-    first, second = (
-        plot_sweep(drawn(), tmp_path / name, SweepPictures(("scatter",), page=SMALL))[0].read_bytes()
-        for name in ("a.svg", "b.svg")
-    )
-    assert first == second
 
 
 @pytest.fixture

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.model.model import LoadCase
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
+from mbla.results.pictures.key import add_axes, add_bar, add_legend
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
     CASES,
@@ -21,17 +22,16 @@ from mbla.results.pictures.page import (
     REST,
     SLIDE,
     THRUST,
-    add_legend,
     add_words,
     open_page,
     shade,
 )
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.joint_marks import draw_joint_marks
-from mbla.results.pictures.plane.load_arrows import draw_arrow_from, draw_loads
+from mbla.results.pictures.plane.load_arrows import draw_loads, draw_settlement
 from mbla.results.pictures.plane.sheet import (
+    STRIP,
     Sheet,
-    add_scale_bar,
     colours_by_group,
     colours_by_part,
     draw_blocks,
@@ -57,7 +57,7 @@ KEY = (1.0, 0.5, 0.1)
 
 def draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     """Resultants as short lines along the force, the wider and darker the larger; marks on eccentric ones."""
-    thrust, use = scene.thrust, scene.joint_use
+    thrust, use = scene.thrust, scene.torsion_use
     if thrust is None or use is None or not thrust.carried.any():
         return
     rows = np.flatnonzero(thrust.carried)
@@ -100,27 +100,20 @@ def _draw_thrust_lines(sheet: Sheet, flat: Flat, scene: Scene) -> None:
 
 def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, use: FloatArray) -> None:
     few = len(points) < 60
-    style = {"linewidths": 1.6, "zorder": 6}
-    outside = (eccentricity > MIDDLE_THIRD) & (eccentricity < EDGE)
-    look = {"linestyle": "none", "markersize": 9}
-    if outside.any():
-        sheet.dots(points[outside], 8.0 if few else 3.5, facecolors="white", edgecolors=HINGE, **style)
-        label = "outside the middle third"
-        sheet.name(label, marker="o", markerfacecolor="white", markeredgecolor=HINGE, **look)
-    edge = (eccentricity >= EDGE) & (eccentricity <= OUTSIDE)
-    if edge.any():
-        sheet.dots(points[edge], 9.0 if few else 4.5, facecolors=HINGE, edgecolors=INK, linewidths=0.8, zorder=6)
-        sheet.name("at the edge of the joint", marker="o", markerfacecolor=HINGE, markeredgecolor=INK, **look)
-    beyond = eccentricity > OUTSIDE
-    if beyond.any():
-        sheet.dots(points[beyond], 10.0 if few else 5.0, facecolors="white", edgecolors=HINGE, marker="D", **style)
-        sheet.name(OUTSIDE_WORDS, marker="D", markerfacecolor="white", markeredgecolor=HINGE, **look)
-    used = use >= USED
-    if used.any():
-        sheet.dots(
-            points[used], 7.0 if few else 3.5, facecolors=SLIDE, edgecolors=INK, linewidths=0.8, zorder=3.8, marker="s"
-        )
-        sheet.name("all friction used", marker="s", markerfacecolor=SLIDE, markeredgecolor=INK, **look)
+    for label, chosen, marker, face, edge, sizes, rim in (
+        ("outside the middle third", (eccentricity > MIDDLE_THIRD) & (eccentricity < EDGE), "o", "white", HINGE,
+         (8.0, 3.5), 1.6),
+        ("at the edge of the joint", (eccentricity >= EDGE) & (eccentricity <= OUTSIDE), "o", HINGE, INK,
+         (9.0, 4.5), 0.8),
+        (OUTSIDE_WORDS, eccentricity > OUTSIDE, "D", "white", HINGE, (10.0, 5.0), 1.6),
+        ("all friction used", use >= USED, "s", SLIDE, INK, (7.0, 3.5), 0.8),
+    ):  # fmt: skip
+        if chosen.any():
+            order = 3.8 if marker == "s" else 6  # below the forces
+            style = {"facecolors": face, "edgecolors": edge, "linewidths": rim, "marker": marker, "zorder": order}
+            sheet.dots(points[chosen], sizes[0] if few else sizes[1], **style)
+            look = {"marker": marker, "markerfacecolor": face, "markeredgecolor": edge}
+            sheet.name(label, linestyle="none", markersize=9, **look)
 
 
 # --- A plane figure of one case: model, mechanism or forces ---------------------------------------------------------
@@ -147,8 +140,10 @@ def draw_plane(path: Path, scene: Scene, flat: Flat, kind: str, options: Picture
         KIND_DRAWN_BY[kind](sheet, flat, scene)
         above = add_words(page, scene.words_of(kind), scene.mark_of(kind))
         below = add_legend(page, list(sheet.handles.values()))
-        metres = lay_out(sheet, above, below)
-        add_scale_bar(sheet, metres, below, scene.model.units.length, _axis_names(flat) if kind == "model" else None)
+        metres, level = lay_out(sheet, above, below), below + 0.42 * STRIP
+        add_bar(page, metres, scene.model.units.length, 0.03, level)
+        if kind == "model":
+            add_axes(page, _axis_names(flat), np.eye(2), 0.22, level - 0.012)
 
 
 def _axis_names(flat: Flat) -> tuple[str, str]:
@@ -164,33 +159,32 @@ def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_group(sheet, scene), scene.model.blocks.vertices)
     case = scene.case.load_case
     draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
-    cases = {each.load_case.deck_name: each.load_case for each in scene.shown_cases}
-    for row, (name, _) in enumerate(cases.items()):
-        for each in scene.shown_cases:
-            if each.load_case.deck_name == name:
-                colour = CASES[row % len(CASES)]
-                label = f"live load {name}" if len(cases) > 1 else "live load"
-                _draw_live_load(sheet, flat, scene.with_case(each), label, colour, named=row < MOST_CASES)
+    cases: dict[str, list[LoadCase]] = {}
+    for each in scene.shown_cases:
+        cases.setdefault(each.load_case.deck_name, []).append(each.load_case)
+    for row, (name, together) in enumerate(cases.items()):
+        label, before = f"live load {name}" if len(cases) > 1 else "live load", set(sheet.handles)
+        for each_case in together:
+            _draw_live_load(sheet, flat, scene, each_case, label, CASES[row % len(CASES)], len(together))
+        if row >= MOST_CASES:
+            for unnamed in set(sheet.handles) - before:
+                del sheet.handles[unnamed]
 
 
-def _draw_live_load(sheet: Sheet, flat: Flat, scene: Scene, label: str, colour: str, named: bool = True) -> None:
-    """The live load, of a vehicle its axles, or the way that a support gives."""
-    case, before = scene.case.load_case, set(sheet.handles)
-    if case.settlement is None:
-        together = [each for each in scene.shown_cases if each.load_case.deck_name == case.deck_name]
-        many = case.travel is not None and len(together) > 1
-        words = (f"{len(together)} positions",) if many else case.live_words
-        draw_loads(sheet, flat, scene, case.live_load, words, label, colour, None if many else case.travel)
-    else:
-        settlement = case.settlement
-        way = flat.project(settlement.motions[:, :3]).mean(axis=0)
-        label = f"{label.replace('live load', '').strip()} {settlement.words}".strip()
-        if way.any():
-            draw_arrow_from(sheet, flat, scene, settlement.blocks, way, colour)
-        sheet.name(label, color=colour, linewidth=3.0, marker=">", markersize=9)
-    if not named:
-        for name in set(sheet.handles) - before:
-            del sheet.handles[name]
+def _draw_live_load(
+    sheet: Sheet, flat: Flat, scene: Scene, case: LoadCase, label: str, colour: str, positions: int = 1
+) -> None:
+    """The live load, of a vehicle its axles, or the way that a support gives.
+
+    positions : of a travelling load that are drawn together
+    """
+    if case.settlement is not None:
+        label = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()
+        draw_settlement(sheet, flat, scene, case.settlement, label, colour)
+        return
+    many = case.travel is not None and positions > 1
+    words = (f"{positions} positions",) if many else case.live_words
+    draw_loads(sheet, flat, scene, case.live_load, words, label, colour, None if many else case.travel)
 
 
 def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
@@ -201,14 +195,14 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     case = scene.case.load_case
     if scene.mechanics is None and scene.case.solution.certificate is not None:
         draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
-    _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
+    _draw_live_load(sheet, flat, scene, case, "live load", LIVE_LOAD)
 
 
 def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     colours = [FIXED_BLOCK if fixed else REST for fixed in scene.model.fixed]
     draw_blocks(sheet, flat, scene, colours, scene.model.blocks.vertices)
     draw_forces(sheet, flat, scene)
-    _draw_live_load(sheet, flat, replace(scene, shown_cases=()), "live load", LIVE_LOAD)
+    _draw_live_load(sheet, flat, scene, scene.case.load_case, "live load", LIVE_LOAD)
 
 
 KIND_DRAWN_BY = {"model": _draw_model, "mechanism": _draw_mechanism, "forces": _draw_forces}

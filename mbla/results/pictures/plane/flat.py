@@ -140,20 +140,10 @@ def seen_edges(blocks: Blocks, flat: Flat, edges: IntArray) -> IntArray:
     return edges[front[edges].all(axis=1)]
 
 
-@dataclass(frozen=True)
-class FlatJoints:
-    """Interfaces as segments of the page: places of their two ends among the contact points.
-
-    ends : (n_interfaces, 2) rows of ``contacts.points``, the lowest and highest along the joint
-    """
-
-    ends: IntArray
-
-
-def flat_joints(contacts: Contacts, flat: Flat) -> FlatJoints:
-    """The farthest contact points of each interface along its trace on the page."""
+def joint_ends(contacts: Contacts, flat: Flat) -> IntArray:
+    """The farthest contact points of each interface along its trace on the page, rows of points (n_interfaces, 2)."""
     owner = contacts.interface_of_point
     trace = np.cross(contacts.normals, flat.towards)
     place = np.einsum("ij,ij->i", contacts.points - contacts.centroids[owner], trace[owner])
     order = np.lexsort((place, owner))
-    return FlatJoints(np.column_stack([order[contacts.point_start[:-1]], order[contacts.point_start[1:] - 1]]))
+    return np.column_stack([order[contacts.point_start[:-1]], order[contacts.point_start[1:] - 1]])

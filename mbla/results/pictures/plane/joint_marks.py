@@ -6,10 +6,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
-from mbla.results.collapse.motion import moved_points
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.pictures.page import HINGE, INK, OPEN, SLIDE
-from mbla.results.pictures.plane.flat import Flat, flat_joints
+from mbla.results.pictures.plane.flat import Flat, joint_ends
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
 
@@ -36,7 +35,7 @@ def draw_joint_marks(sheet: Sheet, flat: Flat, scene: Scene) -> None:
 
 def _draw_gaps(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
     """The space between both sides of joints that open, hatched; where they crush, what overlaps, dotted."""
-    ends = flat_joints(scene.contacts, flat).ends
+    ends = joint_ends(scene.contacts, flat)
     velocities = _end_velocities(scene, joints, ends)
     speeds = np.einsum("ijk,ik->ij", velocities, scene.contacts.normals)
     least = CRUSHES * float(np.linalg.norm(velocities, axis=2).max(initial=0.0))
@@ -82,7 +81,7 @@ def _draw_hinges(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion
     hinges = np.flatnonzero(joints.modes == InterfaceMode.HINGE)
     if not len(hinges):
         return
-    centres = flat.project(_moved(scene, hinges, joints.hinge_points[hinges]))
+    centres = flat.project(scene.between(hinges, joints.hinge_points[hinges]))
     outward = curvature_sides(scene.model, scene.contacts)[hinges]
     offset = joints.hinge_points[hinges] - scene.contacts.centroids[hinges]
     along = np.einsum("ij,ij->i", offset, outward)
@@ -122,24 +121,12 @@ def _arrowed(scene: Scene, chosen: IntArray) -> IntArray:
     return np.array(sorted(kept), dtype=np.int64)
 
 
-def _moved(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
-    """Points of interfaces as moved, in the middle between both bodies, (n, 3)."""
-    blocks, total = scene.model.blocks, np.zeros_like(points)
-    for side in (0, 1):
-        owners = scene.contacts.bodies[interfaces, side]
-        own = owners < len(blocks)
-        moved = points.copy()
-        moved[own] = moved_points(blocks, scene.motion, owners[own], points[own])
-        total += moved / 2
-    return total
-
-
 def _draw_sliding(sheet: Sheet, flat: Flat, scene: Scene, joints: InterfaceMotion) -> None:
     """Two arrows along a sliding joint, each on the side of the body that slips that way; the joint itself thick."""
     chosen = np.flatnonzero(np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST)))
     if not len(chosen):
         return
-    ends = flat_joints(scene.contacts, flat).ends
+    ends = joint_ends(scene.contacts, flat)
     middle = (scene.contact_sides[0] + scene.contact_sides[1]) / 2
     first, last = flat.project(middle[ends[chosen, 0]]), flat.project(middle[ends[chosen, 1]])
     sheet.lines(np.stack([first, last], axis=1), 3.0, SLIDE, zorder=3.5, capstyle="butt")

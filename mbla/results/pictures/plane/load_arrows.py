@@ -7,25 +7,27 @@ import textwrap
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.model import TravelPosition
+from mbla.model.model import Settlement, TravelPosition
 from mbla.results.collapse.motion import moved_points
-from mbla.results.pictures.load_marks import BESIDE, OFF_PATH, LoadMarks, load_marks
+from mbla.results.pictures.load_marks import (
+    FEW,
+    LONGEST,
+    OFF_PATH,
+    LoadMarks,
+    arrow_steps,
+    axles_near,
+    load_marks,
+    settlement_arrow,
+)
 from mbla.results.pictures.page import pale
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
 
-LONGEST, SHORTEST = 0.12, 0.03
-"""of arrows, over the size of the structure"""
-LONGEST_OF_MANY, MANY = 0.04, 24
-"""the same of more forces than that, which would cover the structure and each other"""
-FEW = 4
-"""forces up to which arrows are thick"""
 ROUNDING = 1e-9
-"""share of the single forces across the page below which their sum is none"""
-COLUMNS = 90
-"""letters in a line of a load in the legend"""
-MOST_LINES = 3
+"""share of the single forces across the page below which their sum is none, and of arrows that cannot be seen"""
+COLUMNS, LINES = 90, 3
+"""letters and lines of a load in the legend"""
 
 
 def draw_loads(
@@ -43,16 +45,32 @@ def draw_loads(
     travel : the vehicle among them, whose axles are drawn one by one
     """
     marks = load_marks(scene.model, loads, words, travel)
-    drawn = _draw_forces(sheet, flat, scene, marks, colour)
+    tips = moved_points(scene.model.blocks, scene.motion, marks.blocks, marks.tips)
+    drawn = _draw_arrows(sheet, flat, tips, marks.forces, marks, colour)
     drawn |= _draw_moments(sheet, flat, scene, marks, colour)
-    drawn |= _draw_acceleration(sheet, flat, scene, marks, colour)
+    pull = flat.project(marks.acceleration[None])[0]
+    if marks.uniform and pull.any():
+        _draw_arrow_beside(sheet, flat, scene, np.flatnonzero(marks.accelerated), pull, colour)
+        drawn = True
     text = f"{name}: {'; '.join(words)}" if words else name
-    text = textwrap.fill(text, COLUMNS, max_lines=MOST_LINES, placeholder=" ...")
+    text = textwrap.fill(text, COLUMNS, max_lines=LINES, placeholder=" ...")
     if drawn:
-        sheet.name(text, color=colour, linewidth=3.0, marker=">", markersize=9)
-        _draw_beside(sheet, flat, scene, marks, pale(colour))
+        sheet.name_arrow(text, colour)
+        near = axles_near(marks, scene.model.blocks.vertices, sheet.size)
+        if _draw_arrows(sheet, flat, marks.beside[near], marks.beside_forces[near], marks, pale(colour)):
+            sheet.name_arrow(OFF_PATH, pale(colour))
     elif loads[scene.model.free].any():
         _draw_across(sheet, flat, scene, loads, text, colour)
+
+
+def draw_settlement(sheet: Sheet, flat: Flat, scene: Scene, settlement: Settlement, label: str, colour: str) -> None:
+    """One thick arrow away from what gives way, if it moves along the page, and its name."""
+    way = settlement.motions[:, :3].mean(axis=0)
+    if flat.project(way[None]).any():
+        chosen = np.isin(scene.model.blocks.block_of_vertex, settlement.blocks)
+        start, step = settlement_arrow(scene.moved[chosen], way, sheet.size)
+        sheet.arrows(flat.project((start + step)[None]), flat.project(step[None]), 4.5, colour, 7)
+    sheet.name_arrow(label, colour)
 
 
 def _draw_across(sheet: Sheet, flat: Flat, scene: Scene, loads: FloatArray, text: str, colour: str) -> None:
@@ -68,54 +86,26 @@ def _draw_across(sheet: Sheet, flat: Flat, scene: Scene, loads: FloatArray, text
     sheet.name(f"{text} ({way})", color=colour, linestyle="none", marker=sign, markersize=14)
 
 
-def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> bool:
-    if not len(marks.blocks):
+def _draw_arrows(sheet: Sheet, flat: Flat, tips: FloatArray, forces: FloatArray, marks: LoadMarks, colour: str) -> bool:
+    """Arrows that end at points, (n, 3) m, in one scale for the load; whether any is seen."""
+    steps = flat.project(arrow_steps(forces, marks.largest, sheet.size))
+    if np.linalg.norm(steps, axis=1).max(initial=0.0) <= ROUNDING * sheet.size:
         return False
-    tips = moved_points(scene.model.blocks, scene.motion, marks.blocks, marks.tips)
-    return _draw_arrows(sheet, flat, tips, marks.forces, _largest(flat, marks), colour)
-
-
-def _draw_beside(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> None:
-    """Axles of a vehicle off its path, pale; those further off than half the structure's size would shrink it."""
-    points = flat.project(marks.beside)
-    drawn = np.vstack(sheet.drawn)
-    reach = BESIDE * sheet.size
-    near = np.all((points > drawn.min(axis=0) - reach) & (points < drawn.max(axis=0) + reach), axis=1)
-    if near.any():
-        _draw_arrows(sheet, flat, marks.beside[near], marks.beside_forces[near], _largest(flat, marks), colour)
-        sheet.name(OFF_PATH, color=colour, linewidth=3.0, marker=">", markersize=9)
-
-
-def _largest(flat: Flat, marks: LoadMarks) -> float:
-    """Of all forces and axles as they are seen."""
-    return float(np.linalg.norm(flat.project(np.vstack([marks.forces, marks.beside_forces])), axis=1).max(initial=0.0))
-
-
-def _draw_arrows(sheet: Sheet, flat: Flat, tips: FloatArray, forces: FloatArray, largest: float, colour: str) -> bool:
-    """Arrows that end at points, by the sizes of their forces over the largest; whether any is seen."""
-    steps = flat.project(forces)
-    sizes = np.linalg.norm(steps, axis=1, keepdims=True)
-    if not sizes.any():
-        return False
-    longest = LONGEST if len(tips) <= MANY else LONGEST_OF_MANY
-    length = np.maximum(longest * sizes / largest, min(SHORTEST, longest / 2) * (sizes > 0)) * sheet.size
-    width = 3.0 if len(tips) <= FEW else 1.4
-    unit = steps / np.where(sizes > 0, sizes, 1.0)
-    sheet.arrows(flat.project(tips), length * unit, width, colour, 7, thin=len(tips) > FEW)
+    thin = len(tips) > FEW
+    sheet.arrows(flat.project(tips), steps, 1.4 if thin else 3.0, colour, 7, thin=thin)
     return True
 
 
 def _draw_moments(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> bool:
     """Three quarters of a circle about the centroid, the way the moment turns."""
+    blocks, rows = scene.model.blocks, marks.moment_blocks
     senses = np.sign(marks.moments @ flat.towards)
-    centres = moved_points(
-        scene.model.blocks, scene.motion, marks.moment_blocks, scene.model.blocks.centroids[marks.moment_blocks]
-    )
+    centres = moved_points(blocks, scene.motion, rows, blocks.centroids[rows])
     angles = np.linspace(0, 1.5 * np.pi, 40)
-    for centre, sense, block in zip(flat.project(centres), senses, marks.moment_blocks, strict=True):
+    for centre, sense, block in zip(flat.project(centres), senses, rows, strict=True):
         if sense == 0:
             continue
-        radius = min(0.3 * float(scene.model.blocks.sizes[block]), LONGEST * sheet.size)
+        radius = min(0.3 * float(blocks.sizes[block]), LONGEST * sheet.size)
         arc = centre + radius * np.column_stack([np.cos(sense * angles), np.sin(sense * angles)])
         sheet.lines(arc[None], 2.4, colour, zorder=7)
         last = arc[-1] - arc[-2]
@@ -124,27 +114,7 @@ def _draw_moments(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colo
     return bool(np.any(senses != 0))
 
 
-def _draw_acceleration(sheet: Sheet, flat: Flat, scene: Scene, marks: LoadMarks, colour: str) -> bool:
-    """One arrow outside the structure that points to the centre of what it accelerates."""
-    pull = flat.project(marks.acceleration[None])[0]
-    if not marks.uniform or not pull.any():
-        return False
-    return _draw_arrow_beside(sheet, flat, scene, np.flatnonzero(marks.accelerated), pull, colour)
-
-
-def draw_arrow_from(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray, way: FloatArray, colour: str) -> None:
-    """One thick arrow from the box around some blocks as moved, away from their middle."""
-    chosen = np.isin(scene.model.blocks.block_of_vertex, blocks)
-    points = flat.project(scene.moved[chosen])
-    unit = way / np.linalg.norm(way)
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    with np.errstate(divide="ignore"):
-        reach = float(np.min(np.ptp(points, axis=0) / 2 / np.abs(unit)))
-    step = LONGEST * sheet.size * unit
-    sheet.arrows((middle + (reach + 0.01 * sheet.size) * unit + step)[None], step[None], 4.5, colour, 7)
-
-
-def _draw_arrow_beside(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray, pull: FloatArray, colour: str) -> bool:
+def _draw_arrow_beside(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray, pull: FloatArray, colour: str) -> None:
     """One thick arrow towards the middle of some blocks: before the box around everything drawn so far if these are all
     that have a mass, else before the box around them.
     """
@@ -161,4 +131,3 @@ def _draw_arrow_beside(sheet: Sheet, flat: Flat, scene: Scene, blocks: IntArray,
         sides = np.where(unit > 0, (centre - low) / unit, np.where(unit < 0, (centre - high) / unit, np.inf))
     tip = centre - float(sides.min()) * unit
     sheet.arrows(tip[None], LONGEST * sheet.size * unit[None], 4.5, colour, 7)
-    return True

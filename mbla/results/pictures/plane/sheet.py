@@ -10,11 +10,10 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.collapse.motion import moved_points
-from mbla.results.listing.text import counted
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.page import FIXED_BLOCK, GHOST, GROUND, GROUPS, INK, REST, Page, group_colours
 from mbla.results.pictures.plane.flat import Flat, face_polygons, seen_edges
-from mbla.results.pictures.scene import Scene, tint_of_part
+from mbla.results.pictures.scene import Scene, named_groups, part_colours, tint_of_part
 
 HEAD = 0.3
 """length of an arrow's head over that of the arrow"""
@@ -98,6 +97,10 @@ class Sheet:
             style["linewidth"] = self.width(style["linewidth"])
         self.handles.setdefault(label, self.page.line(label, **style))
 
+    def name_arrow(self, label: str, colour: str) -> None:
+        """An entry of the legend: an arrow."""
+        self.name(label, color=colour, linewidth=3.0, marker=">", markersize=9)
+
     def name_area(self, label: str, **style: Any) -> None:
         """An entry of the legend: a filled box."""
         self.handles.setdefault(label, self.page.box(label, **style))
@@ -128,45 +131,12 @@ def lay_out(sheet: Sheet, above: float, below: float) -> float:
     return metres
 
 
-def add_scale_bar(sheet: Sheet, metres_per_inch: float, below: float, unit: str, names: tuple[str, str] | None) -> None:
-    """A bar of a round length in the strip at the left; beside it the axes, if named."""
-    page = sheet.page
-    wide, high = page.figure.get_figwidth(), page.figure.get_figheight()
-    length = round_length(0.14 * wide * metres_per_inch)
-    share = length / metres_per_inch / wide
-    left, level = 0.03, below + 0.42 * STRIP
-    line, style = page.parts.lines.Line2D, {"color": INK, "linewidth": sheet.width(2.0)}
-    page.figure.add_artist(line([left, left + share], [level, level], **style))
-    for x in (left, left + share):
-        page.figure.add_artist(line([x, x], [level - 0.008, level + 0.008], **style))
-    words = {"color": INK, "fontsize": 0.85 * page.letter, "parse_math": False}
-    page.figure.text(left + share / 2, level + 0.012, f"{length:g} {unit}", ha="center", va="bottom", **words)
-    if names is None:
-        return
-    start, arm = left + share + 0.05, 0.055 * wide
-    for name, (x, y) in zip(names, ((1.0, 0.0), (0.0, 0.8)), strict=True):
-        tip = (start + arm * x / wide, level - 0.008 + arm * y / high * 0.8)
-        arrow = {"arrowstyle": "-|>", "color": INK, "linewidth": sheet.width(1.5), "shrinkA": 0, "shrinkB": 0}
-        page.figure.text(tip[0] + 0.006, tip[1], name, ha="left", va="center", **words)
-        sheet.axes.annotate(
-            "", tip, (start, level - 0.008), xycoords="figure fraction", arrowprops=arrow, annotation_clip=False
-        )
-
-
-def round_length(length: float) -> float:
-    """The largest of 1, 2 or 5 times a power of ten that is no longer."""
-    power = 10.0 ** np.floor(np.log10(length))
-    return float(max(step for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9)) * power)
-
-
 # --- Blocks, their outlines, the ghost of the structure at rest and the ground, in a plane figure -------------------
 
 
 FIXED_HATCH, GUIDE_HATCH = "////", "oo"
 MANY = 300
 """blocks from which outlines are thinner"""
-MOST_GROUPS = 12
-"""groups that the legend names"""
 MOST_NUMBERS = 20
 """parts whose numbers are written on them"""
 
@@ -230,29 +200,24 @@ def draw_ghost(sheet: Sheet, flat: Flat, scene: Scene) -> None:
 
 def colours_by_group(sheet: Sheet, scene: Scene) -> list[str]:
     """Colour of each block by its group, and the groups in the legend."""
-    blocks = scene.model.blocks
-    of_group = group_colours(blocks.groups)
-    for name, colour in list(of_group.items())[:MOST_GROUPS]:
+    of_group = group_colours(scene.model.blocks.groups)
+    named, more = named_groups(of_group)
+    for name, colour in named:
         sheet.name_area(name, facecolor=colour, edgecolor=INK, linewidth=0.5)
-    if len(of_group) > MOST_GROUPS:
-        sheet.name(f"and {counted(len(of_group) - MOST_GROUPS, 'more group')}", linestyle="none")
-    return [of_group[name] for name in blocks.groups]
+    if more:
+        sheet.name(more, linestyle="none")
+    return [of_group[name] for name in scene.model.blocks.groups]
 
 
 def colours_by_part(sheet: Sheet, scene: Scene) -> list[str]:
     """Colour of each block by the part that it moves with; fixed ones grey."""
-    fixed, parts = scene.model.fixed, scene.clusters
-    count = int(parts.max(initial=0))
-    few = count <= len(GROUPS)
-    tints = tint_of_part(scene, parts, len(GROUPS))
-    colours = [
-        FIXED_BLOCK if fixed[b] else GROUPS[tints[part]] if part else REST for b, part in enumerate(parts.tolist())
-    ]
-    if count and np.any((parts == 0) & ~fixed):
+    count = int(scene.clusters.max(initial=0))
+    tints = tint_of_part(scene, scene.clusters, len(GROUPS))
+    if count and np.any((scene.clusters == 0) & ~scene.model.fixed):
         sheet.name_area("at rest", facecolor=REST, edgecolor=INK, linewidth=0.5)
-    for part in range(1, count + 1 if few else 1):
+    for part in range(1, count + 1 if count <= len(GROUPS) else 1):
         sheet.name_area(f"part {part}", facecolor=GROUPS[tints[part]], edgecolor=INK, linewidth=0.5)
-    return colours
+    return part_colours(scene, GROUPS)
 
 
 def number_parts(sheet: Sheet, flat: Flat, scene: Scene) -> None:

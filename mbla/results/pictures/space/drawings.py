@@ -8,8 +8,8 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.motion import largest_displacements
 from mbla.results.collapse.thrust import OUTSIDE, Thrust
 from mbla.results.listing.text import counted, number
-from mbla.results.pictures.page import FIXED_BLOCK, GHOST, PURPLE, REST, SKY, THRUST, group_colours
-from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, tint_of_part
+from mbla.results.pictures.page import FIXED_BLOCK, GHOST, PURPLE, REST, SKY, THRUST, group_colours, pale
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, named_groups, part_colours
 from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.loads import all_load_arrows, live_load_arrows
 from mbla.results.pictures.space.shapes import (
@@ -18,39 +18,26 @@ from mbla.results.pictures.space.shapes import (
     Drawing,
     Faces,
     Shape,
-    block_faces,
-    edge_lines,
     ghost_lines,
-    grounds,
     interface_faces,
     rgb,
     rods,
+    structure,
 )
-
-MOST_GROUPS = 10
-"""names of groups in a legend"""
 
 
 def model_drawing(scene: Scene) -> Drawing:
     """The structure at rest with everything that holds and loads it."""
     blocks, fixed = scene.model.blocks, scene.results.model.fixed
     tint = group_colours(blocks.groups)
-    colours = np.array([rgb(tint[group]) for group in blocks.groups])
-    colours[fixed] = rgb(FIXED_BLOCK)
-    solid: list[Shape] = [*grounds(scene), block_faces(scene, blocks.vertices, colours)]
-    solid.append(edge_lines(scene, blocks.vertices))
-    free_groups = dict.fromkeys(group for group, held in zip(blocks.groups, fixed, strict=True) if not held)
-    names = list(free_groups)
-    legend = [(name, tint[name]) for name in names[:MOST_GROUPS]]
-    notes = (f"and {counted(len(names) - MOST_GROUPS, 'more group')}",) if len(names) > MOST_GROUPS else ()
-    if fixed.any():
-        legend.append(("fixed blocks", FIXED_BLOCK))
-    if scene.slabs:
-        legend.append(("ground", SLAB))
+    colours = [FIXED_BLOCK if held else tint[group] for group, held in zip(blocks.groups, fixed, strict=True)]
+    free = {group for group, held in zip(blocks.groups, fixed, strict=True) if not held}
+    legend, more = named_groups({group: colour for group, colour in tint.items() if group in free})
+    legend += [("fixed blocks", FIXED_BLOCK)] * bool(fixed.any()) + [("ground", SLAB)] * bool(scene.slabs)
     marks, entries = all_load_arrows(scene)
-    legend += entries
+    solid = structure(scene, blocks.vertices, colours)
     extent = np.vstack([blocks.vertices, *scene.slabs, *(shape.points for shape in marks)])
-    return Drawing(tuple(solid), tuple(marks), 0.5, extent, tuple(legend), notes=notes)
+    return Drawing(solid, tuple(marks), 0.5, extent, tuple(legend + entries), notes=(more,) * bool(more))
 
 
 # --- Forces in space ------------------------------------------------------------------------------------------------
@@ -77,10 +64,8 @@ def forces_drawing(scene: Scene) -> Drawing:
     """Forces of the case at its load factor; where no load factor exists, those that lock the structure; else none."""
     thrust = scene.thrust
     vertices = scene.model.blocks.vertices
-    colours = np.tile(rgb(REST), (len(scene.model.blocks), 1))
-    colours[scene.model.fixed] = rgb(FIXED_BLOCK)
-    solid: list[Shape] = [*grounds(scene), block_faces(scene, vertices, 0.5 + 0.5 * colours)]
-    solid.append(edge_lines(scene, vertices, "#777777"))
+    colours = [pale(FIXED_BLOCK, 0.5) if fixed else pale(REST, 0.5) for fixed in scene.model.fixed]
+    solid = structure(scene, vertices, colours, "#777777")
     marks: list[Shape] = []
     legend: list[tuple[str, str]] = []
     notes: tuple[str, ...] = ()
@@ -102,7 +87,7 @@ def forces_drawing(scene: Scene) -> Drawing:
     if scene.model.fixed.any():
         legend.append(("support", FIXED_BLOCK))
     extent = np.vstack([vertices, *scene.slabs, *(shape.points for shape in loads)])
-    return Drawing(tuple(solid), tuple(marks + loads), 0.85, extent, tuple(legend), scale, notes)
+    return Drawing(solid, tuple(marks + loads), 0.85, extent, tuple(legend), scale, notes)
 
 
 def ramp(values: FloatArray) -> FloatArray:
@@ -193,8 +178,9 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None, seen: FloatArra
     moving = moving_blocks(widest)
     legend: list[tuple[str, str]] = []
     notes: tuple[str, ...] = ()
-    solid: list[Shape] = [*grounds(scene), block_faces(scene, scene.moved, part_colours(widest, moving))]
-    solid.append(edge_lines(scene, scene.moved))
+    still = [FIXED_BLOCK if fixed else REST for fixed in scene.model.fixed]
+    coloured = zip(part_colours(widest, PARTS), still, moving, strict=True)
+    solid = list(structure(scene, scene.moved, [own if moves else rest for own, rest, moves in coloured]))
     marks: list[Shape] = []
     if moving.any():
         solid.append(ghost_lines(scene, moving))
@@ -219,17 +205,6 @@ def moving_blocks(scene: Scene) -> BoolArray:
     """Blocks that are drawn away from their place, (n_blocks,)."""
     distance = largest_displacements(scene.model.blocks, scene.motion)
     return np.asarray(distance > STILL * distance.max(initial=0.0))
-
-
-def part_colours(scene: Scene, moving: BoolArray) -> FloatArray:
-    """Colour of each block, (n_blocks, 3): stone at rest, grey if fixed, else by the part of the listing it is in."""
-    colours = np.tile(rgb(REST), (len(moving), 1))
-    if moving.any():
-        tints = np.array([rgb(tint) for tint in PARTS])[tint_of_part(scene, scene.clusters, len(PARTS))]
-        chosen = moving & (scene.clusters > 0)
-        colours[chosen] = tints[scene.clusters[chosen]]
-    colours[scene.model.fixed & ~moving] = rgb(FIXED_BLOCK)
-    return colours
 
 
 def _parts_note(scene: Scene) -> tuple[str, ...]:

@@ -13,7 +13,6 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.collapse import Failure
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
-from mbla.results.collapse.motion import moved_points
 from mbla.results.listing.text import counted
 from mbla.results.pictures.page import CRUSH, HINGE, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
@@ -124,7 +123,7 @@ def _notes(failure: Failure, told: Told, thin: int) -> tuple[str, ...]:
 
 def hinge_ends(scene: Scene, joints: InterfaceMotion, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Both ends of hinges as moved, (n, 3) m each; one and the same about a corner."""
-    first, last = (moved_at_interface(scene, rows, joints.hinge_ends[rows, end]) for end in (0, 1))
+    first, last = (scene.between(rows, joints.hinge_ends[rows, end]) for end in (0, 1))
     return first, last
 
 
@@ -146,18 +145,6 @@ def hinge_threads(scene: Scene, joints: InterfaceMotion, rows: IntArray) -> Line
 def weights(sizes: FloatArray) -> FloatArray:
     """Thickness of marks, 1 for what moves most; they stay visible where it moves little."""
     return np.asarray(np.clip(np.sqrt(sizes / (sizes.max(initial=0.0) or 1.0)), THINNEST, 1.0))
-
-
-def moved_at_interface(scene: Scene, rows: IntArray, points: FloatArray) -> FloatArray:
-    """Points of interfaces, (n, 3) m, midway between where body a and where body b takes them."""
-    total = np.zeros_like(points)
-    for side in (0, 1):
-        owners = scene.contacts.bodies[rows, side]
-        block = owners < len(scene.model.blocks)
-        moved = points.copy()
-        moved[block] = moved_points(scene.model.blocks, scene.motion, owners[block], points[block])
-        total += moved / 2
-    return total
 
 
 def slide_arrows(scene: Scene, clusters: IntArray, joints: InterfaceMotion, told: Told, radius: float) -> list[Faces]:
@@ -183,12 +170,12 @@ def slide_arrows(scene: Scene, clusters: IntArray, joints: InterfaceMotion, told
     straight = (joints.modes[every] == InterfaceMode.SLIDE) & (length[every] > 0)
     rows, radii = every[straight], thick[straight]
     if len(rows):
-        middle = moved_at_interface(scene, rows, contacts.centroids[rows])
+        middle = scene.between(rows, contacts.centroids[rows])
         half = travel[rows] / length[rows, None] * (0.4 * np.sqrt(contacts.areas[rows]) + 4 * radius)[:, None]
         shapes.append(arrows(middle - half, middle + half, radii, np.tile(rgb(SLIDE), (len(rows), 1))))
     rows = every[joints.modes[every] == InterfaceMode.TWIST]
     if len(rows):
-        middle = moved_at_interface(scene, rows, contacts.centroids[rows])
+        middle = scene.between(rows, contacts.centroids[rows])
         axes = np.sign(spin[rows])[:, None] * contacts.normals[rows]
         shapes.append(turning_arrows(middle, axes, 0.35 * np.sqrt(contacts.areas[rows]), 0.7 * radius, rgb(SLIDE)))
     return shapes

@@ -13,7 +13,7 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.results.pictures.geometry import front_axis
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
-from mbla.results.pictures.scene import Scene, motion_as_drawn
+from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.space.camera import Panel, fitted, focus_of, panels_of
 from mbla.results.pictures.space.drawings import forces_drawing, mechanism_drawing, model_drawing, moving_blocks
 from mbla.results.pictures.space.joints import joint_marks
@@ -176,6 +176,6 @@ def view_of_case(scene: Scene) -> tuple[float, float]:
     key = (id(scene.results.model), id(scene.case))
     held, view = _VIEWS.get(key, (None, (0.0, 0.0)))
     if held is None or held() is not scene.case:
-        view = best_view(replace(scene, motion=motion_as_drawn(scene.results, scene.case, 1.0)))
+        view = best_view(scene.moved_to(1.0))
         _VIEWS[key] = weakref.ref(scene.case, lambda _: _VIEWS.pop(key, None)), view
     return view

@@ -9,7 +9,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.results.pictures.geometry import block_edges, edges_of_blocks
+from mbla.results.pictures import page
+from mbla.results.pictures.geometry import SLAB_FACES, block_edges, edges_of_blocks
 from mbla.results.pictures.page import GHOST, INK
 from mbla.results.pictures.scene import Scene
 
@@ -57,11 +58,13 @@ class Lines:
 
 
 Shape = Faces | Lines
+Entries = list[tuple[str, str]]
+"""names of a legend with their colours"""
 
 
 def rgb(colour: str) -> FloatArray:
     """Red, green and blue from 0 to 1 of ``#rrggbb``, (3,)."""
-    return np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
+    return np.array(page.rgb(colour))
 
 
 def painted(points: FloatArray, start: IntArray, loops: IntArray, colour: str, lit: bool = True) -> Faces:
@@ -215,20 +218,19 @@ class Drawing:
 MANY = 400
 """blocks from which edges are drawn thinner, and of the ghost only the outline"""
 SLAB = "#C4C4C4"
-SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
-"""of a box whose corners are ordered with the first coordinate fastest"""
+
+
+def structure(scene: Scene, points: FloatArray, colours: Sequence[str], ink: str = INK) -> tuple[Shape, ...]:
+    """Ground, blocks and their edges at given places of their vertices, (n_vertices, 3) m, a colour for each block."""
+    width = 1.5 if len(scene.model.blocks) < MANY else 1.0
+    edges = Lines(points, block_edges(scene.model.blocks), ink, width)
+    return *grounds(scene), block_faces(scene, points, np.array([rgb(colour) for colour in colours])), edges
 
 
 def block_faces(scene: Scene, points: FloatArray, colours: FloatArray, lit: bool = True) -> Faces:
     """Blocks at given places of their vertices, (n_vertices, 3) m, with the colour of each block, (n_blocks, 3)."""
     blocks = scene.model.blocks
     return Faces(points, blocks.loop_start, blocks.loops, colours[blocks.block_of_face], lit=lit)
-
-
-def edge_lines(scene: Scene, points: FloatArray, colour: str = INK, opacity: float = 1.0) -> Lines:
-    """Edges of all blocks."""
-    width = 1.5 if len(scene.model.blocks) < MANY else 1.0
-    return Lines(points, block_edges(scene.model.blocks), colour, width, opacity)
 
 
 def ghost_lines(scene: Scene, moving: BoolArray) -> Lines:

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from mbla.model.model import Settlement
+from mbla.results.pictures.key import round_length
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.page import CASES, HINGE, LIVE_LOAD, OPEN, THRUST, rgb
 from mbla.results.pictures.plane.draw import draw_forces
-from mbla.results.pictures.plane.sheet import round_length
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Mechanics, Standing, StandingResult, Status
+from mbla.solution.solution import Mechanics, Status
 from tests.results.pictures.plane.sheets import OPTIONS, drawn_alone
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks
 from tests.results.synthetic import full_model, tower_results
@@ -61,16 +61,6 @@ def test_model_names_groups_supports_and_loads(tmp_path: Path) -> None:
     assert expected <= set(texts)
     assert "live load push_x: acceleration (1, 0, 0) g on all blocks" in texts
     assert "live load fall: acceleration (1, 0, 0) g on all blocks" in texts
-
-
-def test_model_of_one_case_shows_its_load_alone(tmp_path: Path) -> None:
-    results = tower_results()
-    path = tmp_path / "one.svg"
-    options = PictureOptions(case="push_x")
-    draw_picture(path, scene_of(results, results.cases[0], options, "model"), "model", options)
-    svg = path.read_text()
-    assert "live load: acceleration" in svg
-    assert CASES[1].lower() not in svg.lower()
 
 
 def test_loads_across_the_page_say_which_way(tmp_path: Path) -> None:
@@ -122,17 +112,6 @@ def test_forces_have_a_key(tmp_path: Path) -> None:
     texts, _ = drawn(tmp_path, "forces")
     assert {"11.2 N", "5.59 N", "1.12 N"} <= set(texts)
     assert "at the edge of the joint" in texts
-
-
-def test_lock_forces_are_told_as_such(tmp_path: Path) -> None:
-    results = tower_results()
-    forces = mechanics_of(results).contact_forces
-    solution = replace(results.cases[0].solution, mechanics=None, status=Status.UNBOUNDED, lock=forces)
-    case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
-    texts, _ = drawn(tmp_path, "forces", results, case)
-    assert (
-        "contact forces that balance the live load alone: any multiple of it is carried; others may do so too" in texts
-    )
 
 
 @pytest.mark.parametrize(
@@ -197,17 +176,6 @@ def test_far_from_the_origin_and_in_other_units_the_figure_is_the_same(tmp_path:
 @pytest.mark.parametrize(("length", "bar"), [(1.0, 1.0), (1.99, 1.0), (4.9, 2.0), (7.0, 5.0), (0.03, 0.02), (1e4, 1e4)])
 def test_the_scale_bar_has_a_round_length(length: float, bar: float) -> None:
     assert round_length(length) == pytest.approx(bar)
-
-
-def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> None:
-    results = tower_results()
-    model = full_model(results.model)
-    settled = next(case for case in model.load_cases if case.settlement is not None)
-    case = replace(results.cases[0], load_case=settled)
-    drawing = scene_of(replace(results, model=model), case, PictureOptions(), "forces")
-    assert drawing.forces[1] == "contact forces under dead load as the support gives way"
-    assert settled.settlement is not None
-    assert not drawing.dead_load[settled.settlement.blocks].any()
 
 
 def test_what_crushes_is_no_opening(tmp_path: Path) -> None:
@@ -294,18 +262,6 @@ def test_without_mechanism_and_motion_the_figure_says_that_it_is_at_rest(tmp_pat
     texts, _ = drawn(tmp_path, "mechanism", results, still)
     assert "drawn at rest: there is no mechanism" in texts
     assert not {"before it moves", "hinge", "opening", "part 1"} & set(texts)
-
-
-def test_forces_of_the_dead_load_alone_are_told_as_such(tmp_path: Path) -> None:
-    """Found when it was asked whether the structure stands; others may do so too."""
-    results = tower_results()
-    case = results.cases[1]
-    found = StandingResult(Standing.YES, 0, "", mechanics_of(results).contact_forces, np.zeros((3, 6)))
-    case = replace(case, solution=replace(case.solution, standing=found), status=Status.NOT_VERIFIED)
-    texts, _ = drawn(tmp_path, "forces", results, case)
-    assert "contact forces under the dead load alone; others may do so too" in texts
-    assert {"11.2 N", "5.59 N", "1.12 N"} <= set(texts)
-    assert "NOT VERIFIED: no result" in texts
 
 
 # --- Marks on the forces of a plane figure --------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import pytest
 
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.plane.flat import Flat, face_polygons, flat_joints, flat_of, seen_edges
+from mbla.results.pictures.plane.flat import Flat, face_polygons, flat_of, joint_ends, seen_edges
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
 from tests.results.synthetic import cuboids, tower_results
@@ -128,6 +128,6 @@ def test_outlines_and_edges() -> None:
 
 def test_joints_end_at_their_farthest_points() -> None:
     shown = scene()
-    ends = flat_joints(shown.contacts, flat()).ends
+    ends = joint_ends(shown.contacts, flat())
     assert sorted(shown.contacts.points[ends[0], 0]) == [0, 1]
     assert sorted(shown.contacts.points[ends[1], 0]) == [4, 5]

@@ -9,11 +9,11 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.model import TravelPosition
-from mbla.results.pictures.load_marks import OFF_PATH
+from mbla.results.pictures.load_marks import LONGEST, LONGEST_OF_MANY, MANY, OFF_PATH
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import LIVE_LOAD, open_page
 from mbla.results.pictures.plane.flat import flat_of
-from mbla.results.pictures.plane.load_arrows import LONGEST, LONGEST_OF_MANY, MANY, draw_loads
+from mbla.results.pictures.plane.load_arrows import draw_loads
 from mbla.results.pictures.plane.sheet import Sheet, new_sheet
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import Results

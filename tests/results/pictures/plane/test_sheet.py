@@ -14,7 +14,6 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GROUPS, open_page
 from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.plane.sheet import (
-    MOST_GROUPS,
     MOST_NUMBERS,
     Sheet,
     colours_by_group,
@@ -23,22 +22,9 @@ from mbla.results.pictures.plane.sheet import (
     new_sheet,
     number_parts,
 )
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import MOST_GROUPS, Scene, scene_of
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import horizontal_contacts
-
-
-@pytest.mark.parametrize("count", [0, 2])
-def test_nothing_to_draw_leaves_no_artist_and_takes_no_room(tmp_path: Path, count: int) -> None:
-    points = np.array([[0.0, 0.0], [1.0, 2.0]])[:count]
-    paths = points[:, None] + np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]])
-    with open_page(tmp_path / "page.svg", PictureOptions()) as page:
-        sheet = new_sheet(page, 1.0)
-        sheet.areas(list(paths))
-        sheet.lines(paths, 1.0, "#000000")
-        sheet.dots(points, 3.0, color="#000000")
-        sheet.arrows(points, points + 1.0, 1.0, "#000000", 1.0)
-        assert len(sheet.axes.collections) == len(sheet.drawn) == (5 if count else 0)
 
 
 def test_an_arrow_without_length_is_left_out(tmp_path: Path) -> None:
@@ -95,7 +81,7 @@ def test_several_parts_have_their_numbers_on_them(tmp_path: Path, count: int, nu
 
 def test_parts_at_rest_have_no_numbers(tmp_path: Path) -> None:
     shown = scene(2)
-    still = replace(shown, motion=np.zeros_like(shown.motion))
+    still = replace(shown, drawn=np.zeros_like(shown.motion))
     flat = flat_of(still, OPTIONS)
     assert flat is not None
     with empty_sheet(tmp_path, still) as sheet:

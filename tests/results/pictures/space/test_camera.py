@@ -108,4 +108,4 @@ def test_the_focus_is_what_moves_before_and_after() -> None:
     moving = (scene.clusters > 0)[scene.model.blocks.block_of_vertex]
     assert len(focus) == 2 * moving.sum()
     assert np.abs(focus[moving.sum() :] - scene.moved[moving]).max() == 0
-    assert focus_of(replace(scene, motion=np.zeros_like(scene.motion))) is None
+    assert focus_of(replace(scene, drawn=np.zeros_like(scene.motion))) is None

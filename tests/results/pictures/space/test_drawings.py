@@ -14,7 +14,7 @@ from mbla.results.pictures.page import PURPLE, SLIDE, THRUST
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of, tint_of_part
 from mbla.results.pictures.space import can_draw
 from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.drawings import MOST_GROUPS, PARTS, forces_drawing, mechanism_drawing, model_drawing
+from mbla.results.pictures.space.drawings import PARTS, forces_drawing, mechanism_drawing, model_drawing
 from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.picture import USUAL, best_view, draw_in_space
 from mbla.results.pictures.space.renderer import Renderer
@@ -76,11 +76,6 @@ def test_a_force_outside_its_joint_is_drawn_at_the_edge() -> None:
     assert rod.points[:, 0].max() < 1.2
 
 
-def test_where_every_force_is_drawn_only_the_largest_is_told() -> None:
-    drawing = forces_drawing(scene(column_of_blocks(0.5, 0.5), "forces"))
-    assert drawing.notes == ("section of rods in proportion to the force, largest 8 N",)
-
-
 @pytest.mark.parametrize("kind", ["model", "mechanism", "forces"])
 def test_supports_and_ground_are_named_where_there_are_any(kind: str) -> None:
     """A column on a fixed block, blocks on the ground, and the tower, which has both."""
@@ -101,15 +96,6 @@ def test_without_ground_there_is_no_slab() -> None:
     assert isinstance(faces, Faces)
     assert faces.ground
     assert lines.points[:, 2].max() == pytest.approx(0.0)
-
-
-@pytest.mark.parametrize(("more", "told"), [(1, "and 1 more group"), (2, "and 2 more groups")])
-def test_of_many_groups_the_others_are_counted(more: int, told: str) -> None:
-    drawing = model_drawing(scene(row_of_blocks(MOST_GROUPS + more), "model"))
-    names = [name for name, _ in drawing.legend]
-    assert names[:MOST_GROUPS] == [f"group {i + 1}" for i in range(MOST_GROUPS)]
-    assert f"group {MOST_GROUPS + 1}" not in names
-    assert drawing.notes == (told,)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -151,7 +137,7 @@ def test_of_many_blocks_the_ghost_is_an_outline(count: int) -> None:
     tower = scene(tower_results(), "mechanism")
     lower = np.array([[float(i), 0, 0] for i in range(count)])
     blocks = cuboids(lower, lower + 1, ["bar"] * count)
-    shown = replace(tower, results=replace(tower.results, model=replace(tower.results.model, blocks=blocks)))
+    shown = replace(tower, model=replace(tower.model, blocks=blocks))
     lines = ghost_lines(shown, np.ones(count, dtype=bool))
     assert len(lines.pairs) == (12 * count if count <= MANY else 4 * count + 8)
 
@@ -169,9 +155,9 @@ def flattened(axis: int) -> Scene:
     motion = shown.motion
     if axis == 1:
         vertices, motion = vertices[:, [1, 0, 2]], motion[:, [1, 0, 2, 4, 3, 5]] * np.array([1, 1, 1, -1, -1, 1])
-    model = shown.results.model
+    model = shown.model
     turned = replace(model, blocks=replace(model.blocks, vertices=vertices))
-    return replace(shown, results=replace(shown.results, model=turned), motion=motion)
+    return replace(shown, model=turned, drawn=motion)
 
 
 @pytest.mark.parametrize(("axis", "view"), [(0, (-90.0, 0.0)), (1, (0.0, 0.0))])
@@ -180,7 +166,7 @@ def test_what_is_thin_is_seen_from_the_front(axis: int, view: tuple[float, float
 
 
 def test_what_does_not_move_is_seen_as_usual() -> None:
-    still = replace(scene(tower_results(), "mechanism"), motion=np.zeros((3, 6)))
+    still = replace(scene(tower_results(), "mechanism"), drawn=np.zeros((3, 6)))
     assert best_view(still) == USUAL
 
 

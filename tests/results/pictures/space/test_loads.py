@@ -8,10 +8,11 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Settlement
+from mbla.results.pictures.load_marks import LONGEST, OFF
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import CASES, DEAD_LOAD, SETTLEMENT
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.loads import LONGEST, SHARE_OF_BLOCK, all_load_arrows, live_load_arrows
+from mbla.results.pictures.space.loads import SHARE_OF_BLOCK, all_load_arrows, live_load_arrows
 from mbla.results.pictures.space.shapes import Faces, Shape, rgb
 from tests.results.synthetic import tower_results
 
@@ -94,13 +95,13 @@ def test_a_moment_is_a_ring_about_the_centroid_that_turns_its_way(sense: float) 
 
 
 def test_a_settlement_is_an_arrow_from_what_gives_way() -> None:
-    """Down from the middle of the brick."""
+    """Down from below the brick."""
     sinks = case(settlement=settlement([0, 0, -2, 0, 0, 0]))
     shapes, entries = live_load_arrows(scene(sinks))
     assert entries == [("settlement of 1 block", SETTLEMENT)]
-    points = only(shapes, SETTLEMENT)
-    assert points[:, 2].max() == pytest.approx(0.25)
-    assert points[:, 2].min() == pytest.approx(0.25 - LONGEST * scene(sinks).size)
+    points, size = only(shapes, SETTLEMENT), scene(sinks).size
+    assert points[:, 2].max() == pytest.approx(-OFF * size)
+    assert points[:, 2].min() == pytest.approx(-(OFF + LONGEST) * size)
     assert points[:, :2].mean(axis=0) == pytest.approx([4.5, 0.5])
 
 

@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from mbla.results.pictures.space.shapes import SIDES, Faces, arrows, balls, rods, together, turning_arrows
+from mbla.results.pictures.space.shapes import SIDES, Faces, arrows, rods, turning_arrows
 
 
 def volume(faces: Faces) -> float:
@@ -37,17 +37,6 @@ def test_arrows_end_at_their_tips_and_are_thickest_behind_them() -> None:
     widest = first[np.argmax(np.hypot(first[:, 0], first[:, 1]))]
     assert 1.0 < widest[2] < 2.0
     assert len(faces.colours) == len(faces.start) - 1
-
-
-def test_balls_and_rods_become_one_shape() -> None:
-    ball = balls(np.array([[1.0, 1.0, 1.0]]), np.array([0.5]), GREY)
-    assert np.linalg.norm(ball.points - 1.0, axis=1) == pytest.approx(np.full(len(ball.points), 0.5))
-    both = together([ball, rods(np.zeros((1, 3)), np.ones((1, 3)), np.array([0.1]), GREY)])
-    assert both.start[-1] == len(both.loops)
-    assert both.loops.max() == len(both.points) - 1
-    assert volume(both) == pytest.approx(
-        volume(ball) + volume(rods(np.zeros((1, 3)), np.ones((1, 3)), np.array([0.1]), GREY))
-    )
 
 
 def test_a_rod_without_length_has_no_volume_and_no_nan() -> None:

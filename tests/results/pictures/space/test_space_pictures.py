@@ -26,7 +26,6 @@ from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.picture import draw_in_space, images_of, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Faces, Lines, painted, rgb
-from mbla.results.pictures.space.sheet import round_length
 from mbla.results.results import Results
 from mbla.solution.solution import Status
 from tests.line import BLOCK, case_of, line_of
@@ -111,7 +110,7 @@ def test_what_is_told_in_the_legend_is_what_there_is(results: Results) -> None:
     falling = [name for name, _ in mechanism_drawing(scene(results, "mechanism", 1)).legend]
     assert "hinge" not in falling
     assert "before" in falling
-    still = replace(scene(results, "mechanism"), motion=np.zeros((3, 6)))
+    still = replace(scene(results, "mechanism"), drawn=np.zeros((3, 6)))
     assert not {"before", "hinge"} & {name for name, _ in mechanism_drawing(still).legend}
 
 
@@ -124,7 +123,7 @@ def test_of_many_parts_those_that_touch_have_different_tints(results: Results) -
     """Parts 1, 2 and one beyond the number of tints; the first touches both others, which touch nothing else."""
     tower = scene(results, "mechanism")
     neighbours = replace(tower.contacts, bodies=np.array([[0, 1], [0, 2]]))
-    apart = replace(tower, results=replace(results, contacts=neighbours))
+    apart = replace(tower, contacts=neighbours)
     tints = tint_of_part(apart, np.array([1, 2, len(PARTS) + 1]), len(PARTS))
     assert tints[1] != tints[2]
     assert tints[1] != tints[len(PARTS) + 1]
@@ -338,8 +337,3 @@ def test_the_structure_is_the_same_size_in_every_unit(results: Results, tmp_path
         with Renderer([shapes], ()) as renderer:
             images.append(renderer.image(fitted(shapes.points, -60.0, 25.0, 1.6), 160, 100, 0.0))
     assert np.abs(images[0] - images[1]).mean() < 0.005
-
-
-@pytest.mark.parametrize(("most", "length"), [(0.99, 0.5), (1.0, 1.0), (4.9, 2.0), (5.0, 5.0), (1234.0, 1000.0)])
-def test_scale_bars_have_round_lengths(most: float, length: float) -> None:
-    assert round_length(most) == pytest.approx(length)

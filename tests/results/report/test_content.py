@@ -1,11 +1,12 @@
-"""Residuals of a report with their tolerances: judged exactly as the verification judges them."""
+"""What a report says: residuals judged exactly as the verification judges them, lines of the listing as blocks."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from mbla.results.report.content import FAILED, NOT_JUDGED, PASSED, checks_of
+from mbla.results.listing.text import entry, heading, sentence, table
+from mbla.results.report.content import FAILED, NOT_JUDGED, PASSED, Block, blocks_of, checks_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
 from mbla.solution.verification.residuals import Residuals
@@ -64,3 +65,36 @@ def test_every_tolerance_has_its_row() -> None:
     renamed = {"live_power": "deviation_of_the_live_power", "gap": "gap_of_the_bounds"}
     assert {renamed.get(name, name) for name in tolerances("associative")} <= names
     assert set(tolerances("associative")) <= set(Checks.__dataclass_fields__)
+
+
+# --- Lines of the listing as blocks of a page -----------------------------------------------------------------------
+
+
+def test_a_sentence_with_a_colon_is_the_caption_of_its_table() -> None:
+    lines = ["", *sentence("Hinges:"), *table(["interface", "at"], [["a/b", "1"], ["c/d", "2"]])]
+    assert blocks_of(lines) == [Block("table", "Hinges", (("a/b", "1"), ("c/d", "2")), ("interface", "at"), 1)]
+
+
+def test_tables_that_follow_each_other_stay_apart() -> None:
+    first, second = table(["a"], [["1"]]), table(["a"], [["1"]])
+    assert len(blocks_of([*first, *second])) == 2
+
+
+def test_entries_gather_and_take_their_details_along() -> None:
+    lines = [*entry("status", "solved"), *entry("stands", "yes"), *sentence("of itself", "    "), *entry("  x", "1")]
+    assert blocks_of(lines) == [Block("entries", rows=(("status", "solved"), ("stands", "yes\nof itself"), ("x", "1")))]
+
+
+def test_wrapped_lines_are_one_again() -> None:
+    words = "word " * 60 + "end"
+    assert blocks_of(sentence(words)) == [Block("paragraph", words)]
+    assert blocks_of(entry("name", words)) == [Block("entries", rows=(("name", words),))]
+
+
+def test_cells_that_the_listing_shortens_are_whole() -> None:
+    long = "block" * 30
+    assert blocks_of(table(["name", "x"], [[long, "1"]])) == [Block("table", "", ((long, "1"),), ("name", "x"), 1)]
+
+
+def test_headings_and_lines_of_no_element() -> None:
+    assert blocks_of([*heading("Model"), "  plain", ""]) == [Block("title", "Model"), Block("paragraph", "plain")]
