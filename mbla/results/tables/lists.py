@@ -1,16 +1,16 @@
-"""Tables of what there is to list: programs, iterations, load path, reactions, travelling loads, notices."""
+"""Tables of what there is to list: programs, iterations, load path, reactions, travelling loads, notices.
+
+A source of such a table is a list of items, a row each.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import replace
-from functools import partial
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import TravelPosition
 from mbla.results.collapse.mechanics import Reaction, reactions_of
 from mbla.results.outcome import notices_of
 from mbla.results.record.quantity import STORED, Kind, Quantity, UnitKind, real
@@ -20,31 +20,30 @@ from mbla.results.series import Series, factor_of, position_of, series_of
 from mbla.results.tables.table import TableColumn, TableKind, case_scenes, described
 
 
+def each(name: str, words: str, get: Callable[[Any], Any], kind: Kind = "text", unit: UnitKind = "1") -> TableColumn:
+    """A column with what an item has, row by row."""
+
+    def values(items: Sequence[Any]) -> Values:
+        found = [get(item) for item in items]
+        return as_text(found) if kind == "text" else np.array(found)
+
+    return TableColumn(name, kind, unit, words, values)
+
+
 def _list_table(name: str, words: str) -> TableKind:
     """A table of the records that a solution lists under one name, as the result file has them."""
 
-    def values(quantity: Quantity, case: CaseResult) -> Values:
-        column = [getattr(record, quantity.name) for record in getattr(case.solution, name)]
-        return as_text([str(value) for value in column]) if quantity.kind == "text" else np.array(column)
+    def items(_: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[tuple[CaseResult, Any]]]:
+        return [[(case, record) for record in getattr(case.solution, name)] for case in cases]
 
-    def case_name(case: CaseResult) -> Values:
-        return as_text([case.load_case.name] * len(getattr(case.solution, name)))
+    def column(quantity: Quantity) -> TableColumn:
+        ((_, called, unit),) = quantity.components()
+        as_told = str if quantity.kind == "text" else lambda value: value
+        return each(called, quantity.words, lambda item: as_told(getattr(item[1], quantity.name)), quantity.kind, unit)
 
-    held = [quantity for quantity in STORED if quantity.place == f"cases/*/{name}"]
-    columns = [column for quantity in held for column in described(quantity, partial(values, quantity))]
-    return TableKind(name, words, (texts("case", "load case", case_name), *columns), lambda _, cases: cases)
-
-
-def texts(name: str, words: str, of: Callable[[Any], Values]) -> TableColumn:
-    """A column of text."""
-    return TableColumn(name, "text", "1", words, of)
-
-
-def numbers(
-    name: str, words: str, of: Callable[[Any], Values], unit: UnitKind = "1", kind: Kind = "float"
-) -> TableColumn:
-    """A column of numbers."""
-    return TableColumn(name, kind, unit, words, of)
+    held = [column(quantity) for quantity in STORED if quantity.place == f"cases/*/{name}"]
+    case = each("case", "load case", lambda item: item[0].load_case.name)
+    return TableKind(name, words, (case, *held), items)
 
 
 PROGRAMS = _list_table("programs", "each program that was solved for a load case")
@@ -52,120 +51,83 @@ ITERATIONS = _list_table("iterations", "each iteration of each program")
 PATH = _list_table("path", "each step of the load path that was followed")
 
 
-# --- reactions ----------------------------------------------------------------------------------------------------
-
-
-def _reactions(scene: Scene) -> tuple[Reaction, ...]:
+def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[tuple[Scene, CaseResult, Reaction]]]:
     """Of supports, then of guides, in the order of the listing."""
-    if scene.mechanics is None or scene.case is None:
-        return ()
-    return reactions_of(scene.model, scene.contacts, scene.case.load_case, scene.mechanics)
-
-
-def _wrenches(scene: Scene) -> Values:
-    return np.array([reaction.wrench for reaction in _reactions(scene)]).reshape(-1, 6)
+    for scene, case in zip(case_scenes(results, cases), cases, strict=True):
+        if scene.mechanics is not None:
+            found = reactions_of(scene.model, scene.contacts, case.load_case, scene.mechanics)
+            yield [(scene, case, reaction) for reaction in found]
 
 
 REACTIONS = TableKind(
     "reactions",
     "each support of the structure at collapse, for each load case with forces",
     (
-        texts(
-            "case",
-            "load case",
-            lambda scene: as_text([scene.case.load_case.name for _ in _reactions(scene)]),
-        ),
-        texts("support", "ground, block, group or guide", lambda s: as_text([r.support for r in _reactions(s)])),
-        texts("figures", FIGURES_TOLD.words, lambda scene: as_text([scene.figures for _ in _reactions(scene)])),
+        each("case", "load case", lambda item: item[1].load_case.name),
+        each("support", "ground, block, group or guide", lambda item: item[2].support),
+        each("figures", FIGURES_TOLD.words, lambda item: item[0].figures),
         *described(
-            real(
-                "reaction",
-                "force on the structure, and its moment about the origin",
-                "load",
-                "component",
-            ),
-            _wrenches,
+            real("reaction", "force on the structure, and its moment about the origin", "load", "component"),
+            lambda items: np.array([reaction.wrench for *_, reaction in items]).reshape(-1, 6),
         ),
     ),
-    case_scenes,
+    _reactions,
 )
 
 
-# --- travelling loads ---------------------------------------------------------------------------------------------
-
-
-def _positions(series: Series) -> list[TravelPosition]:
-    return [position_of(case) for case in series.cases]
-
-
-def _series(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[tuple[Results, Series]]:
+def _positions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[tuple[Results, Series, CaseResult]]]:
     """Positions of the cases asked for; the worst is that of all."""
     names = {case.load_case.name for case in cases}
     for series in series_of(results.cases):
-        chosen = tuple(case for case in series.cases if case.load_case.name in names)
-        if chosen:
-            yield results, replace(series, cases=chosen)
+        yield [(results, series, case) for case in series.cases if case.load_case.name in names]
 
 
-def _block_names(source: tuple[Results, Series]) -> Values:
-    results, series = source
-    carrying = [int(position.blocks[0]) for position in _positions(series)]
-    return as_text([results.model.blocks.name(block) if block >= 0 else "" for block in carrying])
+def _block(item: tuple[Results, Series, CaseResult]) -> str:
+    block = int(position_of(item[2]).blocks[0])
+    return item[0].model.blocks.name(block) if block >= 0 else ""
 
 
-def _axles(source: tuple[Results, Series]) -> Values:
-    places = [position.distances.tolist() for position in _positions(source[1])]
-    return as_text([" ".join(f"{place:.9g}" for place in row) for row in places])
+def _axles(item: tuple[Results, Series, CaseResult]) -> str:
+    return " ".join(f"{place:.9g}" for place in position_of(item[2]).distances.tolist())
 
 
 SERIES = TableKind(
     "series",
     "each position of each travelling load",
     (
-        texts("series", "load case of the deck", lambda source: as_text([source[1].name] * len(source[1].cases))),
-        texts("case", "load case", lambda source: as_text([case.load_case.name for case in source[1].cases])),
-        numbers(
-            "position",
-            "number of the position, from 1",
-            lambda source: np.array([p.number for p in _positions(source[1])]),
-            kind="int",
-        ),
-        numbers(
-            "count",
-            "positions on the path",
-            lambda source: np.array([p.count for p in _positions(source[1])]),
-            kind="int",
-        ),
+        each("series", "load case of the deck", lambda item: item[1].name),
+        each("case", "load case", lambda item: item[2].load_case.name),
+        each("position", "number of the position, from 1", lambda item: position_of(item[2]).number, "int"),
+        each("count", "positions on the path", lambda item: position_of(item[2]).count, "int"),
         *described(
             real("point", "where the first axle stands, or the only force", "length", "axis"),
-            lambda source: np.array([p.point for p in _positions(source[1])]),
+            lambda items: np.array([position_of(case).point for *_, case in items]).reshape(-1, 3),
         ),
-        numbers(
+        each(
             "distance",
             "its distance along the path, of which it may be off",
-            lambda source: np.array([p.distance for p in _positions(source[1])]),
+            lambda item: position_of(item[2]).distance,
+            "float",
             "length",
         ),
-        texts("block", "the block that carries it; empty: it is off the path", _block_names),
-        texts("axles", "distances along the path of all axles, the first one first", _axles),
-        texts("status", "status", lambda source: as_text([case.status.value for case in source[1].cases])),
-        numbers(
+        each("block", "the block that carries it; empty: it is off the path", _block),
+        each("axles", "distances along the path of all axles, the first one first", _axles),
+        each("status", "status", lambda item: item[2].status.value),
+        each(
             "load_factor",
             "load factor; inf: no multiple brings anything down; empty: no result",
-            lambda source: np.array([factor_of(case) for case in source[1].cases]),
+            lambda item: factor_of(item[2]),
+            "float",
         ),
-        numbers(
+        each(
             "worst",
             "the least load factor; none where some position has no result",
-            lambda source: np.array([case is source[1].worst for case in source[1].cases]),
-            kind="bool",
+            lambda item: item[2] is item[1].worst,
+            "bool",
         ),
     ),
-    _series,
+    _positions,
 )
-
-
-# --- notices ------------------------------------------------------------------------------------------------------
 
 
 def _notices(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[tuple[Notice, ...]]:
@@ -176,10 +138,10 @@ NOTICES = TableKind(
     "notices",
     "each remark of the run",
     (
-        texts("severity", "notice or warning", lambda notices: as_text([n.severity for n in notices])),
-        texts("identifier", "stable identifier", lambda notices: as_text([n.identifier for n in notices])),
-        texts("message", "in words", lambda notices: as_text([n.message for n in notices])),
-        texts("case", "load case that it is about; empty: the whole run", lambda ns: as_text([n.case for n in ns])),
+        each("severity", "notice or warning", lambda notice: notice.severity),
+        each("identifier", "stable identifier", lambda notice: notice.identifier),
+        each("message", "in words", lambda notice: notice.message),
+        each("case", "load case that it is about; empty: the whole run", lambda notice: notice.case),
     ),
     _notices,
 )
