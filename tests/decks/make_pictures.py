@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from PIL import Image
+
 from mbla.cli import main
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.pictures.key import add_legend
@@ -35,22 +37,29 @@ README = "README.md"
 
 SMALLER = ("--size", "1200x750")
 """for pictures in space, whose files are large"""
+COLOURS = 128
+"""of the palette of a picture in space, whose file is a third of what it is without one"""
 
 
 @dataclass(frozen=True)
 class DeckPicture:
-    """One file of decks/pictures.
+    """One file of decks/pictures, SVG if it is plane, PNG if it is in space.
 
     name : of the file, without its suffix
     deck : below decks/, or ``README``
     case : load case; of a travelling load its name in the deck, the worst position is drawn
-    plot : options of ``mbla plot``
+    plot : options of ``mbla plot``, of pictures in space their size
     """
 
     name: str
     deck: str
     case: str
     plot: tuple[str, ...] = ()
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return PICTURES / f"{self.name}.{'png' if self.plot == SMALLER else 'svg'}"
 
 
 TABLE = (
@@ -109,18 +118,26 @@ def make_picture(picture: DeckPicture, folder: Path) -> Path:
     for series in series_of(read_results_hdf5(result).cases):
         if series.name == case and series.worst is not None:
             case = series.worst.load_case.name
-    target = PICTURES / f"{picture.name}.png"
-    assert main(["plot", str(result), "--case", case, "-o", str(target), *picture.plot]) == 0
-    return target
+    assert main(["plot", str(result), "--case", case, "-o", str(picture.path), *picture.plot]) == 0
+    return with_palette(picture.path)
+
+
+def with_palette(path: Path) -> Path:
+    """A picture in space with few colours, which nobody sees; others as they are."""
+    if path.suffix == ".png":
+        with Image.open(path) as image:
+            small = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+        small.save(path, optimize=True)
+    return path
 
 
 def make_study(name: str, folder: Path) -> Path:
     """Solve a study of the README's deck and draw it; the path written."""
-    target = PICTURES / f"{name}.png"
+    target = PICTURES / f"{name}.svg"
     deck = deck_path(TABLE[0], folder)
     if name == "wall_interact":
         assert main(["interact", str(deck), "--directions", "72", "-o", str(folder / "interact"), "-q"]) == 0
-        return (folder / "interact" / f"{name}.png").replace(target)
+        return (folder / "interact" / f"{name}.svg").replace(target)
     sweep, out = folder / "door.yaml", folder / "door.out"
     text = readme_block("`door.yaml`, beside", DECKS / "sweeps" / README)
     assert text.count(SAMPLE[0]) == 1
