@@ -24,8 +24,7 @@ from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
 from mbla.results.tables.formats import table_csv
-from mbla.results.tables.lists import SERIES
-from mbla.results.tables.tables import tables_of
+from mbla.results.tables.tables import SERIES, tables_of
 from mbla.results.vtu.mesh_files import write_mesh_files
 
 

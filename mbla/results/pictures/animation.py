@@ -20,11 +20,10 @@ from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.camera import focus_of, panels_of
+from mbla.results.pictures.space.camera import add_images, fill_sheet, focus_of, panels_of
 from mbla.results.pictures.space.drawings import mechanism_drawing
 from mbla.results.pictures.space.picture import frame_between, images_of, view_of_case
 from mbla.results.pictures.space.renderer import Renderer
-from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.results import CaseResult, Results
 
 FORMATS = ("gif", "mp4")

@@ -62,14 +62,6 @@ def test_forces_beside_gravity_are_drawn_by_themselves() -> None:
     assert marks.tips == pytest.approx(np.array([[0.2, 0.5, 3.0], [4.5, 0.5, 0.5]]))
 
 
-def test_one_block_with_a_force_beside_its_weight() -> None:
-    model = tower_model()
-    loads = model.load_cases[0].dead_load + wrench([0, 0, -3], [0.2, 0.5, 3], 1)
-    loads[2] = 0.0
-    marks = load_marks(model, loads, (*GRAVITY, "force"))
-    assert marks.forces == pytest.approx(np.array([[0, 0, -3.0]]), abs=1e-9)
-
-
 def test_masses_that_blocks_carry_along_make_no_moment() -> None:
     model = tower_model()
     blocks = replace(model.blocks, added_masses=np.array([0, 0.5, 0]), added_mass_points=model.blocks.centroids + 0.3)
@@ -89,13 +81,6 @@ def test_moment_without_a_force() -> None:
     assert marks.moment_blocks.tolist() == [2]
     assert marks.moments == pytest.approx(np.array([[0, 7.0, 0]]))
     assert not len(marks.blocks)
-
-
-@pytest.mark.parametrize("factor", [1e-6, 1e9])
-def test_units_do_not_matter(factor: float) -> None:
-    model = tower_model()
-    marks = load_marks(model, factor * wrench([5, 0, 0], [0.0, 0.5, 2.7], 1), ("force",))
-    assert marks.tips == pytest.approx(np.array([[0.0, 0.5, 2.7]]))
 
 
 def test_one_accelerated_block_whose_force_acts_off_its_centroid_has_an_arrow_there() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from mbla.cli import main
 from mbla.deck.content import OutputSection
-from mbla.errors import FileError, UsageError
+from mbla.errors import UsageError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
@@ -82,12 +82,6 @@ def test_other_formats_are_refused(tmp_path: Path, results: Results) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_place_that_cannot_be_written(tmp_path: Path, results: Results) -> None:
-    (tmp_path / "file").write_text("mine")
-    with pytest.raises(FileError, match="file"):
-        plot_results(results, tmp_path / "file" / "deeper", "tower")
-
-
 def test_missing_extra_is_named(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
     importing = builtins.__import__
 
@@ -132,11 +126,6 @@ def test_no_two_pictures_have_one_name(results: Results) -> None:
     assert made[:2] == ["_model", "_model_mechanism"]
     assert "_push_forces_mechanism" in made
     assert len(set(made)) == len(made) == 1 + 2 * 3
-
-
-def test_kinds_that_do_not_exist_are_refused(tmp_path: Path, results: Results) -> None:
-    with pytest.raises(UsageError, match="kind cracks: there are model, mechanism"):
-        plot_case(results, results.cases[0], tmp_path / "a.png", "cracks")
 
 
 def test_a_run_with_plots_writes_what_the_command_draws(tmp_path: Path, results: Results) -> None:

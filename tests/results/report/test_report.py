@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.errors import FileError, Message, Notice, UsageError
+from mbla.errors import Message, Notice, UsageError
 from mbla.results.explanations import explanations
 from mbla.results.listing.listing import case_sections
 from mbla.results.listing.model_words import contact_lines, model_lines, settings_lines
@@ -16,7 +16,6 @@ from mbla.results.listing.text import Entry, Heading, Table, elements_of, number
 from mbla.results.outcome import notices_of
 from mbla.results.record.json_record import results_json
 from mbla.results.report import report
-from mbla.results.report.content import alarm_of
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
@@ -164,13 +163,6 @@ def test_an_unbounded_case_that_is_not_proved_looks_bad() -> None:
     assert page.within(page.one("table", id="verdicts"), "tr")[1].attributes["class"] == "bad"
 
 
-def test_a_case_stopped_before_anything_was_found_has_no_figures_to_warn_of() -> None:
-    case = tower_results().cases[0]
-    stopped = replace(case, status=Status.TIME_LIMIT, solution=replace(case.solution, mechanics=None))
-    assert alarm_of(stopped) == "there is no load factor."
-    assert alarm_of(replace(case, status=Status.TIME_LIMIT)).endswith("the best that was reached, and no result.")
-
-
 def test_a_solved_case_raises_no_alarm() -> None:
     page = page_of(with_status(Status.SOLVED))
     assert not page.all("p", class_="alarm")
@@ -265,12 +257,6 @@ def test_what_does_not_stand_is_confirmed_and_not_passed() -> None:
     assert "passed" in solved.text
     assert "confirmed: no equilibrium" in fallen.text
     assert "passed" not in fallen.text
-
-
-def test_a_folder_of_that_name(tmp_path: Path) -> None:
-    (tmp_path / "a.html").mkdir()
-    with pytest.raises(FileError, match="is a folder"):
-        write_report(tower_results(), tmp_path / "a.html", view=False)
 
 
 def test_an_earlier_report_is_replaced_as_a_whole(tmp_path: Path) -> None:

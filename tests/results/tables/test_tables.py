@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -143,17 +142,6 @@ def test_frames_carry_units_and_meanings(results: Results) -> None:
 def test_unknown_names_are_refused(results: Results, names: list[str], cases: list[str], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         tables_of(results, names, cases)
-
-
-def test_a_column_that_a_table_does_not_have(results: Results) -> None:
-    with pytest.raises(KeyError, match="colour"):
-        tables_of(results)["blocks"]["colour"]
-
-
-def test_frames_without_pandas_say_what_to_install(results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(UsageError, match=r"tables for pandas: .*pip install"):
-        tables_of(results)["blocks"].to_pandas()
 
 
 def test_positions_of_a_travelling_load_that_was_not_asked_for_are_left_out(results: Results) -> None:

@@ -140,10 +140,6 @@ def test_locked_structure_shows_the_forces_that_lock_it() -> None:
     assert "resultants" in marks(found)
 
 
-def test_every_field_filled_and_still_json() -> None:
-    assert "settlement" in marks(scene(full_results()))
-
-
 def moved(blocks: Blocks, shift: float) -> Blocks:
     return replace(
         blocks,

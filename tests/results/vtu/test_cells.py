@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mbla.model.geometry.meshio_files import write_mesh
-from mbla.results.vtu.cells import block_cells
+from mbla.results.vtu.vtu import block_cells
 from tests.results.reading import vtk_volumes
 from tests.results.shapes import BRICK, PYRAMID, TETRA, WEDGE, blocks_of
 

@@ -126,13 +126,6 @@ def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, resul
     assert np.concatenate(mesh.cell_data["parts"]).tolist() == [0, 1, 0]
 
 
-def test_case_without_anything_has_displacement_zero(path: Path, results: Results) -> None:
-    case = results.cases[1]
-    case = replace(case, solution=replace(case.solution, certificate=None))
-    write_blocks_vtu(path, Scene(results.model, results.contacts, case))
-    assert not meshio.read(path).point_data["displacement"].any()
-
-
 def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(path: Path, results: Results) -> None:
     lock = np.zeros((8, 3))
     lock[:4] = [2.0, -1.0, 0.0]

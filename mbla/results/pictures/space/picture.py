@@ -14,12 +14,11 @@ from mbla.results.pictures.geometry import front_axis
 from mbla.results.pictures.options import PictureOptions, format_of
 from mbla.results.pictures.page import open_page
 from mbla.results.pictures.scene import Scene
-from mbla.results.pictures.space.camera import Panel, fitted, focus_of, panels_of
+from mbla.results.pictures.space.camera import Panel, add_images, fill_sheet, fitted, focus_of, panels_of
 from mbla.results.pictures.space.drawings import forces_drawing, mechanism_drawing, model_drawing, moving_blocks
 from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.pictures.space.shapes import Drawing, Faces, Shape, block_faces, grounds
-from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from mbla.results.results import CaseResult
 
 USUAL = (-60.0, 25.0)

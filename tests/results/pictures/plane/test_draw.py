@@ -328,8 +328,3 @@ def test_a_chain_of_blocks_has_a_line_of_thrust(tmp_path: Path) -> None:
         (drawn,) = (each for each in lines if tuple(each.get_colors()[0][:3]) == rgb(THRUST))
         (points,) = drawn.get_segments()
         assert points[np.argsort(points[:, 1])] == pytest.approx(np.array([[0.5, 1], [0.6, 2], [0.8, 3]]))
-
-
-def test_blocks_without_a_chain_have_none(tmp_path: Path) -> None:
-    with drawn_alone(tmp_path, pressed(0.5), draw_forces) as sheet:
-        assert "line of thrust" not in sheet.handles

@@ -105,9 +105,3 @@ def test_a_moment_about_an_axis_of_the_page_has_no_arc(tmp_path: Path) -> None:
     with loaded(tmp_path, row_of_blocks(2), loads) as (sheet, _):
         assert not sheet.axes.collections
         assert list(sheet.handles) == ["live load: push on a block (across the page)"]
-
-
-def test_no_load_has_neither_arrow_nor_words(tmp_path: Path) -> None:
-    with loaded(tmp_path, row_of_blocks(2), np.zeros((2, 6))) as (sheet, _):
-        assert not sheet.axes.collections
-        assert not sheet.handles

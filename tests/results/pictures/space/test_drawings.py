@@ -11,10 +11,10 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import PURPLE, SLIDE, THRUST
-from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of, tint_of_part
+from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, scene_of
 from mbla.results.pictures.space import can_draw
 from mbla.results.pictures.space.camera import fitted
-from mbla.results.pictures.space.drawings import PARTS, forces_drawing, mechanism_drawing, model_drawing
+from mbla.results.pictures.space.drawings import forces_drawing, mechanism_drawing, model_drawing
 from mbla.results.pictures.space.joints import joint_marks
 from mbla.results.pictures.space.picture import USUAL, best_view, draw_in_space
 from mbla.results.pictures.space.renderer import Renderer
@@ -140,12 +140,6 @@ def test_of_many_blocks_the_ghost_is_an_outline(count: int) -> None:
     shown = replace(tower, model=replace(tower.model, blocks=blocks))
     lines = ghost_lines(shown, np.ones(count, dtype=bool))
     assert len(lines.pairs) == (12 * count if count <= MANY else 4 * count + 8)
-
-
-def test_of_many_parts_that_touch_only_the_ground_all_may_have_one_tint() -> None:
-    count = len(PARTS) + 2
-    shown = scene(row_of_blocks(count), "mechanism")
-    assert tint_of_part(shown, np.arange(1, count + 1), len(PARTS)).tolist() == [0] * (count + 1)
 
 
 def flattened(axis: int) -> Scene:

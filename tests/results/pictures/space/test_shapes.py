@@ -39,12 +39,6 @@ def test_arrows_end_at_their_tips_and_are_thickest_behind_them() -> None:
     assert len(faces.colours) == len(faces.start) - 1
 
 
-def test_a_rod_without_length_has_no_volume_and_no_nan() -> None:
-    faces = rods(np.ones((1, 3)), np.ones((1, 3)), np.array([0.1]), GREY)
-    assert np.isfinite(faces.points).all()
-    assert volume(faces) == pytest.approx(0.0, abs=1e-15)
-
-
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_rings_turn_by_the_right_hand(sense: float) -> None:
     """The head comes three quarters of a turn after the tail: between them lies the missing quarter."""

@@ -12,9 +12,8 @@ import pytest
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import HINGE, SLIDE, Page, open_page
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.camera import Panel, fitted
+from mbla.results.pictures.space.camera import Panel, add_images, fill_sheet, fitted
 from mbla.results.pictures.space.shapes import ColourScale, Drawing, rgb
-from mbla.results.pictures.space.sheet import add_images, fill_sheet
 from tests.results.synthetic import tower_results
 
 EXTENT = np.array([[0.0, 0.0, 0.0], [4.0, 4.0, 3.0]])
