@@ -12,8 +12,9 @@ from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
-from mbla.results.notebook.display import Picture, View, case_picture
+from mbla.results.notebook.display import View, case_picture
 from mbla.results.outcome import angle_of, associative_of, least_and_greatest, range_of, reaction_of, result_of
+from mbla.results.pictures.image import Picture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 

@@ -13,8 +13,9 @@ from mbla.model.model import Model
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.notebook.case import Case
-from mbla.results.notebook.display import Picture, View
+from mbla.results.notebook.display import View
 from mbla.results.outcome import notices_of
+from mbla.results.pictures.image import Picture
 from mbla.results.results import Results
 from mbla.results.series import no_such_case, series_of
 

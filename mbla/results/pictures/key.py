@@ -26,7 +26,7 @@ def add_legend(page: Page, handles: Sequence[Any], *, bottom: float = 0.0, corne
     """
     if not handles:
         return bottom
-    style = {"loc": "lower right" if corner else "lower center", "frameon": False, "labelcolor": INK}
+    style: dict[str, Any] = {"loc": "lower right" if corner else "lower center", "frameon": False, "labelcolor": INK}
     style |= {"fontsize": 0.9 * page.letter, "bbox_to_anchor": (0.995 if corner else 0.5, bottom), "borderaxespad": 0.2}
     if corner:
         style |= {"handlelength": 1, "handletextpad": 0.4, "columnspacing": 1.2}

@@ -74,7 +74,9 @@ def series_figures(results: Results, series: Series) -> Figures:
         return Figures(())
     scene = scene_of(results, series.cases[0], OPTIONS, "history")
     caption, words = f"Travelling load {series.name}", "Load factor at each position"
-    return _added(Figures(()), caption, words, "svg", lambda path: history.draw_series(path, scene, series, OPTIONS))
+    return _added(
+        Figures(()), caption, words, "svg", partial(history.draw_series, scene=scene, series=series, options=OPTIONS)
+    )
 
 
 def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: View | None) -> Figures:

@@ -206,7 +206,8 @@ def utilisation(picture: Picture) -> None:
     """Shear and torsion over what each joint carries of both."""
     picture.ghost()
     picture.supports()
-    for kind, look in (("Surface", {"Opacity": 0.8}), ("Wireframe", {"LineWidth": 4.0})):
+    looks: dict[str, Any] = {"Surface": {"Opacity": 0.8}, "Wireframe": {"LineWidth": 4.0}}
+    for kind, look in looks.items():
         shown = picture.draw(picture.read("interfaces"), kind, **look)
         picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
     picture.legend = ["Joints by shear and torsion over what friction and cohesion carry of both; grey: no force."]
