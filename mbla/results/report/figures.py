@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
@@ -74,9 +75,8 @@ def series_figures(results: Results, series: Series) -> Figures:
         return Figures(())
     scene = scene_of(results, series.cases[0], OPTIONS, "history")
     caption, words = f"Travelling load {series.name}", "Load factor at each position"
-    return _added(
-        Figures(()), caption, words, "svg", partial(history.draw_series, scene=scene, series=series, options=OPTIONS)
-    )
+    write = partial(history.draw_series, scene=scene, series=series, options=OPTIONS)
+    return _added(Figures(()), caption, words, "svg", write)
 
 
 def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: View | None) -> Figures:
@@ -92,9 +92,8 @@ def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: V
                 continue
             options, format = replace(OPTIONS, view=found.view), "png"
         words = _in_words(results, case, kind)
-        found = _added(
-            found, caption, words, format, lambda path, s=scene, k=kind, o=options: plot.draw_picture(path, s, k, o)
-        )
+        write = partial(plot.draw_picture, scene=scene, kind=kind, options=options)
+        found = _added(found, caption, words, format, write)
     return found
 
 
