@@ -19,9 +19,10 @@ from mbla.results.collapse.joint_planes import HingeLine
 from mbla.results.collapse.thrust import OUTSIDE, Thrust
 from mbla.results.listing.text import counted, number
 from mbla.results.pictures.load_marks import LONGEST as LONGEST_LOAD
-from mbla.results.pictures.load_marks import arrow_above, arrow_steps, load_marks, settlement_arrow
+from mbla.results.pictures.load_marks import arrow_above, arrow_steps, settlement_arrow
 from mbla.results.pictures.page import HINGE, LIVE_LOAD, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.shown_loads import live_load
 from mbla.solution.solution import ContactMode
 
 THRUST, RESULTANT = "#0A2FD0", "#5B1A8B"
@@ -231,8 +232,8 @@ def _loads(scene: Scene) -> list[Mark]:
         start, step = settlement_arrow(vertices, way, size)
         bodies = np.full((1, 2), case.settlement.blocks[0])
         return [_arrows("settlement", LIVE_LOAD, 8, start[None], step[None], bodies, [case.settlement.words])]
-    marks = load_marks(scene.model, case.live_load, case.live_words, case.travel)
-    words = "; ".join(case.live_words) or "live load"
+    load = live_load(scene, case, "live load", LIVE_LOAD)
+    marks, words = load.marks, load.text
     found = []
     if len(marks.blocks):
         steps = arrow_steps(marks.forces, marks.largest, size)

@@ -7,18 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.model import LoadCase
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
 from mbla.results.pictures.key import add_axes, add_bar, add_legend
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
-    CASES,
-    DEAD_LOAD,
     FIXED_BLOCK,
     HINGE,
     INK,
-    LIVE_LOAD,
     REST,
     SLIDE,
     THRUST,
@@ -28,7 +24,7 @@ from mbla.results.pictures.page import (
 )
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.joint_marks import draw_joint_marks
-from mbla.results.pictures.plane.load_arrows import draw_loads, draw_settlement
+from mbla.results.pictures.plane.load_arrows import draw_load
 from mbla.results.pictures.plane.sheet import (
     STRIP,
     Sheet,
@@ -42,6 +38,7 @@ from mbla.results.pictures.plane.sheet import (
     number_parts,
 )
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene
+from mbla.results.pictures.shown_loads import shown_loads
 
 MIDDLE_THIRD, EDGE = 1 / 3, 0.99
 """eccentricity beyond which a joint without tension is not pressed all over, and from which the force is at its edge"""
@@ -119,10 +116,6 @@ def _mark_eccentric(sheet: Sheet, points: FloatArray, eccentricity: FloatArray, 
 # --- A plane figure of one case: model, mechanism or forces ---------------------------------------------------------
 
 
-MOST_CASES = 6
-"""load cases whose loads the legend of a picture of the model names"""
-
-
 def draw_plane(path: Path, scene: Scene, flat: Flat, kind: str, options: PictureOptions) -> None:
     """Write a figure of a case in its plane; kind ``model``, ``mechanism`` or ``forces``.
 
@@ -138,6 +131,8 @@ def draw_plane(path: Path, scene: Scene, flat: Flat, kind: str, options: Picture
         sheet = new_sheet(page, float(np.linalg.norm(box)))
         draw_grounds(sheet, flat, scene)
         KIND_DRAWN_BY[kind](sheet, flat, scene)
+        for load in shown_loads(scene, kind):
+            draw_load(sheet, flat, scene, load)
         above = add_words(page, scene.words_of(kind), scene.mark_of(kind))
         below = add_legend(page, list(sheet.handles.values()))
         metres, level = lay_out(sheet, above, below), below + 0.42 * STRIP
@@ -157,34 +152,6 @@ def _axis_names(flat: Flat) -> tuple[str, str]:
 
 def _draw_model(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_blocks(sheet, flat, scene, colours_by_group(sheet, scene), scene.model.blocks.vertices)
-    case = scene.case.load_case
-    draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
-    cases: dict[str, list[LoadCase]] = {}
-    for each in scene.shown_cases:
-        cases.setdefault(each.load_case.deck_name, []).append(each.load_case)
-    for row, (name, together) in enumerate(cases.items()):
-        label, before = f"live load {name}" if len(cases) > 1 else "live load", set(sheet.handles)
-        for each_case in together:
-            _draw_live_load(sheet, flat, scene, each_case, label, CASES[row % len(CASES)], len(together))
-        if row >= MOST_CASES:
-            for unnamed in set(sheet.handles) - before:
-                del sheet.handles[unnamed]
-
-
-def _draw_live_load(
-    sheet: Sheet, flat: Flat, scene: Scene, case: LoadCase, label: str, colour: str, positions: int = 1
-) -> None:
-    """The live load, of a vehicle its axles, or the way that a support gives.
-
-    positions : of a travelling load that are drawn together
-    """
-    if case.settlement is not None:
-        label = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()
-        draw_settlement(sheet, flat, scene, case.settlement, label, colour)
-        return
-    many = case.travel is not None and positions > 1
-    words = (f"{positions} positions",) if many else case.live_words
-    draw_loads(sheet, flat, scene, case.live_load, words, label, colour, None if many else case.travel)
 
 
 def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
@@ -192,17 +159,12 @@ def _draw_mechanism(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     draw_ghost(sheet, flat, scene)
     draw_joint_marks(sheet, flat, scene)
     number_parts(sheet, flat, scene)
-    case = scene.case.load_case
-    if scene.mechanics is None and scene.case.solution.certificate is not None:
-        draw_loads(sheet, flat, scene, scene.dead_load, case.dead_words, "dead load", DEAD_LOAD)
-    _draw_live_load(sheet, flat, scene, case, "live load", LIVE_LOAD)
 
 
 def _draw_forces(sheet: Sheet, flat: Flat, scene: Scene) -> None:
     colours = [FIXED_BLOCK if fixed else REST for fixed in scene.model.fixed]
     draw_blocks(sheet, flat, scene, colours, scene.model.blocks.vertices)
     draw_forces(sheet, flat, scene)
-    _draw_live_load(sheet, flat, scene, scene.case.load_case, "live load", LIVE_LOAD)
 
 
 KIND_DRAWN_BY = {"model": _draw_model, "mechanism": _draw_mechanism, "forces": _draw_forces}

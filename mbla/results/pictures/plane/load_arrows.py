@@ -7,7 +7,7 @@ import textwrap
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.model import Settlement, TravelPosition
+from mbla.model.model import Settlement
 from mbla.results.collapse.motion import moved_points
 from mbla.results.pictures.load_marks import (
     FEW,
@@ -16,13 +16,13 @@ from mbla.results.pictures.load_marks import (
     LoadMarks,
     arrow_steps,
     axles_near,
-    load_marks,
     settlement_arrow,
 )
 from mbla.results.pictures.page import pale
 from mbla.results.pictures.plane.flat import Flat
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.shown_loads import ShownLoad
 
 ROUNDING = 1e-9
 """share of the single forces across the page below which their sum is none, and of arrows that cannot be seen"""
@@ -30,21 +30,12 @@ COLUMNS, LINES = 90, 3
 """letters and lines of a load in the legend"""
 
 
-def draw_loads(
-    sheet: Sheet,
-    flat: Flat,
-    scene: Scene,
-    loads: FloatArray,
-    words: tuple[str, ...],
-    name: str,
-    colour: str,
-    travel: TravelPosition | None = None,
-) -> None:
-    """Arrows of loads on blocks about their centroids, (n_blocks, 6), and their words in the legend.
-
-    travel : the vehicle among them, whose axles are drawn one by one
-    """
-    marks = load_marks(scene.model, loads, words, travel)
+def draw_load(sheet: Sheet, flat: Flat, scene: Scene, load: ShownLoad) -> None:
+    """Arrows of a load, and its words in the legend."""
+    if load.settlement is not None:
+        _draw_settlement(sheet, flat, scene, load, load.settlement)
+        return
+    marks, colour = load.marks, load.colour
     tips = moved_points(scene.model.blocks, scene.motion, marks.blocks, marks.tips)
     drawn = _draw_arrows(sheet, flat, tips, marks.forces, marks, colour)
     drawn |= _draw_moments(sheet, flat, scene, marks, colour)
@@ -52,25 +43,24 @@ def draw_loads(
     if marks.uniform and pull.any():
         _draw_arrow_beside(sheet, flat, scene, np.flatnonzero(marks.accelerated), pull, colour)
         drawn = True
-    text = f"{name}: {'; '.join(words)}" if words else name
-    text = textwrap.fill(text, COLUMNS, max_lines=LINES, placeholder=" ...")
+    text = textwrap.fill(load.text, COLUMNS, max_lines=LINES, placeholder=" ...")
     if drawn:
         sheet.name_arrow(text, colour)
         near = axles_near(marks, scene.model.blocks.vertices, sheet.size)
         if _draw_arrows(sheet, flat, marks.beside[near], marks.beside_forces[near], marks, pale(colour)):
             sheet.name_arrow(OFF_PATH, pale(colour))
-    elif loads[scene.model.free].any():
-        _draw_across(sheet, flat, scene, loads, text, colour)
+    elif load.loads[scene.model.free].any():
+        _draw_across(sheet, flat, scene, load.loads, text, colour)
 
 
-def draw_settlement(sheet: Sheet, flat: Flat, scene: Scene, settlement: Settlement, label: str, colour: str) -> None:
+def _draw_settlement(sheet: Sheet, flat: Flat, scene: Scene, load: ShownLoad, settlement: Settlement) -> None:
     """One thick arrow away from what gives way, if it moves along the page, and its name."""
     way = settlement.motions[:, :3].mean(axis=0)
     if flat.project(way[None]).any():
         chosen = np.isin(scene.model.blocks.block_of_vertex, settlement.blocks)
         start, step = settlement_arrow(scene.moved[chosen], way, sheet.size)
-        sheet.arrows(flat.project((start + step)[None]), flat.project(step[None]), 4.5, colour, 7)
-    sheet.name_arrow(label, colour)
+        sheet.arrows(flat.project((start + step)[None]), flat.project(step[None]), 4.5, load.colour, 7)
+    sheet.name_arrow(load.text, load.colour)
 
 
 def _draw_across(sheet: Sheet, flat: Flat, scene: Scene, loads: FloatArray, text: str, colour: str) -> None:

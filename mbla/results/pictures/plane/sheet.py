@@ -90,7 +90,9 @@ class Sheet:
         self.areas(list(heads), facecolors=colour, edgecolors="none", zorder=order)
 
     def name(self, label: str, **style: Any) -> None:
-        """An entry of the legend: a line or marker."""
+        """An entry of the legend: a line or marker; none without a name."""
+        if not label:
+            return
         if "markersize" in style:
             style["markersize"] = self.width(style["markersize"])
         if "linewidth" in style:

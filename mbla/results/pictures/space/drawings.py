@@ -11,7 +11,7 @@ from mbla.results.listing.text import counted, number
 from mbla.results.pictures.page import FIXED_BLOCK, GHOST, PURPLE, REST, SKY, THRUST, group_colours, pale
 from mbla.results.pictures.scene import OUTSIDE_WORDS, Scene, named_groups, part_colours
 from mbla.results.pictures.space.joints import joint_marks
-from mbla.results.pictures.space.loads import all_load_arrows, live_load_arrows
+from mbla.results.pictures.space.loads import load_shapes
 from mbla.results.pictures.space.shapes import (
     SLAB,
     ColourScale,
@@ -34,7 +34,7 @@ def model_drawing(scene: Scene) -> Drawing:
     free = {group for group, held in zip(blocks.groups, fixed, strict=True) if not held}
     legend, more = named_groups({group: colour for group, colour in tint.items() if group in free})
     legend += [("fixed blocks", FIXED_BLOCK)] * bool(fixed.any()) + [("ground", SLAB)] * bool(scene.slabs)
-    marks, entries = all_load_arrows(scene)
+    marks, entries = load_shapes(scene, "model")
     solid = structure(scene, blocks.vertices, colours)
     extent = np.vstack([blocks.vertices, *scene.slabs, *(shape.points for shape in marks)])
     return Drawing(solid, tuple(marks), 0.5, extent, tuple(legend + entries), notes=(more,) * bool(more))
@@ -82,7 +82,7 @@ def forces_drawing(scene: Scene) -> Drawing:
         if lines is not None:
             marks.append(lines)
             legend.append(("line of thrust", THRUST))
-    loads, entries = live_load_arrows(scene)
+    loads, entries = load_shapes(scene, "forces")
     legend += entries
     if scene.model.fixed.any():
         legend.append(("support", FIXED_BLOCK))
@@ -189,7 +189,7 @@ def mechanism_drawing(scene: Scene, widest: Scene | None = None, seen: FloatArra
         solid += gaps
         marks += lines
     extent = np.vstack([scene.moved, scene.model.blocks.vertices, *scene.slabs])
-    loads, entries = live_load_arrows(scene)
+    loads, entries = load_shapes(scene, "mechanism")
     extent = np.vstack([extent, *(shape.points for shape in loads)])
     legend += entries
     if moving.any():

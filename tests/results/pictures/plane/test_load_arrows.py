@@ -9,13 +9,14 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.model import TravelPosition
-from mbla.results.pictures.load_marks import LONGEST, LONGEST_OF_MANY, MANY, OFF_PATH
+from mbla.results.pictures.load_marks import LONGEST, LONGEST_OF_MANY, MANY, OFF_PATH, load_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import LIVE_LOAD, open_page
 from mbla.results.pictures.plane.flat import flat_of
-from mbla.results.pictures.plane.load_arrows import draw_loads
+from mbla.results.pictures.plane.load_arrows import draw_load
 from mbla.results.pictures.plane.sheet import Sheet, new_sheet
 from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.shown_loads import ShownLoad
 from mbla.results.results import Results
 from tests.results.pictures.rows_and_columns import row_of_blocks
 
@@ -32,7 +33,8 @@ def loaded(
     assert flat is not None
     with open_page(folder / "page.svg", OPTIONS) as page:
         sheet = new_sheet(page, scene.size)
-        draw_loads(sheet, flat, scene, loads, ("push on a block",), "live load", LIVE_LOAD, travel)
+        marks = load_marks(scene.model, loads, ("push on a block",), travel)
+        draw_load(sheet, flat, scene, ShownLoad("live load: push on a block", LIVE_LOAD, loads, marks))
         yield sheet, scene
 
 
