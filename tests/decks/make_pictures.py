@@ -15,14 +15,26 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
 from PIL import Image
 
 from mbla.cli import main
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import INK, VERMILION, Page, add_words, open_page
+from mbla.results.pictures.page import (
+    CASES,
+    HINGE,
+    INK,
+    LIVE_LOAD,
+    OPEN,
+    SLIDE,
+    VERMILION,
+    WARNING,
+    Page,
+    add_words,
+    open_page,
+    rgb,
+)
 from mbla.results.series import series_of
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
@@ -37,8 +49,8 @@ README = "README.md"
 
 SMALLER = ("--size", "1200x750")
 """for pictures in space, whose files are large"""
-COLOURS = 128
-"""of the palette of a picture in space, whose file is a third of what it is without one"""
+SHADES = (0.45, 0.6, 0.75, 0.9, 1.0)
+"""of colours that mean something, as the light makes them"""
 
 
 @dataclass(frozen=True)
@@ -123,11 +135,17 @@ def make_picture(picture: DeckPicture, folder: Path) -> Path:
 
 
 def with_palette(path: Path) -> Path:
-    """A picture in space with few colours, which nobody sees; others as they are."""
+    """A picture in space with a palette: its commonest colours, and those that mean something in light and shade."""
     if path.suffix == ".png":
+        meaning = (HINGE, SLIDE, OPEN, LIVE_LOAD, WARNING, *CASES)
+        shades = [255, 255, 255]
+        shades += [round(255 * light * part) for name in meaning for light in SHADES for part in rgb(name)]
         with Image.open(path) as image:
-            small = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
-        small.save(path, optimize=True)
+            picture = image.convert("RGB")
+        palette = Image.new("P", (1, 1))
+        common = picture.quantize(256 - len(shades) // 3).getpalette() or []
+        palette.putpalette([*shades, *common[: 768 - len(shades)]])
+        picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
     return path
 
 
@@ -185,7 +203,7 @@ def make_sweep_picture(picture: SweepPicture, folder: Path) -> Path:
     else:
         size = "x".join(str(side) for side in SIZE)
         assert main(["sweep-plot", str(out), "-o", str(target), "--size", size, *picture.plot]) == 0
-    return target
+    return with_palette(target)
 
 
 def draw_arch_map(path: Path, table: SweepTable) -> None:
