@@ -9,8 +9,9 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from mbla.results.hdf5.layout import layout_table
-from mbla.results.record.keys import Key, record_page
+from mbla.deck.units import Units
+from mbla.results.record.keys import RECORD, Key
+from mbla.results.record.quantity import NOT_VERIFIED, STORED, unit_text
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
 from mbla.sweeps.interaction.study import INTERACT_RECORD
@@ -21,6 +22,18 @@ PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 
 OWN_WORDS = "parameters of the design, in the order of the sweep file, with their angles where they are directions"
 RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
+
+
+def layout_table() -> str:
+    """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
+    lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
+    for field in STORED:
+        content = field.words + (f" (part: {field.part})" if field.part else "")
+        content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
+        content += f" (verified where it is {' or '.join(field.proved)})" if field.proved else ""
+        dims = ", ".join(field.dims) or "–"
+        lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
+    return "\n".join(lines) + "\n"
 
 
 def keys_page(keys: Sequence[Key]) -> str:
@@ -54,7 +67,7 @@ def generated() -> dict[str, str]:
         "Files for ParaView": arrays_table(),
         "Datasets": layout_table(),
         "Exported tables": tables_page(),
-        "JSON record": record_page(),
+        "JSON record": keys_page(RECORD),
         "Table of a sweep": sweep_columns_page(),
         "JSON record of a sweep": keys_page(SWEEP_RECORD),
         "JSON record of a diagram": keys_page(INTERACT_RECORD),

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from mbla.deck.units import Units
-from mbla.results.record.quantity import NOT_VERIFIED, STORED, Quantity, unit_text
+from mbla.results.record.quantity import STORED, Quantity
 
 if TYPE_CHECKING:
     import h5py
@@ -63,18 +62,6 @@ def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Quantity], ...]:
     common = tuple((each.path, each) for each in STORED if "*" not in each.path)
     own = (each for each in STORED if "*" in each.path)
     return common + tuple((each.path.replace("*", name), each) for name, each in product(cases, tuple(own)))
-
-
-def layout_table() -> str:
-    """The datasets as a Markdown table, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
-    lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
-    for field in STORED:
-        content = field.words + (f" (part: {field.part})" if field.part else "")
-        content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
-        content += f" (verified where it is {' or '.join(field.proved)})" if field.proved else ""
-        dims = ", ".join(field.dims) or "–"
-        lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")
-    return "\n".join(lines) + "\n"
 
 
 MOST = 1e152

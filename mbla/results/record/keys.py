@@ -94,9 +94,3 @@ def _columns(owner: str) -> Iterator[Key]:
 RECORD: tuple[Key, ...] = tuple(key for _, key in _keys())
 RUN_RECORD: tuple[Key, ...] = tuple(key for of, key in _keys() if not of)
 """keys of the record of a run"""
-
-
-def record_page() -> str:
-    """The keys as a Markdown table, as it stands in schemas/results.md."""
-    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in RECORD)]
-    return "\n".join(["| key | type | meaning |", "|---|---|---|", *rows]) + "\n"
