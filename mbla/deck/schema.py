@@ -20,6 +20,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from mbla.deck.content import DeckContent
+from mbla.deck.fields import branches
 from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, Quantity
 from mbla.deck.section import AT_LEAST_ONE, EXACTLY_ONE
 from mbla.deck.units import DIMENSIONS
@@ -151,19 +152,15 @@ def _joined(titles: list[str]) -> str:
 
 
 def _sections_in(annotation: Any, suffix: str) -> Iterator[tuple[str, type[BaseModel]]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield suffix, annotation
-        return
-    origin, arguments = get_origin(annotation), get_args(annotation)
-    if origin is dict:
-        yield from _sections_in(arguments[1], f"{suffix}.NAME")
-    elif origin in (list, tuple):
-        yield from _sections_in(arguments[0], f"{suffix}[]")
-    elif origin is Annotated:
-        yield from _sections_in(arguments[0], suffix)
-    elif origin in (Union, UnionType):
-        for argument in arguments:
-            yield from _sections_in(argument, suffix)
+    """Sections that an annotation stands for, with what their places add to that of the field."""
+    for each in branches(annotation):
+        origin, arguments = get_origin(each), get_args(each)
+        if isinstance(each, type) and issubclass(each, BaseModel):
+            yield suffix, each
+        elif origin is dict:
+            yield from _sections_in(arguments[1], f"{suffix}.NAME")
+        elif origin in (list, tuple):
+            yield from _sections_in(arguments[0], f"{suffix}[]")
 
 
 def _table(title: str, section: type[BaseModel]) -> str:

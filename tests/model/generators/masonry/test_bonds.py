@@ -55,12 +55,6 @@ def test_english_bond_has_courses_of_stretchers_and_of_headers_with_closers(tmp_
     assert widths(built, 2, 0) == [0.4] * 4
 
 
-def test_half_starts_english_bond_with_headers(tmp_path: Path) -> None:
-    built = build(tmp_path, length=1.6, courses=2, bond="english", leaves=2, start="half")
-    assert widths(built, 0, None)[:3] == [0.2, 0.1, 0.2]
-    assert widths(built, 1, 0) == [0.4] * 4
-
-
 def test_flemish_bond_centres_headers_on_stretchers(tmp_path: Path) -> None:
     built = build(tmp_path, length=2.2, courses=2, bond="flemish", leaves=2)
     assert widths(built, 0, 0) == widths(built, 0, 1) == [0.4] * 4
