@@ -40,24 +40,22 @@ FLUSH = 1e-9
 
 @dataclass(frozen=True)
 class _Dome:
-    """Intrados circle, thickness, angles of the joints from the springing up, height of the springing, facets."""
+    """Intrados circle, angles of the joints from the springing up, height of the springing."""
 
+    item: DomeItem
     circle: Symmetric
-    thickness: float
     angles: FloatArray
     springing: float
-    segments: int
-    facets: int
-    running: bool
 
     def joint(self, angle: float) -> FloatArray:
         """Intrados and extrados point of a joint, (2, 2): distance from the axis, height."""
-        points = self.circle.points(np.array([angle]), np.array([[0.0, self.thickness]]))[0]
+        points = self.circle.points(np.array([angle]), np.array([[0.0, self.item.thickness]]))[0]
         return np.asarray(points - [self.circle.span / 2, -self.springing], dtype=np.float64)
 
     def ring(self, profile: FloatArray, number: int) -> Polyhedra:
         """The blocks of a ring, (n,), counted from the springing; rings below it have negative numbers."""
-        return ring_blocks(profile, self.segments, self.facets, self.running and number % 2 == 1)
+        turned = self.item.bond == "running" and number % 2 == 1
+        return ring_blocks(profile, self.item.segments, _facets(self.item), turned)
 
 
 def amount_dome(item: DomeItem) -> Amount:
@@ -103,7 +101,7 @@ def _dome(item: DomeItem) -> _Dome:
     assert isinstance(circle, Symmetric)  # a circle, which both shapes are
     springing = item.drum.height if item.drum else 0.0
     angles = np.linspace(circle.end, _top(item, circle), item.rings + 1)
-    return _Dome(circle, item.thickness, angles, springing, item.segments, _facets(item), item.bond == "running")
+    return _Dome(item, circle, angles, springing)
 
 
 def _top(item: DomeItem, circle: Symmetric) -> float:
@@ -129,8 +127,8 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     """Courses from the bottom; the last has a bevelled bed for the dome, and a ledge where the drum is wider."""
     foot = dome.joint(dome.circle.end)
     inside = foot[0, 0]
-    outside = inside + (dome.thickness if drum.thickness is None else drum.thickness)
-    if foot[1, 0] > outside + FLUSH * dome.thickness:
+    outside = inside + (dome.item.thickness if drum.thickness is None else drum.thickness)
+    if foot[1, 0] > outside + FLUSH * dome.item.thickness:
         message = f"must be >= {foot[1, 0] - inside:g}, so that the dome stands on the drum"
         raise ItemRefused(
             Finding("out-of-bounds", message, *(("drum",) if drum.thickness is None else ("drum", "thickness")))
@@ -138,9 +136,9 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     heights = np.linspace(0.0, drum.height, drum.courses + 1)
     for course, (low, high) in enumerate(pairwise(heights)):
         profile = np.array([[inside, low], [inside, high], [outside, high], [outside, low]])
-        if course == drum.courses - 1 and abs(foot[1, 1] - high) > FLUSH * dome.thickness:
+        if course == drum.courses - 1 and abs(foot[1, 1] - high) > FLUSH * dome.item.thickness:
             profile[2, 1] = foot[1, 1]
-            if outside - foot[1, 0] > FLUSH * dome.thickness:
+            if outside - foot[1, 0] > FLUSH * dome.item.thickness:
                 profile = np.insert(profile, 2, foot[1], axis=0)
             if foot[1, 1] <= low:
                 words = "too many: the springing joint cuts through the last course"
@@ -150,14 +148,14 @@ def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
 
 def _keystone(dome: _Dome, joint: FloatArray) -> Polyhedra:
     """The frustum between the polygons of the last joint."""
-    around = meridians(dome.segments * dome.facets)
+    around = meridians(dome.item.segments * _facets(dome.item))
     heights = np.broadcast_to(joint[:, 1, None, None], (2, len(around), 1))
     return chains(np.concatenate([joint[:, :1, None] * around, heights], axis=2)[None])
 
 
 def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
     """Profile of the fixed blocks: from the springing joint back by the thickness."""
-    back = dome.thickness * np.array([np.cos(dome.circle.end), -np.sin(dome.circle.end)])
+    back = dome.item.thickness * np.array([np.cos(dome.circle.end), -np.sin(dome.circle.end)])
     return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])
 
 

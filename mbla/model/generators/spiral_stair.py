@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
@@ -57,9 +57,7 @@ def _angles(item: SpiralStairItem) -> FloatArray:
     return np.asarray(np.radians(degrees), dtype=np.float64)
 
 
-def _corners(
-    item: SpiralStairItem, number: np.typing.NDArray[np.int64], angles: FloatArray, radius: float, height: float
-) -> FloatArray:
+def _corners(item: SpiralStairItem, number: IntArray, angles: FloatArray, radius: float, height: float) -> FloatArray:
     """Points of treads at a radius and at a height over k h, (n, n_angles, 3)."""
     around = np.radians(item.angle) * number[:, None] + angles
     level = np.broadcast_to(item.rise * number[:, None] + height, around.shape)
@@ -68,7 +66,7 @@ def _corners(
 
 def _sectors(
     item: SpiralStairItem,
-    number: np.typing.NDArray[np.int64],
+    number: IntArray,
     angles: FloatArray,
     radii: tuple[float, float],
     low: float,
@@ -79,9 +77,7 @@ def _sectors(
     return np.stack([_corners(item, number, angles, radius, height) for radius, height in ends], axis=2)
 
 
-def _rebated(
-    item: SpiralStairItem, number: np.typing.NDArray[np.int64], angles: FloatArray, radii: tuple[float, float]
-) -> Polyhedra:
+def _rebated(item: SpiralStairItem, number: IntArray, angles: FloatArray, radii: tuple[float, float]) -> Polyhedra:
     """Treads with a rebate: as sectors, but lower from the second angle on, where there is a step."""
     sections = _sectors(item, number, angles, radii, 0.0, item.rise)
     below = _sectors(item, number, angles, radii, -item.rebate, item.rise)

@@ -217,13 +217,9 @@ def _row(corner: Any, rows: dict[str, int], face: str) -> int:
 
 
 def _polyhedron(content: dict[str, Any]) -> Polyhedra:
-    points = [
-        [_coordinate(value, axis, str(row)) for axis, value in zip("xyz", point, strict=True)]
-        for row, point in enumerate(content["vertices"])
-    ]
-    rows = {str(row): row for row in range(len(points))}
-    faces = [[_row(corner, rows, str(row)) for corner in face] for row, face in enumerate(content["faces"])]
-    return _surface(points, faces)
+    """Lists of vertices and faces, as a mesh."""
+    vertices = {str(row): dict(zip("xyz", point, strict=True)) for row, point in enumerate(content["vertices"])}
+    return _mesh({"vertex": vertices, "face": {str(row): face for row, face in enumerate(content["faces"])}})
 
 
 def _surface(points: list[list[float]], faces: list[list[int]]) -> Polyhedra:

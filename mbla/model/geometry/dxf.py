@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, malformed
 from mbla.model.solids.defects import LARGEST_COORDINATE
@@ -244,7 +244,7 @@ def _refuse_tangle(lines: list[FloatArray]) -> None:
             raise GeometryFileError("geometry-too-large", words)
 
 
-def _ends_joined(points: FloatArray, splits: np.typing.NDArray[np.int64]) -> list[FloatArray]:
+def _ends_joined(points: FloatArray, splits: IntArray) -> list[FloatArray]:
     """Lines again, points that nearly coincide made equal."""
     from scipy.spatial import cKDTree
 

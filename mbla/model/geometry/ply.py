@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import starts
+from mbla.arrays import FloatArray, starts
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, check_rows, malformed, unused_points
 from mbla.model.geometry.welding import own_vertices
 from mbla.model.wording import counted
@@ -197,7 +197,7 @@ def _record(element: _Element, body: bytes, at: int, order: str) -> np.dtype[Any
     return np.dtype(fields)
 
 
-def _points(vertices: Columns) -> np.typing.NDArray[np.float64]:
+def _points(vertices: Columns) -> FloatArray:
     if not set("xyz") <= set(vertices):
         raise _malformed("x, y or z is not among the properties of its vertices")
     return np.stack([np.asarray(vertices[axis], dtype=np.float64) for axis in "xyz"], axis=1)

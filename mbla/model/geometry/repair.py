@@ -192,7 +192,7 @@ def shortest_edges(polyhedra: Polyhedra) -> FloatArray:
     return shortest
 
 
-def lone_edge_corners(polyhedra: Polyhedra) -> np.typing.NDArray[np.int64]:
+def lone_edge_corners(polyhedra: Polyhedra) -> IntArray:
     """Corners (n,) from which an edge starts that no other face has; none where every surface is closed."""
     tails, heads = polyhedra.loops, polyhedra.next_loops
     keys = np.minimum(tails, heads) * len(polyhedra.vertices) + np.maximum(tails, heads)
@@ -230,7 +230,7 @@ def insert_t_junctions(polyhedra: Polyhedra, reach: FloatArray) -> tuple[Polyhed
     return _with_corners(polyhedra, corners[edge[rows]], vertex[rows]), len(rows)
 
 
-def _in_face(polyhedra: Polyhedra, face: IntArray, vertex: IntArray) -> np.typing.NDArray[np.bool_]:
+def _in_face(polyhedra: Polyhedra, face: IntArray, vertex: IntArray) -> BoolArray:
     """Whether each vertex is a corner of the face beside it already, (n,)."""
     n = len(polyhedra.vertices)
     return np.isin(face * n + vertex, polyhedra.face_of_corner * n + polyhedra.loops)

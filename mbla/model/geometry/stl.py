@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 
@@ -36,7 +37,7 @@ def read_stl(path: Path) -> Geometry:
     raise GeometryFileError("geometry-file", f"is not a well-formed STL file{announced}, it has {len(content)} bytes")
 
 
-def _triangles(content: bytes) -> np.typing.NDArray[np.float64]:
+def _triangles(content: bytes) -> FloatArray:
     """Corners of the triangles of a binary file, (n, 3, 3); normals are made anew from them."""
     record = np.dtype([("numbers", "<f4", (4, 3)), ("attribute", "<u2")])
     return np.frombuffer(content, record, offset=HEADER)["numbers"][:, 1:].astype(np.float64)
@@ -71,7 +72,7 @@ def _solids(text: str) -> Geometry:
     return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)
 
 
-def _geometry(solids: list[np.typing.NDArray[np.float64]], names: list[str]) -> Geometry:
+def _geometry(solids: list[FloatArray], names: list[str]) -> Geometry:
     kept = [row for row, triangles in enumerate(solids) if len(triangles)]
     empty = empty_objects([name for name, triangles in zip(names, solids, strict=True) if not len(triangles)])
     parts = [_soup(solids[row]) for row in kept]
@@ -82,7 +83,7 @@ def _geometry(solids: list[np.typing.NDArray[np.float64]], names: list[str]) -> 
     return Geometry(join_polyhedra(parts), empty, named if several else (), indexed=False)
 
 
-def _soup(triangles: np.typing.NDArray[np.float64]) -> Polyhedra:
+def _soup(triangles: FloatArray) -> Polyhedra:
     n = len(triangles)
     return Polyhedra(
         triangles.reshape(-1, 3), np.array([0, 3 * n]), np.arange(3 * n), 3 * np.arange(n + 1), np.array([0, n])

@@ -68,7 +68,7 @@ def split_surfaces(surfaces: Polyhedra) -> Split:
     return Split(parts, source[kept], int((~kept).sum()))
 
 
-def _first_of_twins(codes: IntArray, part: IntArray, n_parts: int) -> np.typing.NDArray[np.bool_]:
+def _first_of_twins(codes: IntArray, part: IntArray, n_parts: int) -> BoolArray:
     """Parts that do not have the faces of an earlier one, (n_parts,).
 
     A part is known by the sum of random numbers that stand for its faces, exact in whole numbers.
@@ -102,7 +102,7 @@ def _partners(surface: Polyhedra) -> IntArray:
 
 def _angles(
     surface: Polyhedra, order: IntArray, first: IntArray, counts: IntArray, crowded: IntArray
-) -> tuple[FloatArray, np.typing.NDArray[np.bool_]]:
+) -> tuple[FloatArray, BoolArray]:
     """Angle at which each face leaves a crowded edge, about its direction from the lesser to the greater vertex.
 
     Both results are (n_corners,), meaningful at crowded edges; the second is true where the face passes it that way.
@@ -124,7 +124,7 @@ def _angles(
     return angles, forwards
 
 
-def _pair_around(corners: IntArray, angles: FloatArray, forwards: np.typing.NDArray[np.bool_]) -> IntArray:
+def _pair_around(corners: IntArray, angles: FloatArray, forwards: BoolArray) -> IntArray:
     """Corners paired around one edge, (n, 2).
 
     Where the faces do not pair off (not oriented outwards, or an open sheet among them) all are kept together: the
@@ -253,7 +253,7 @@ def join_cells(geometry: Geometry) -> Geometry:
     )
 
 
-def _outer(surfaces: Polyhedra, faces: np.typing.NDArray[np.int64]) -> Polyhedra:
+def _outer(surfaces: Polyhedra, faces: IntArray) -> Polyhedra:
     chosen = np.zeros(len(surfaces.block_of_face), dtype=bool)
     chosen[faces] = True
     corners = chosen[surfaces.face_of_corner]

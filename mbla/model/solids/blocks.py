@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
 
@@ -44,7 +44,7 @@ class Blocks(Polyhedra):
 
     facet_of_face: IntArray
     face_normals: FloatArray
-    convex: np.typing.NDArray[np.bool_]
+    convex: BoolArray
     volumes: FloatArray
     centroids: FloatArray
     densities: FloatArray
