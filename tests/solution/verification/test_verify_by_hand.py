@@ -243,7 +243,7 @@ def test_what_was_asked_of_other_flow_is_every_residual(rule: str) -> None:
 
 
 def test_nothing_is_met_that_was_not_asked_or_not_found() -> None:
-    assert not meets(found(), tolerance_requested=None)
+    assert not meets(found(), asked=None)
     assert not meets_what_was_asked(claim(None, Status.APPROXIMATE, tolerance_requested=1e-3), found())
 
 
