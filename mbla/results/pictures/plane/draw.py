@@ -23,8 +23,7 @@ from mbla.results.pictures.page import (
     shade,
 )
 from mbla.results.pictures.plane.flat import Flat
-from mbla.results.pictures.plane.joint_marks import draw_joint_marks
-from mbla.results.pictures.plane.load_arrows import draw_load
+from mbla.results.pictures.plane.marks import draw_joint_marks, draw_load
 from mbla.results.pictures.plane.sheet import (
     STRIP,
     Sheet,

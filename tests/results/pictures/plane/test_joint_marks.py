@@ -10,7 +10,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.page import SLIDE, rgb
-from mbla.results.pictures.plane.joint_marks import LARGE, draw_joint_marks
+from mbla.results.pictures.plane.marks import LARGE, draw_joint_marks
 from mbla.results.pictures.plane.sheet import Sheet
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.solution.solution import ContactMode

@@ -13,7 +13,7 @@ from mbla.results.pictures.load_marks import LONGEST, LONGEST_OF_MANY, MANY, OFF
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import LIVE_LOAD, open_page
 from mbla.results.pictures.plane.flat import flat_of
-from mbla.results.pictures.plane.load_arrows import draw_load
+from mbla.results.pictures.plane.marks import draw_load
 from mbla.results.pictures.plane.sheet import Sheet, new_sheet
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.pictures.shown_loads import ShownLoad
