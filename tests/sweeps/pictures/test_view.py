@@ -10,7 +10,6 @@ from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.pictures.sheet import count_words
 from mbla.sweeps.pictures.view import (
     NO_POINT,
-    Cells,
     axis_of,
     chosen_results,
     column_by_name,
@@ -91,7 +90,7 @@ def test_samples_are_no_axis() -> None:
     assert not is_sampled(grid({"sobol": [1.0, 2.0]}, lambda sobol: sobol), "sobol")  # a parameter of that name
 
 
-def cell_of(*rows: Row | float) -> Cells:
+def cell_of(*rows: Row | float) -> Any:
     """Several points of one value of ``mu``."""
     table = grid({"mu": [0.5, 0.6], "case": [float(i) for i in range(len(rows))]}, lambda mu, case: rows[int(case)])
     view = view_of(table, chosen_results(table, None)[0])
