@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,9 +21,7 @@ from mbla.model.generators.masonry.bonds import (
 )
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Stretch, solid_stretches
 from mbla.model.solids.blocks import NONE
-from mbla.model.solids.plane import cut
-from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, take_polyhedra
-from mbla.model.solids.polyhedra import prisms as upright_prisms
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
 
 SAME_PLACE = 1e-9
 """corners of an outline this close, relative to its extent, are one corner"""
@@ -49,7 +47,13 @@ def _left_of(corners: FloatArray, start: FloatArray, end: FloatArray) -> FloatAr
     side[np.abs(side) <= SAME_PLACE * np.ptp(corners, axis=0).max() * np.abs(direction).max()] = 0.0
     if (side >= 0).all() or not np.isfinite(side).all():  # blocks as large as that are refused by their coordinates
         return corners
-    return np.asarray(cut(corners[None], side[None])[0])
+    kept: list[FloatArray] = []
+    for a, b, at_a, at_b in zip(corners, np.roll(corners, -1, axis=0), side, np.roll(side, -1), strict=True):
+        if at_a >= 0:
+            kept.append(a)
+        if at_a * at_b < 0:
+            kept.append(a + at_a / (at_a - at_b) * (b - a))
+    return np.array(kept)
 
 
 @dataclass(frozen=True)
@@ -230,6 +234,14 @@ def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tup
 
 def prisms(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:
     """Prisms through a wall, faces outwards; outlines (k, 2) counter-clockwise along the wall and up."""
-    made = upright_prisms(outlines, across)
-    s, r, z = made.vertices.T
-    return replace(made, vertices=np.column_stack([leg.in_plan(s, r), z]))
+    vertices, faces = [], []
+    for outline, (near, far) in zip(outlines, across, strict=True):
+        n = len(outline)
+        sides = [leg.in_plan(outline[:, 0], np.full(n, place)) for place in (near, far)]
+        vertices.append(np.column_stack([np.concatenate(sides), np.tile(outline[:, 1], 2)]))
+        ring = list(range(n))
+        after = [*ring[1:], 0]
+        # from the right face an outline is counter-clockwise
+        around = [[j, i, i + n, j + n] for i, j in zip(ring, after, strict=True)]
+        faces.append([ring, [i + n for i in reversed(ring)], *around])
+    return polyhedra_from_lists(vertices, faces)
