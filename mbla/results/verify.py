@@ -36,7 +36,7 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
-from mbla.solution.derived import with_derived
+from mbla.solution.glued import with_derived
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL

@@ -13,13 +13,11 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.static import gravity_form
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Status
+from mbla.solution.standing.standing import least_forces
 
 SAME_FACTOR = 1e-9
 """Relative difference of load factors within which a part is about to collapse as well: it has the forces of its own
@@ -101,8 +99,5 @@ def at_rest(program: Program, load_factor: float, settings: SolverSettings, log:
     at_rest = np.zeros_like(program.dead_load)
     if not np.any(load):
         return LawState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
-    form = gravity_form(replace(program, dead_load=load))
-    solution = interior_point_solver(form.cone_program, settings, log).solve(0, 0.0)
-    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
-        return None
-    return LawState(form.forces(solution.x), at_rest, load_factor, 0.0)
+    found = least_forces(replace(program, dead_load=load), settings, log)
+    return None if isinstance(found, ConeSolution) else LawState(found, at_rest, load_factor, 0.0)

@@ -40,7 +40,7 @@ from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.collapse import kept
 from mbla.results.collapse.interface_modes import interface_radii
-from mbla.solution.linear_algebra.pattern import stored_lower_triangle
+from mbla.solution.linear_algebra.pattern import lower_triangle
 from mbla.solution.linear_algebra.qdldl_factors import QdldlFactors
 from mbla.solution.solution import ContactMode, Mechanics
 
@@ -185,7 +185,7 @@ class _Shifted:
 
     def __init__(self, normal: sp.csc_array) -> None:
         self._diagonal = normal.diagonal()
-        pattern, self._values = stored_lower_triangle(sp.csc_array(normal + sp.eye_array(normal.shape[0])))
+        pattern, self._values = lower_triangle(sp.csc_array(normal + sp.eye_array(normal.shape[0])))
         self._on_diagonal = pattern.pointers[:-1]
         self._factors = QdldlFactors(pattern)
 

@@ -27,8 +27,8 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
-from mbla.solution.linear_algebra.small_blocks import block_diagonal, inverses
 
 TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""

@@ -14,7 +14,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.solution.linear_algebra import Factorization, factorization
-from mbla.solution.linear_algebra.pattern import stored_lower_triangle
+from mbla.solution.linear_algebra.pattern import lower_triangle
 from mbla.solution.linear_algebra.superlu import factorize
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -147,7 +147,7 @@ def _refined(once: Solve, left: Callable[[FloatArray, FloatArray], FloatArray], 
 
 def _factors(scaled: sp.csc_array) -> Factorization | None:
     """Of a matrix that has its whole diagonal, regularised more strongly where it must be."""
-    pattern, values = stored_lower_triangle(scaled)
+    pattern, values = lower_triangle(scaled)
     factors = factorization(pattern)
     for stronger in STRONGER:
         shifted = values.copy()

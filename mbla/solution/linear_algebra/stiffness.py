@@ -28,6 +28,7 @@ from scipy.sparse.linalg import SuperLU
 from mbla.arrays import FloatArray, IntArray, distinct
 from mbla.process.sharing import shared
 from mbla.program.program import Program
+from mbla.solution.linear_algebra.block_products import dense_rows, sets_of_alike
 from mbla.solution.linear_algebra.qdldl_factors import elimination_order
 from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, factors_on_the_diagonal
 
@@ -163,8 +164,8 @@ def stiffness_of(program: Program) -> Stiffness:
 @shared("stiffness")
 def _places(matrix: sp.csr_array, components: int, n_points: int) -> Places:
     """Of an equilibrium matrix, (n_rows, components n_points)."""
-    n = matrix.shape[0]
-    sets = _point_sets(matrix, components, n_points)
+    n, compatibility = matrix.shape[0], sp.csr_array(matrix.T)
+    sets = _point_sets(compatibility, components, n_points)
     pattern = _pattern(n, [(rows, blocks) for _, rows, blocks in sets])
     order = np.append(elimination_order(pattern), n)
     place_of = np.empty(n + 1, dtype=np.int64)
@@ -196,36 +197,22 @@ def _places(matrix: sp.csr_array, components: int, n_points: int) -> Places:
         diagonal=places(every, every),
         border=(places(every, end), places(end, every), int(places(end[:1], end[:1])[0])),
         size=np.asarray(matrix.multiply(matrix).sum(axis=1)),
-        compatibility=sp.csr_array(matrix.T),
+        compatibility=compatibility,
     )
 
 
-def _point_sets(matrix: sp.csr_array, components: int, n_points: int) -> list[tuple[IntArray, IntArray, FloatArray]]:
+def _point_sets(
+    compatibility: sp.csr_array, components: int, n_points: int
+) -> list[tuple[IntArray, IntArray, FloatArray]]:
     """Points, rows and columns of A of all sets, those of like shape together; see ``PointGroup``."""
-    n, entries = matrix.shape[0], sp.coo_array(matrix)
-    point, component = np.divmod(entries.coords[1].astype(np.int64), components)
-    keys, place = np.unique(point * n + entries.coords[0], return_inverse=True)
-    point_of_key, row_of_key = np.divmod(keys, n)
-    n_rows_of_point = np.bincount(point_of_key, minlength=n_points)
-    local_row = place - (np.cumsum(n_rows_of_point) - n_rows_of_point)[point]
-    sets = []
-    for n_rows in np.unique(n_rows_of_point[n_rows_of_point > 0]):
-        here = np.flatnonzero(n_rows_of_point == n_rows)
-        index = np.full(n_points, -1)
-        index[here] = np.arange(len(here))
-        columns = np.zeros((len(here), n_rows, components))
-        mine = index[point] >= 0
-        columns[index[point[mine]], local_row[mine], component[mine]] = entries.data[mine]
-        rows, set_of_point = np.unique(
-            row_of_key[index[point_of_key] >= 0].reshape(-1, n_rows), axis=0, return_inverse=True
-        )
-        by_set = np.argsort(set_of_point, kind="stable")
-        sizes = np.bincount(set_of_point)
-        size_of_point = sizes[set_of_point[by_set]]
-        for size in np.unique(sizes):
-            members = by_set[size_of_point == size].reshape(-1, size)
-            block = columns[members].transpose(0, 2, 1, 3).reshape(len(members), n_rows, -1)
-            sets.append((here[members], rows[sizes == size], block))
+    rows = dense_rows(compatibility, np.repeat(np.arange(n_points), components), n_points)
+    shape_of = np.unique(rows.widths, return_inverse=True)[1]
+    place, sets = np.tile(np.arange(components), n_points), []
+    for points, columns, size in sets_of_alike(shape_of, rows):
+        if columns.shape[1]:
+            blocks = rows.blocks(points, place, components).reshape(len(columns), size, components, -1)
+            block = blocks.transpose(0, 3, 1, 2).reshape(*columns.shape, -1)
+            sets.append((points.reshape(-1, size), columns, np.ascontiguousarray(block)))
     return sets
 
 

@@ -27,7 +27,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_vectors import cones_to_boundary, lines_to_boundary
-from mbla.solution.linear_algebra.small_blocks import inverses
+from mbla.solution.linear_algebra.block_products import inverses
 from mbla.solution.linear_algebra.stiffness import Stiffness
 
 LEAST_LIMIT = 1e-10

@@ -34,13 +34,11 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import guided_program
-from mbla.program.static import gravity_form
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Status
+from mbla.solution.standing.standing import least_forces
 from mbla.solution.standing.standing_path import SMALL, StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, weaken_springs
 
@@ -83,12 +81,11 @@ def _least_forces(program: Program, share: float, settings: SolverSettings, log:
     """Least forces, (n_points, components), with a share of the friction."""
     lasting = lasting_limits(program.limits)
     inside = replace(program, dead_load=program.live_load, limits=replace(lasting, friction=share * lasting.friction))
-    form = gravity_form(_without_points(inside, np.isinf(lasting.compression)))
-    solution = interior_point_solver(form.cone_program, settings, log).solve(1, 0.0)
-    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+    found = least_forces(_without_points(inside, np.isinf(lasting.compression)), settings, log, [])
+    if isinstance(found, ConeSolution):
         return None
     forces = np.zeros((program.n_points, program.components))
-    forces[np.isinf(lasting.compression)] = form.forces(solution.x)
+    forces[np.isinf(lasting.compression)] = found
     return forces
 
 

@@ -1,6 +1,6 @@
 """Non-associative flow by proximal steps of the exact joint law from the gravity state.
 
-1. Gravity state x̄: forces under the dead load alone (:mod:`mbla.solution.nonassociative.gravity`).
+1. Gravity state x̄: forces under the dead load alone (:func:`mbla.solution.standing.standing.gravity_forces`).
 2. Proximal step: equilibrium at a load factor λ, and the exact law for the part of the motion that the change of the
    forces leaves, v + ρ (x − x̄); x̄ then moves to x. Every point at which the steps stand still is a state of the exact
    law, for any ρ. A step works as a step of the load with joints of stiffness ρ; ρ = ε/‖x̄‖² with ε = 0.03 is free of
@@ -34,7 +34,6 @@ from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative.gravity import gravity_forces
 from mbla.solution.nonassociative.law_state import (
     NEAR_ZERO,
     LawState,
@@ -56,6 +55,7 @@ from mbla.solution.nonassociative.law_steps import (
 )
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.standing.standing import gravity_forces
 from mbla.solution.standing.weak_spring_continuation import Weakening
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, EXACT_RESIDUAL, SOLVED_RESIDUAL
 

@@ -32,7 +32,7 @@ from mbla.program.resultants.conditions import RESULTANTS
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import curve_size, curve_support, friction_limit, nearest
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.linear_algebra.small_blocks import block_diagonal
+from mbla.solution.linear_algebra.block_products import block_diagonal
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_law import CONVERGED, REGULARIZATION, joint_state, joint_tangents
 from mbla.solution.nonassociative.law_state import LawState

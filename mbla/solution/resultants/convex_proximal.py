@@ -21,11 +21,11 @@ from mbla.program.resultants.friction_limit import friction_limit
 from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.gravity import least_forces
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, as_asked, not_at_rest, spread_of
 from mbla.solution.resultants.convex_law import ConvexLaw, convex_law, exact_convex_step, state_without_dilatancy
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.standing.standing import least_forces
 from mbla.solution.thresholds import EXACT_RESIDUAL
 
 STEP = 0.01

@@ -20,7 +20,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.linear_algebra.small_blocks import block_diagonal
+from mbla.solution.linear_algebra.block_products import block_diagonal
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative.joint_law import JointState, joint_state, joint_tangents
 

@@ -9,6 +9,7 @@ has to arise from the assembly without stress, by the exact law of the joints: s
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -18,9 +19,12 @@ from mbla.arrays import FloatArray
 from mbla.process.sharing import shared
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
+from mbla.program.static import gravity_form
+from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import forces_of, motion_of
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Standing, StandingResult
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult, Status
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
 
 YES = "the dead load is carried from the stress-free assembly"
@@ -110,6 +114,39 @@ def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
         displacements, program = program.reduction.velocities @ displacements, program.reduction.full
     scaling = program.scaling
     return program.mechanism(displacements) * (stiffest * scaling.force**2 / scaling.live)
+
+
+def least_forces(
+    program: Program, settings: SolverSettings, log: Log, records: list[ProgramRecord] | None = None
+) -> FloatArray | ConeSolution:
+    """The least forces that carry the dead load, (n_points, components), or the solver's verdict; a line of records."""
+    form, number = gravity_form(program), 0 if records is None else len(records) + 1
+    solution = interior_point_solver(form.cone_program, settings, log).solve(number, 0.0)
+    if records is not None:
+        records.append(solution.record(number, "gravity", np.nan))
+    return form.forces(solution.x) if solution.status in WITH_VALUE else solution
+
+
+def gravity_forces(
+    program: Program, settings: SolverSettings, log: Log, records: list[ProgramRecord], known: Weakening | None = None
+) -> FloatArray | ConeSolution:
+    """Forces under the dead load that flow without normality starts from, (n_points, components), or a verdict.
+
+    They are those that arise from the stress-free assembly, where it stands. Where it does not, or that is doubtful,
+    they are the least that carry the dead load. The least forces may hold a thrust between walls that nothing has
+    brought about: a bar lying on the ground between two walls and pushed along them, friction 0.5, then moves at 0.786
+    instead of 0.5.
+
+    records : gets a line
+    known   : ``stress_free_state`` of the program where it was found before
+    """
+    started, number = time.perf_counter(), len(records) + 1
+    stress_free = assess_dead_load(program, settings, known=known).forces
+    if stress_free is not None:
+        seconds = time.perf_counter() - started
+        records.append(ProgramRecord(number, "gravity", Status.SOLVED, np.nan, np.nan, 0, seconds))
+        return stress_free
+    return least_forces(program, settings, log, records)
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:

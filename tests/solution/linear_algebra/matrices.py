@@ -5,7 +5,19 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
+from mbla.arrays import FloatArray
+from mbla.solution.linear_algebra import SymmetricPattern
+from mbla.solution.linear_algebra.pattern import lower_triangle
+
 
 def random_matrix(shape: tuple[int, int], density: float, rng: np.random.Generator) -> sp.csr_array:
     """Numbers within 0 and 1 at a share of the places."""
     return sp.csr_array(np.where(rng.random(shape) < density, rng.random(shape), 0.0))
+
+
+def triangle_of(matrix: sp.sparray) -> tuple[SymmetricPattern, FloatArray]:
+    """Pattern and values of the lower triangle of a symmetric matrix, its whole diagonal included."""
+    n = int(matrix.shape[0])
+    held = sp.csc_array(matrix)
+    both = sp.coo_array(held + sp.eye_array(n))  # the sum stores every place of both
+    return lower_triangle(sp.csc_array((held.toarray()[both.coords], both.coords), shape=(n, n)))

@@ -11,9 +11,9 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
-from mbla.solution.linear_algebra import SymmetricPattern, cholesky, factorization, installed, lower_triangle
+from mbla.solution.linear_algebra import SymmetricPattern, cholesky, factorization, installed
 from mbla.solution.linear_algebra.cholesky import LIBRARIES
-from tests.solution.linear_algebra.matrices import random_matrix
+from tests.solution.linear_algebra.matrices import random_matrix, triangle_of
 
 EVERY = [
     pytest.param(name, marks=pytest.mark.skipif(name not in installed(), reason=f"{name} is not installed"))
@@ -27,7 +27,7 @@ def definite(n: int, seed: int = 1, spread: float = 0.0) -> tuple[SymmetricPatte
     rng = np.random.default_rng(seed)
     half = random_matrix((n, 2 * n), min(1.0, 3.0 / n), rng)
     weights = sp.diags_array(10.0 ** rng.uniform(-spread / 2, spread / 2, 2 * n))
-    return lower_triangle(sp.csc_array(half @ weights @ half.T + 1e-3 * sp.eye_array(n)))
+    return triangle_of(sp.csc_array(half @ weights @ half.T + 1e-3 * sp.eye_array(n)))
 
 
 @every_library

@@ -7,7 +7,7 @@ import pytest
 
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
-from mbla.solution.linear_algebra.small_blocks import block_diagonal
+from mbla.solution.linear_algebra.block_products import block_diagonal
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from tests.line import WALL, line_of
 

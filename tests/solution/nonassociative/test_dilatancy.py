@@ -14,12 +14,13 @@ from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
-from mbla.solution.nonassociative import dilatancy, gravity
+from mbla.solution.nonassociative import dilatancy
 from mbla.solution.nonassociative.dilatancy import solve_dilatancy
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.proximal import ProximalRun, solve_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.standing import standing
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.line import BLOCK, HEAD, line_of, verified
 from tests.solution.failing_solver import said
@@ -230,7 +231,7 @@ def test_another_state_is_remarked_on_where_it_fits_the_law(
 def test_a_dead_load_that_no_forces_carry_ends_the_scheme(monkeypatch: pytest.MonkeyPatch) -> None:
     program, associative = sliding()
     undecided = replace(associative, stress_free=Weakening(Outcome.UNDECIDED, None, np.nan, ""))
-    monkeypatch.setattr(gravity, "interior_point_solver", said(Status.UNBOUNDED))
+    monkeypatch.setattr(standing, "interior_point_solver", said(Status.UNBOUNDED))
     result = solve_dilatancy(program, undecided, ProximalScheme(), SETTINGS, lambda record: None)
     assert result.status is Status.NOT_VERIFIED
     assert result.state is None

@@ -10,7 +10,6 @@ import pytest
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import law_steps, proximal
-from mbla.solution.nonassociative.gravity import gravity_forces
 from mbla.solution.nonassociative.interior_step import InteriorResult
 from mbla.solution.nonassociative.joint_law import LawProblem, LawStep
 from mbla.solution.nonassociative.law_state import LawState
@@ -38,6 +37,7 @@ from mbla.solution.nonassociative.proximal import (
 )
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.standing.standing import gravity_forces
 from tests.line import BLOCK, WALL, line_of
 
 RHO = 1e-3

@@ -12,11 +12,12 @@ import pytest
 
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative import gravity, proximal
+from mbla.solution.nonassociative import proximal
 from mbla.solution.nonassociative.law_steps import Stepper
 from mbla.solution.nonassociative.proximal import ProximalRun, gravity_state, solve_proximal, steps_from
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.standing import standing
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.line import BLOCK, HEAD, WALL, line_of, verified
 from tests.solution.failing_solver import said
@@ -176,7 +177,7 @@ def test_without_a_gravity_state_the_scheme_does_not_begin(
     program, settings = line_of(BLOCK).program, SolverSettings(1e-8)
     associative = solve_associative(program, settings, lambda record: None)
     undecided = replace(associative, stress_free=Weakening(Outcome.UNDECIDED, None, np.nan, ""))
-    monkeypatch.setattr(gravity, "interior_point_solver", said(said_to_be))
+    monkeypatch.setattr(standing, "interior_point_solver", said(said_to_be))
     result = solve_proximal(program, undecided, 10, settings, lambda record: None)
     assert result.status is status
     assert result.state is None

@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.solution.nonassociative import gravity
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.resultants import convex_proximal
 from mbla.solution.resultants.convex_proximal import _finished, _Run, solve_convex_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.standing import standing
 from tests.line import WALL, line_of
 from tests.solution.failing_solver import said
 
@@ -43,7 +43,7 @@ def test_a_program_without_a_solution_ends_the_scheme(
 ) -> None:
     """The first is that of the gravity state; what is said of the others is not said of the structure."""
     solver = said(said_to_be, after)
-    for module in (gravity, convex_proximal):
+    for module in (standing, convex_proximal):
         monkeypatch.setattr(module, "interior_point_solver", solver)
     result = sequence(wall, 10)
     assert result.status is status

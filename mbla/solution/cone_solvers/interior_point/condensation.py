@@ -26,9 +26,9 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.cone_solvers.interior_point.cone_data import ConeData, Units
-from mbla.solution.cone_solvers.interior_point.cones import Scaling, boosted, largest_entry
-from mbla.solution.cone_solvers.interior_point.products import (
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, Units, boosted, largest_entry
+from mbla.solution.linear_algebra import Factorization, factorization
+from mbla.solution.linear_algebra.block_products import (
     DenseRows,
     PlacedProducts,
     alike,
@@ -41,7 +41,6 @@ from mbla.solution.cone_solvers.interior_point.products import (
     taken,
     triangular_factor,
 )
-from mbla.solution.linear_algebra import Factorization, factorization
 
 REFINED = 1e-12
 """Residual of the linear system, relative to its right-hand side, at which refinement ends."""

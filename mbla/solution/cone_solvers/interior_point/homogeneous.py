@@ -22,8 +22,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
-from mbla.solution.cone_solvers.interior_point.cone_data import ConeData
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, dot
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, ConeProduct, Scaling, dot
 from mbla.solution.cone_solvers.interior_point.iterates import Ended, Point, Run, best_of_run, inside_start
 from mbla.solution.cone_solvers.interior_point.method import SHARE
 

@@ -31,8 +31,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
-from mbla.solution.cone_solvers.interior_point.cone_data import ConeData
-from mbla.solution.cone_solvers.interior_point.cones import Scaling, dot
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, dot
 from mbla.solution.cone_solvers.interior_point.iterates import (
     Ended,
     Outcome,

@@ -16,7 +16,7 @@ from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
-from mbla.solution.cone_solvers.interior_point.cone_data import ConeData, cone_data
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, cone_data
 from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
 from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Point, Run, warm_start
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program

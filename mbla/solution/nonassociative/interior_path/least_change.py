@@ -25,7 +25,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.solution.linear_algebra.small_blocks import block_diagonal, inverses
+from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
 from mbla.solution.linear_algebra.superlu import factorize
 from mbla.solution.nonassociative.joint_equations import Iterate, JointEquations, Missing
 

@@ -18,22 +18,19 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import InteriorScheme
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.program.static import gravity_form
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative.interior_path.one_try import SOLVED, Moment, Start, Try, go
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.proximal import rough_result
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from mbla.solution.standing.standing import least_forces
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 WARNED = SOLVED_RESIDUAL
@@ -138,11 +135,8 @@ def _possible(anchor: FloatArray | None) -> Iterator[Start]:
 
 def _gravity_state(tries: _Tries) -> FloatArray | None:
     """The least forces that carry the dead load, (n_points, components); None where the program finds none."""
-    form, number = gravity_form(tries.program), len(tries.records) + 1
-    solution = interior_point_solver(form.cone_program, tries.settings, tries.log).solve(number, 0.0)
-    record = solution.record(number, "gravity", np.nan)
-    tries.records.append(record)
-    return form.forces(solution.x) if solution.status in (Status.SOLVED, Status.APPROXIMATE) else None
+    found = least_forces(tries.program, tries.settings, tries.log, tries.records)
+    return None if isinstance(found, ConeSolution) else found
 
 
 def _try(tries: _Tries, begin: Start, anchor: FloatArray | None, most: int) -> LawState | None:

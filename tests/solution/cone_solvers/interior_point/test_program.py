@@ -15,8 +15,7 @@ from mbla.errors import SolverError
 from mbla.program.kinematic import kinematic_form
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
-from mbla.solution.cone_solvers.interior_point.cone_data import cone_data
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, cone_data
 from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
 from mbla.solution.cone_solvers.interior_point.iterates import Ended, Outcome, Run
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program

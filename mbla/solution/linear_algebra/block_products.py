@@ -1,7 +1,8 @@
 """Sums of many small products XᵀX in one sparse matrix of fixed pattern, and many small groups and triangles at once.
 
 Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and what they give
-is added up where it belongs by one map, whose places are found once.
+is added up where it belongs by one map, whose places are found once. Inverses of many blocks and the matrix with blocks
+on its diagonal stand here too.
 """
 
 from __future__ import annotations
@@ -175,3 +176,26 @@ def backward(r: FloatArray, rhs: FloatArray) -> FloatArray:
             result[i] -= r[i, j][:, None] * result[j]
         result[i] /= r[i, i][:, None]
     return result
+
+
+def inverses(blocks: FloatArray) -> FloatArray:
+    """Inverse of each block, (n, k, k); not-a-number throughout a block that is exactly singular.
+
+    Whoever asks sees by ``np.isfinite`` that there is no inverse, as where the entries have overflowed.
+    """
+    try:
+        return np.asarray(np.linalg.inv(blocks), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        found = np.full(blocks.shape, np.nan)
+        for number, block in enumerate(blocks):
+            try:
+                found[number] = np.linalg.inv(block)
+            except np.linalg.LinAlgError:
+                continue
+        return found
+
+
+def block_diagonal(blocks: FloatArray) -> sp.csr_array:
+    """The matrix, (n k, n k), with these blocks, (n, k, k), on its diagonal."""
+    n, size = blocks.shape[:2]
+    return sp.csr_array(sp.bsr_array((blocks, np.arange(n), np.arange(n + 1)), shape=(size * n, size * n)))

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
+import pytest
 import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.cone_solvers.interior_point.products import PlacedProducts, alike, dense_rows, placed_products
+from mbla.program.program import Program
+from mbla.solution.cone_solvers.interior_point.condensation import bordered
+from mbla.solution.linear_algebra.block_products import PlacedProducts, dense_rows, inverses, placed_products
+from mbla.solution.solution import Status
+from tests.line import BLOCK, line_of, verified
 
 quick = settings(max_examples=40, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
@@ -67,8 +74,27 @@ def test_rows_gathered_into_blocks_are_those_of_the_matrix(seed: int) -> None:
             np.testing.assert_array_equal(block, rows[:, held])
 
 
-def test_equal_rows_are_alike() -> None:
-    of_set = alike(np.array([[1, 2], [0, 5], [1, 2], [1, 3]]))
-    assert of_set[0] == of_set[2]
-    assert len(set(of_set.tolist())) == 3
-    assert len(alike(np.zeros((0, 4), dtype=np.int64))) == 0
+def test_each_block_by_itself() -> None:
+    blocks = np.random.default_rng(3).normal(size=(5, 3, 3))
+    alone = inverses(blocks[[0, 1, 3, 4]])
+    blocks[2, 2] = 0.0
+    found = inverses(blocks)
+    assert np.isnan(found[2]).all()
+    assert np.array_equal(found[[0, 1, 3, 4]], alone)
+    assert np.matmul(alone, blocks[[0, 1, 3, 4]]) == pytest.approx(np.broadcast_to(np.eye(3), (4, 3, 3)), abs=1e-12)
+
+
+def test_a_border_that_overflowed_has_no_solution() -> None:
+    assert np.isnan(bordered(np.array([[np.inf]]), np.array([1.0]))).all()
+    assert bordered(np.array([[2.0]]), np.array([1.0])) == pytest.approx(0.5)
+
+
+def test_a_breakdown_of_a_part_is_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(program: Program, *_: object) -> None:
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr(sys.modules["mbla.solution.solve"], "solve_part", broken)
+    solution, _, status = verified(line_of(BLOCK))
+    assert status is Status.NUMERICAL_ERROR
+    assert solution.mechanics is None
+    assert "singular matrix" in solution.reason
