@@ -113,13 +113,6 @@ def test_fill_is_that_of_the_order_of_all_rows_or_about(size: int) -> None:
     assert own < 0.8 * fill(pattern, np.arange(900 * size))
 
 
-def test_the_numbering_of_blocks_does_not_matter_for_the_fill() -> None:
-    pattern = blocks_of(grid(20, 20), 3)
-    shuffled = np.random.default_rng(1).permutation(1200)
-    other = sp.coo_array((pattern.data, (shuffled[pattern.coords[0]], shuffled[pattern.coords[1]])), pattern.shape)
-    assert fill(other, elimination_order(other)) == pytest.approx(fill(pattern, elimination_order(pattern)), rel=0.1)
-
-
 def test_parts_that_do_not_touch_and_no_rows_at_all_have_an_order() -> None:
     assert elimination_order(sp.coo_array(sp.eye_array(4))).shape == (4,)
     assert elimination_order(sp.coo_array((0, 0))).tolist() == []

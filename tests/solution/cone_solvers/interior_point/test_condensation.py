@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
 from mbla.solution.cone_solvers.interior_point.cones import ConeData, ConeProduct, Scaling, cone_data
-from tests.solution.cone_solvers.interior_point.vectors import Known, inside, known_program
+from tests.solution.cone_solvers.interior_point.programs import Known, inside, known_program
 
 quick = settings(max_examples=25, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)

@@ -7,13 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, determinant
-from tests.solution.cone_solvers.interior_point.vectors import inside, program_order, vector_of
+from mbla.arrays import FloatArray
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, determinant
+from tests.solution.cone_solvers.interior_point.programs import inside, program_order, vector_of
 
 quick = settings(max_examples=40, derandomize=True)
 seeds = st.integers(0, 2**32 - 1)
 products = st.builds(ConeProduct, st.integers(0, 6), st.integers(0, 6)).filter(lambda product: product.degree > 0)
 distances = st.sampled_from([1.0, 1e-3, 1e-8, 1e-12])
+scaled = st.sampled_from([1.0, 1e-2, 1e-5, 1e-10])
 
 
 @quick
@@ -28,15 +30,6 @@ def test_the_product_is_commutative_and_that_of_the_definition(seed: int, produc
     one_by_one = zip(*(w[order][lines:].reshape(-1, 3) for w in (u, v, found)), strict=True)
     for a, b, product_of_both in one_by_one:
         np.testing.assert_allclose(product_of_both, [a @ b, *(a[0] * b[1:] + b[0] * a[1:])], atol=1e-14)
-
-
-@quick
-@given(seed=seeds, product=products)
-def test_the_identity_changes_nothing_and_squares_to_itself(seed: int, product: ConeProduct) -> None:
-    v, e = vector_of(np.random.default_rng(seed), product), product.identity()
-    np.testing.assert_array_equal(product.product(e, v), v)
-    assert e @ e == product.degree
-    assert product.least_eigenvalue(e) == 1.0
 
 
 @quick
@@ -118,7 +111,48 @@ def test_clipping_bounds_the_eigenvalues_and_leaves_those_within(seed: int, prod
     np.testing.assert_allclose(product.clipped(clipped, 0.5, 2.0), clipped, atol=1e-14)
 
 
-def test_an_empty_product_holds_everything() -> None:
-    product, nothing = ConeProduct(0, 0), np.zeros(0)
-    assert product.step_to_boundary(nothing, nothing) == np.inf
-    assert product.least_eigenvalue(nothing) == np.inf
+# --- The scaling of Nesterov and Todd: W z = W⁻¹ s, near the border and away from it ---------------------------------
+
+
+def dense(scaling: Scaling) -> FloatArray:
+    """W as a matrix."""
+    identity = np.eye(scaling.product.size)
+    return np.column_stack([scaling.times(column) for column in identity])
+
+
+@quick
+@given(seed=seeds, product=products, one=scaled, other=scaled)
+def test_primal_and_dual_look_alike_from_the_middle(seed: int, product: ConeProduct, one: float, other: float) -> None:
+    """To rounding times the condition of W, which is that of s and z to the power of a half."""
+    rng = np.random.default_rng(seed)
+    s, z = inside(rng, product, one), inside(rng, product, other)
+    scaling = Scaling.of(product, s, z)
+    middle = scaling.times(z)
+    spread = 1e-15 / min(one, other)
+    np.testing.assert_allclose(scaling.inverse(s), middle, rtol=0.0, atol=10 * spread * np.abs(middle).max() + 1e-13)
+    assert product.least_eigenvalue(middle) > 0.0
+    np.testing.assert_allclose(middle @ middle, s @ z, rtol=100 * spread + 1e-12)
+
+
+@quick
+@given(seed=seeds, product=products, one=scaled, other=scaled)
+def test_times_and_inverse_undo_each_other(seed: int, product: ConeProduct, one: float, other: float) -> None:
+    rng = np.random.default_rng(seed)
+    scaling = Scaling.of(product, inside(rng, product, one), inside(rng, product, other))
+    v = vector_of(rng, product)
+    size = float(np.linalg.norm(dense(scaling), 2))
+    stretched = max(size, 1.0) * 1e-13 / min(one, other)
+    np.testing.assert_allclose(scaling.inverse(scaling.times(v)), v, atol=stretched)
+    np.testing.assert_allclose(scaling.times(scaling.inverse(v)), v, atol=stretched)
+
+
+@quick
+@given(seed=seeds, product=products, one=scaled, other=scaled)
+def test_it_is_symmetric_and_keeps_the_cones(seed: int, product: ConeProduct, one: float, other: float) -> None:
+    rng = np.random.default_rng(seed)
+    scaling = Scaling.of(product, inside(rng, product, one), inside(rng, product, other))
+    matrix = dense(scaling)
+    np.testing.assert_allclose(matrix, matrix.T, rtol=0.0, atol=1e-14 * np.abs(matrix).max())
+    assert np.linalg.eigvalsh(matrix).min() > -1e-14 * np.abs(matrix).max()
+    within = scaling.times(inside(rng, product, 0.1))
+    assert product.least_eigenvalue(within) > 0.0
