@@ -187,7 +187,3 @@ def test_no_scheduler_there(tmp_path: Path) -> None:
         engine,
     ):
         pass
-    missing.write_text("{}", encoding="utf-8")
-    engine = engine_for(EngineOptions(scheduler_file=missing, patience=0.1))
-    with pytest.raises(UsageError, match=r"none\.json: not a file that `dask scheduler"), engine:
-        pass

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import random
-from typing import Any
 
 import pytest
 
 from mbla.process.sharing import Memory, sharing
-from mbla.results.results import Results
-from mbla.run import solve_deck
-from mbla.sweeps.engine import child
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.plan import Plain, Plan, Task
 from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
@@ -65,23 +61,6 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
 def runner_of_an_arch() -> PointRunner:
     results = ("load_factor", "mechanism.hinges", "reason")
     return PointRunner(Plan(str(DECKS / ARCH), "", (), ("push_x",), results, "none", "", None, None, ""))
-
-
-def test_a_point_whose_memory_earlier_ones_took_is_solved_without_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    task = Task("1", 1, SMALL_ARCH)
-    runner = runner_of_an_arch()
-    expected = runner.run(task)
-    before = runner.memory
-
-    def scarce(*args: Any) -> Results:
-        if runner.memory is before:
-            raise MemoryError
-        return solve_deck(*args)
-
-    monkeypatch.setattr(child, "solve_deck", scarce)
-    outcome = runner.run(task)
-    assert (outcome.state, outcome.results) == ("done", expected.results)
-    assert "structure" not in runner.memory.found, "it starts anew"
 
 
 def test_faults_name_the_settings_of_their_own_point() -> None:
