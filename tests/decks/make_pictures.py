@@ -51,6 +51,8 @@ SMALLER = ("--size", "1200x750")
 """for pictures in space, whose files are large"""
 SHADES = (0.45, 0.6, 0.75, 0.9, 1.0)
 """of colours that mean something, as the light makes them"""
+NEARLY_WHITE = 247
+"""of a palette: such colours are white, as the background is"""
 
 
 @dataclass(frozen=True)
@@ -142,9 +144,10 @@ def with_palette(path: Path) -> Path:
         shades += [round(255 * light * part) for name in meaning for light in SHADES for part in rgb(name)]
         with Image.open(path) as image:
             picture = image.convert("RGB")
+        common = np.array(picture.quantize(256 - len(shades) // 3).getpalette(), dtype=np.uint8).reshape(-1, 3)
+        common[common.min(axis=1) > NEARLY_WHITE] = 255
         palette = Image.new("P", (1, 1))
-        common = picture.quantize(256 - len(shades) // 3).getpalette() or []
-        palette.putpalette([*shades, *common[: 768 - len(shades)]])
+        palette.putpalette([*shades, *common.ravel().tolist()][:768])
         picture.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
     return path
 

@@ -181,8 +181,8 @@ def add_images(
         unit, metres = scene.model.units.length, panel.camera.height / page.figure.get_figheight()
         if panel.gain == 1.0:
             ways = np.column_stack([panel.camera.right, panel.camera.up])
-            add_axes(page, "xyz", ways, 0.04, 0.06)
-            add_bar(page, metres, unit, 0.1, 0.045)
+            add_axes(page, "xyz", ways, 0.055, 0.06)
+            add_bar(page, metres, unit, 0.12, 0.045)
         else:
             artists[-1].set_clip_path(_frame(page, axes, (0.005, room[0], 0.985, room[1] - room[0])))
             bar = add_bar(page, metres, unit, panel.across[0] + 0.02, room[1] - 0.06)
