@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.polygons import Polygons, areas, centroids, polygons_from_rings, rings, valid, widths
+from mbla.contacts.polygons import Polygons, polygons_from_rings, rings, valid, widths
 from mbla.model.solids.ragged import next_item
 
 # Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
@@ -78,8 +78,15 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
 
 def areas_and_centroids(corners: Corners) -> tuple[FloatArray, FloatArray]:
     """Area (n_polygons,) and centroid (n_polygons, 2) of each polygon, holes taken off; every polygon has corners."""
-    polygons = polygons_from_rings(corners.points, corners.ring_start, corners.polygon_of_ring)
-    return areas(polygons), centroids(polygons)
+    polygon = corners.polygon_of_corner
+    n = int(polygon.max(initial=-1)) + 1
+    anchor = corners.points[np.searchsorted(polygon, np.arange(n))]
+    p = corners.points - anchor[polygon]
+    q = p[next_item(corners.ring_start)]
+    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    moments = [np.bincount(polygon, weights, n) / 6 for weights in ((p + q) * cross[:, None]).T]
+    area = np.bincount(polygon, cross, n) / 2
+    return area, anchor + np.stack(moments, axis=1) / area[:, None]
 
 
 def parallelograms(corners: Corners, n: int) -> BoolArray:
