@@ -23,7 +23,7 @@ from typing import TypeAlias
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
-from mbla.solution.solution import Checks, Mechanics, Solution, Status
+from mbla.solution.solution import WITH_VALUE, Checks, Mechanics, Solution, Status
 from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
 from mbla.solution.verification.further_claims import only_direction_counts
 from mbla.solution.verification.verify import level_bound
@@ -48,8 +48,6 @@ BY_LINE = 1e-6
 1e-13, moves the arc cosine near 1 by 5e-7"""
 BETWEEN = 8
 """angles tried before the one found where nothing proves that the table gets there"""
-
-WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from mbla.solution.associative.bounds import LOCKED_IN, dissipation, point_dissi
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Status
+from mbla.solution.solution import WITH_VALUE
 from mbla.solution.standing.weak_spring_continuation import springs_of
 
 FALL_TOLERANCE = 1e-12
@@ -62,7 +62,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     solution = interior_point_solver(without_live_load, exact, log).solve(1, 0.0)
     velocities = form.velocities(solution.x)
     largest = float(np.abs(velocities).max(initial=0.0))
-    if solution.status not in (Status.SOLVED, Status.APPROXIMATE) or not largest > CARRIED_SHARE:
+    if solution.status not in WITH_VALUE or not largest > CARRIED_SHARE:
         return None
     moving = velocities / largest
     candidates = (np.where(np.abs(moving) > AT_REST, moving, 0.0), moving)

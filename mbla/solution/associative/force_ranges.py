@@ -30,7 +30,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
 TOUCHING = 1e-6
 """Velocity, over the largest contact speed, above which a point counts as moving."""
@@ -95,7 +95,7 @@ def force_ranges(
             value = np.nan
             if solution.status is Status.NO_EQUILIBRIUM:  # said of a program in velocities: here it has no least value
                 value = -sign * np.inf
-            elif solution.status in (Status.SOLVED, Status.APPROXIMATE):
+            elif solution.status in WITH_VALUE:
                 value = sign * solution.objective + float((row @ form.offset)[0])
             room = WITHIN * max(largest, abs(found))
             ranges[interface, end] = value if sign * (value - found) <= room else np.nan

@@ -24,6 +24,7 @@ from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
+from mbla.solution.thresholds import GAP_TOLERANCE
 
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
@@ -52,7 +53,7 @@ WORTHWHILE = 0.5
 SHARPEST = 1e-12
 """Least tolerance of the solver."""
 
-ACCEPTED_GAP = 1e-5
+ACCEPTED_GAP = GAP_TOLERANCE
 """Distance of the bounds, relative, up to which a load factor counts as solved."""
 
 LARGE = 30_000

@@ -24,7 +24,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPoint
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import EXACT_RESIDUAL
 
 TOUCHING = (1e-6, 1e-8, 1e-10)
@@ -115,7 +115,7 @@ class _Search:
 
     def add(self, kind: str, form: StaticForm, solution: ConeSolution) -> None:
         """Take what a program says of one end; it stays pending where its forces miss the law."""
-        found = solution.status in (Status.SOLVED, Status.APPROXIMATE)
+        found = solution.status in WITH_VALUE
         status = STATIC_STATUS.get(solution.status, solution.status)
         self._record(kind, status, form, solution, found)
         if not found:

@@ -29,7 +29,7 @@ from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NO_LIMIT = 1e-9
@@ -56,7 +56,7 @@ def solve_livesley(
     form = kinematic_form(program, _prism(program.limits, before.forces[:, 0]), facets=facets)
     number, live = len(associative.programs) + 1, program.scaling.live
     solution = cone_solver(form.cone_program, settings, log).solve(number, live)
-    valued = solution.status in (Status.SOLVED, Status.APPROXIMATE)
+    valued = solution.status in WITH_VALUE
     change = (solution.objective - before.load_factor) / max(abs(before.load_factor), 1e-300) if valued else np.nan
     records = (*associative.programs, _record(number, solution, live, change))
     if not valued:

@@ -35,7 +35,7 @@ from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
 SPREAD_PROGRAMS = 10
 """Last programs of a sequence over which forces are averaged, and its spread is reported where it did not settle."""
@@ -75,7 +75,7 @@ def solve_published(
         number = len(records) + 1
         solver.update(cost=form.cost_for(_fictitious(limits, slope, normal)))
         solution = solver.solve(number, live)
-        if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+        if solution.status not in WITH_VALUE:
             return _broken_off(program, best, solution, records)
         factors.append(solution.objective)
         change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12)

@@ -43,7 +43,7 @@ from mbla.solution.nonassociative.factor_range import (
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.nonassociative.point_motion import Nearness, motion_of, point_motion, sparse_mechanism
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, IterationRecord, ProgramRecord, Status
 
 NEARNESS = (
     Nearness(1e-7, 1e-4),
@@ -194,7 +194,7 @@ class _Search:
         solution = interior_point_solver(cone_program, settings, self.unlogged.append, has_inside=False).solve(
             number, form.program.scaling.live
         )
-        return solution if solution.status in (Status.SOLVED, Status.APPROXIMATE) else None
+        return solution if solution.status in WITH_VALUE else None
 
     def _note(self, solution: ConeSolution) -> None:
         """A line among the programs where the load factor has fallen by something worth one."""

@@ -40,7 +40,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.solution import Checks, Mechanics, Solution, Status
+from mbla.solution.solution import WITH_VALUE, Checks, Mechanics, Solution
 from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord, never_left
 from mbla.solution.verification.case import Case
@@ -239,7 +239,7 @@ def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
 def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     """What is wrong with the angle of a case that claims one."""
     tilt, mechanics = load_case.tilt, solution.mechanics
-    if tilt is None or mechanics is None or solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+    if tilt is None or mechanics is None or solution.status not in WITH_VALUE:
         return ()
     if tilt.tangent and abs(mechanics.load_factor) > SAME_LOADS and not only_direction_counts(model, contacts, tilt):
         return (

@@ -19,7 +19,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.solution.associative.proofs import associative_bounds, certificate_failures
-from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
 from mbla.solution.thresholds import (
     APPROXIMATE_RESIDUAL,
     BOUNDS_ROUNDING,
@@ -105,7 +105,7 @@ def _checked_without_mechanics(case: Case, solution: Solution) -> Checks:
 
 def verified_status(solution: Solution, checks: Checks) -> Status:
     """What may be claimed: the solver's status, lowered to what verification found."""
-    if solution.status not in (Status.SOLVED, Status.APPROXIMATE):
+    if solution.status not in WITH_VALUE:
         if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED
         return solution.status
