@@ -226,7 +226,7 @@ def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_m
     assert convex_form(convex).cone_program.quadratic is None
     for blocks, weight in ((n_free, 1e-9 * n_free), (5000, 1e-7)):
         many = replace(convex, points=replace(convex.points, free=np.arange(blocks)))
-        quadratic = convex_form(many, stabilised=True).cone_program.quadratic
+        quadratic = convex_form(many, stabilised=1.0).cone_program.quadratic
         assert quadratic is not None
         assert quadratic == pytest.approx(np.full(len(quadratic), weight))
 

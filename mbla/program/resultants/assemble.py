@@ -196,10 +196,11 @@ OF_CRUSHING = 1e-4
 8 MPa moved by 5e-5."""
 
 
-def convex_form(convex: ConvexProgram, stabilised: bool = False) -> KinematicForm:
+def convex_form(convex: ConvexProgram, stabilised: float = 0.0) -> KinematicForm:
     """The kinematic form of the program, its conditions as further rows.
 
-    stabilised : with a small quadratic term; without, unbounded programs have rays
+    stabilised : share of the small quadratic term; without it, unbounded programs have rays. In another unit of force 1
+                 over that unit: velocities are the same in every unit, powers are not
     """
     form = kinematic_form(convex.program, convex.program.limits)
     base = form.cone_program
@@ -220,7 +221,7 @@ def convex_form(convex: ConvexProgram, stabilised: bool = False) -> KinematicFor
         matrix=matrix,
         rhs=np.concatenate([base.rhs, np.zeros(rows.cones.shape[0])]),
         further_cones=tuple(rows.cone_sizes.tolist()),
-        quadratic=_stabilising(convex, matrix.shape[1]) if stabilised else None,
+        quadratic=stabilised * _stabilising(convex, matrix.shape[1]) if stabilised else None,
     )
     return replace(form, cone_program=cone_program)
 

@@ -166,10 +166,18 @@ def _repaired(convex: ConvexProgram, state: LawState) -> LawState:
 
     The solver's own miss equilibrium and conditions by its tolerance, and its load factor may lie above both bounds.
     """
-    found = repaired_convex_forces(convex, state.forces, state.load_factor, sharp=True)
+    found = repaired_convex_forces(convex, state.forces, state.load_factor)
     if found is None or abs(found[1] - state.load_factor) > MOVED * abs(state.load_factor):
         return state
-    return replace(state, forces=found[0], load_factor=found[1])
+    repaired = replace(state, forces=found[0], load_factor=found[1])
+    return min(repaired, state, key=lambda one: _unbalanced(convex, one))
+
+
+def _unbalanced(convex: ConvexProgram, state: LawState) -> float:
+    """Largest force or moment that is out of balance, in mean block loads."""
+    program = convex.points
+    loads = program.dead_load + state.load_factor * program.live_load
+    return float(np.abs(program.equilibrium_matrix @ state.forces.ravel() + loads).max(initial=0.0))
 
 
 def _attempt(run: _Run) -> ConvexAssociative:
@@ -212,7 +220,13 @@ def _forward(run: _Run) -> tuple[KinematicForm, ConeSolution]:
 
 
 def _unit_after(run: _Run, solution: ConeSolution) -> float:
-    """Unit of force by what was found; that of the greatest strength where the solver broke down."""
+    """Unit of force by what was found; that of the greatest strength where the solver broke down.
+
+    It stays where nothing crushes: no difference of large numbers is lost then, and the term that makes the solution
+    unique would weigh more than the dead load of blocks 1,000 times as wide as high.
+    """
+    if not len(run.convex.crushing.interfaces):
+        return run.unit
     if solution.status in WITH_VALUE:
         return unit_at_collapse(run.convex, solution.objective * run.unit)
     strongest = float(run.convex.crushing.strength.max(initial=0.0))
@@ -226,7 +240,7 @@ def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
     breaks down on the plain program.
     """
     convex = run.program(sense)
-    form = convex_form(convex, stabilised=True)
+    form = convex_form(convex, stabilised=1.0 / run.unit_for(sense))
     solution = run.solve(convex, form, sense)
     if solution.status is Status.SOLVED and not _negative(convex, solution.objective):
         return form, solution

@@ -57,12 +57,11 @@ THRESHOLDS = (0.0, 1e-6, np.inf)
 
 @timed("repair")
 def repaired_convex_forces(
-    convex: ConvexProgram, forces: FloatArray, load_factor: float, *, sharp: bool = False
+    convex: ConvexProgram, forces: FloatArray, load_factor: float
 ) -> tuple[FloatArray, float] | None:
     """Forces near the given ones in equilibrium and within all conditions, and the load factor that they carry.
 
     forces : (n_points, 3), non-dimensional like the load factor. None where no repair is found.
-    sharp  : None too where they are not as near to equilibrium as ``GOOD_EQUILIBRIUM``
     """
     unit = unit_at_collapse(convex, load_factor)
     convex, forces, load_factor = convex.in_unit_of_force(unit), forces / unit, load_factor / unit
@@ -86,7 +85,7 @@ def repaired_convex_forces(
             best, least = z, residual
         if least <= good:
             break
-    if best is None or (sharp and not least <= good):
+    if best is None:
         return None
     return form.contact_forces(best) * unit, -float(best[0]) * unit
 

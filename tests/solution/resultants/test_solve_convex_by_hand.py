@@ -66,7 +66,6 @@ def test_forces_that_no_repair_brings_near_to_balance_are_given_where_that_is_en
     state = solve_convex_associative(program, SETTINGS, lambda record: None).state
     assert state is not None
     monkeypatch.setattr(convex_repair, "GOOD_EQUILIBRIUM", -1.0)
-    assert repaired_convex_forces(program, state.forces, state.load_factor, sharp=True) is None
     found = repaired_convex_forces(program, state.forces, state.load_factor)
     assert found is not None
     assert found[1] == pytest.approx(state.load_factor, rel=1e-6)
