@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
-from mbla.results.exit_status import EXIT_CODES, GRAVEST_FIRST
+from mbla.results.exit_status import EXIT_CODES, FAULTS, GRAVEST_FIRST
 from mbla.results.explanations import explanations
 from mbla.solution.solution import PROVED_STANDING, Status
 from tests.analytic.planar import wall, wall_load_factor
@@ -89,6 +89,7 @@ def test_files_and_exit_status_agree(seed: int, tmp_path: Path, capsys: pytest.C
         return
     assert checked == 0, told.err
     codes = {EXIT_CODES[Status(case["status"])] for case in run.cases}
+    codes |= {4 for notice in run.record["notices"] if notice["identifier"] in FAULTS}
     assert run.code == next((code for code in GRAVEST_FIRST if code in codes), 0)
     assert all((case["load_factor"] is None) != (case["status"] in ("solved", "approximate")) for case in run.cases)
     file = str(path.with_suffix(".out") / "deck.h5")
