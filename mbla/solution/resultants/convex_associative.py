@@ -39,8 +39,9 @@ DOUBTFUL = 1e-4
 """Share below which the sign of a load factor is not certain where the solver ended short of its tolerance. A factor
 itself need not be solved to tolerance: its verified bounds tell what it is worth."""
 
-KKT_REGULARIZATION = 1e-8
-"""Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks."""
+KKT_REGULARIZATION, STRONGER = 1e-8, 1e-7
+"""Static regularisation: with 1e-11 the solver broke down on a wall of 410 blocks; with 1e-8 on a locked vault, where
+ten times that proved in one of two units of length, as it did in the other, that there is no mechanism."""
 
 MOVED = 1e-4
 """Share of the load factor by which a repair may move it: beyond it another state was found."""
@@ -246,6 +247,8 @@ def _solved(run: _Run, sense: float) -> tuple[KinematicForm, ConeSolution]:
         return form, solution
     plain_form = convex_form(convex)
     plain = run.solve(convex, plain_form, sense)
+    if plain.status in BROKEN and solution.status in BROKEN:
+        plain = replace(run, settings=replace(run.settings, regularization=STRONGER)).solve(convex, plain_form, sense)
     if plain.status in DECIDED or solution.status not in (*WITH_VALUE, Status.UNBOUNDED):
         return plain_form, plain
     return form, solution
