@@ -22,6 +22,7 @@ from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.verification import case
 from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
 from tests.solution.associative.test_polyhedral import SETTINGS, ignored
@@ -146,7 +147,7 @@ def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_model
         checks = verified_checks(line, solution)
         return len(tried), checks.static_bound, checks.kinematic_bound
 
-    monkeypatch.setattr(proofs, "repaired_mechanisms", counted)
+    monkeypatch.setattr(case, "repaired_mechanisms", counted)
     every, static, kinematic = bounds(10**9, 1e-5)
     assert every > 1
     once = bounds(0, 1e-5)
