@@ -141,25 +141,22 @@ def _iterate(
 ) -> tuple[Iterate, float] | None:
     """Predictor, corrector, step; the new iterate and the length of the step, None where there is none.
 
-    That is where the system is singular, and where no way is left: with a load that nothing carries the velocities grow
-    without bound until rounding of their products puts joints outside their cones. The way back inside is negative, and
-    steps along it end anywhere.
+    That is where the system is singular, where nothing of the products is left, and where no way is left: with a load
+    that nothing carries the velocities grow without bound until rounding of their products puts joints outside their
+    cones. The way back inside is negative, and steps along it end anywhere.
     """
-    joints = Joints.of(step, now)
-    if not np.isfinite(joints.tangents).all():
+    joints, product = Joints.of(step, now), missing.total / (2 * len(now.normal) + len(step.crushable))
+    if not (np.isfinite(joints.tangents).all() and product > 0.0):
         return None
     shift = REGULARIZATION * float(np.abs(joints.tangents[:, 0, 0]).mean()) * step.stiffness.size
     solve = step.stiffness.factorized(joints.tangents, shift)
     if solve is None:
         return None
-    n_products = 2 * len(now.normal) + len(step.crushable)
-    product = missing.total / n_products
 
     predictor = joints.direction(solve, now, missing, wanted(step, missing, 0.0))
     reach = min(1.0, step_to_boundary(step, now, predictor))
     ahead = residuals(step, now.plus(predictor, reach))
-    left = ahead.total / n_products
-    target = product * float(np.clip((left / product) ** 3, 1e-6, 1.0))
+    target = product * float(np.clip((ahead.total / missing.total) ** 3, 1e-6, 1.0))
     products = wanted(step, missing, target, predictor, reach)
     if last < SHORT:
         target = product
