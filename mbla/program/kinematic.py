@@ -112,7 +112,7 @@ PLANAR_FACETS = np.array([[1.0], [-1.0]])
 
 
 def friction_polygon(sides: int, circumscribed: bool) -> FloatArray:
-    """Directions g_i whose hull is a regular polygon in the unit circle, or about it, (sides, 2).
+    """Directions g_i, (n_sides, 2), whose hull is a regular polygon in the unit circle, or about it.
 
     ‖T‖ ≤ h is replaced by −T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T. The inscribed polygon has a corner
     on the first tangent, and the circumscribed one touches the circle where the inscribed one has its corners: both
@@ -131,7 +131,7 @@ def kinematic_form(
     """Kinematic form under the given limits, those of the program or modified ones.
 
     reduce_dry : False keeps the multiplier p at dry points too, so that a later cohesion changes the cost alone
-    facets     : directions that bound shear instead of the circular cone of a spatial program
+    facets     : (n_facets, 2) directions that bound shear instead of the circular cone of a spatial program
     """
     facets = PLANAR_FACETS if program.components == 2 else facets
     rows = _point_rows(limits, reduce_dry)

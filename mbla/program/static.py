@@ -60,7 +60,7 @@ class StaticForm:
         return np.asarray(self.expand @ y[: self.expand.shape[1]] + self.offset).reshape(-1, self.program.components)
 
     def load_factor(self, y: FloatArray) -> float:
-        """Load factor of the program under a given mechanism."""
+        """Load factor of the program under a given mechanism: the last of its unknowns y, (n_unknowns,)."""
         return float(y[-1])
 
     def velocities(self, z: FloatArray) -> FloatArray:

@@ -48,7 +48,7 @@ class Mirror:
 
 
 def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
-    """Unit normals that a mirror plane could have, the likely ones first.
+    """Unit normals, (3,) each, that a mirror plane could have, the likely ones first.
 
     Loads lie in the plane, or they come in mirrored pairs; so the plane holds the resultants. Where all joints have
     their normals in one plane, that plane is the likely one; then the axes, and the principal axes of the structure.
@@ -75,7 +75,10 @@ def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
 
 
 def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
-    """The mirror symmetry about the plane through the mean of the centroids with that normal; None if there is none."""
+    """The mirror symmetry about the plane through the mean of the centroids with that normal; None if there is none.
+
+    normal : (3,) unit
+    """
     reflect = np.eye(3) - 2.0 * np.outer(normal, normal)
     middle = scene.centroids.mean(axis=0)
     block_of = _matched(scene.centroids - middle, (scene.centroids - middle) @ reflect, scene.length, scene.arms)

@@ -72,7 +72,10 @@ def _suspicious(scene: Scene) -> IntArray:
 
 
 def several_of_a_pair(scene: Scene) -> IntArray:
-    """Interfaces that share their pair of bodies with another one; all that does not move is one body."""
+    """Numbers of the interfaces, (n_found,), that share their pair of bodies with another one.
+
+    All that does not move is one body.
+    """
     first = np.flatnonzero(np.diff(scene.interfaces, prepend=-1))
     number, pair = scene.interfaces[first], np.sort(scene.bodies[first], axis=1)
     _, which, count = np.unique(pair, axis=0, return_inverse=True, return_counts=True)

@@ -57,7 +57,7 @@ def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array, forces: sp.csr_
 
 
 def chosen_limits(limits: YieldLimits, points: IntArray) -> YieldLimits:
-    """Limits of the given points."""
+    """Limits of the points with the given numbers, (n_chosen,)."""
     return YieldLimits(**{name: values[points] for name, values in vars(limits).items()})
 
 
@@ -78,7 +78,7 @@ def block_matrix(blocks: FloatArray, rows: IntArray, columns: IntArray, shape: t
 
 
 def tidy(matrix: sp.sparray) -> sp.csr_array:
-    """Entries that are rounding of zero left out: they would fill the factorisations."""
+    """A matrix, (n_rows, n_columns), without entries that are rounding of zero: they would fill the factorisations."""
     clean = sp.csr_array(sp.csc_array(matrix))
     largest = np.abs(clean.data).max(initial=0.0)
     clean.data[np.abs(clean.data) < 1e-14 * largest] = 0.0

@@ -94,7 +94,11 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
 
 
 def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) -> Scene:
-    """The scene of some of the blocks and points, with their own program."""
+    """The scene of some of the blocks and points, with their own program.
+
+    blocks : (n_chosen_blocks,) rows of free blocks in the scene, which get new ones in this order
+    points : (n_chosen_points,) numbers of contact points
+    """
     row = np.full(len(scene.centroids) + 1, -1, dtype=np.int64)  # the last entry answers for −1
     row[blocks] = np.arange(len(blocks))
     return Scene(

@@ -57,7 +57,7 @@ class Entries:
         return cls([], [], [])
 
     def add(self, rows: IntArray, columns: IntArray, values: FloatArray | float) -> None:
-        """Add entries; values of one place are summed up."""
+        """Add entries, rows, columns and values (n,) each, or one value for all; values of one place are summed up."""
         self.rows.append(rows)
         self.columns.append(columns)
         self.values.append(np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(rows)))
@@ -68,7 +68,7 @@ class Entries:
             self.add(rows, 6 * interfaces + resultant, forms[:, place])
 
     def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
-        """All entries as a matrix."""
+        """All entries as a matrix of the given shape."""
         place = (np.concatenate(self.rows), np.concatenate(self.columns))
         return sp.csr_array(sp.coo_array((np.concatenate(self.values), place), shape=shape))
 
@@ -93,7 +93,7 @@ class ConeRows:
         return first
 
     def helper(self, count: int) -> IntArray:
-        """Further helping unknowns."""
+        """Numbers, (n_new,), of ``count`` further helping unknowns."""
         self.n_helpers += count
         return np.arange(self.n_helpers - count, self.n_helpers)
 
@@ -113,7 +113,7 @@ class ConeRows:
 
     @property
     def cone_sizes(self) -> IntArray:
-        """Dimensions of the cones in their order, 1 for half-lines."""
+        """Dimensions of the cones in their order, 1 for half-lines, (n_cones,)."""
         return np.concatenate(self.sizes).astype(np.int64)
 
 

@@ -98,7 +98,7 @@ def fitted_curves(outlines: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def safe_torsion(shear: FloatArray, theta: FloatArray) -> FloatArray:
-    """M on the safe curve at a given t."""
+    """M on the safe curve at a given t, both over their greatest values; arrays of shapes that fit each other."""
     room = np.maximum(1.0 - shear**2, 0.0)
     return np.asarray(2.0 * room / np.maximum(theta + np.sqrt(theta**2 + 4.0 * (1.0 - theta) * room), 1e-300))
 

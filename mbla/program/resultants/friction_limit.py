@@ -65,7 +65,7 @@ def _slopes(limits: TorsionLimits) -> FloatArray:
 
 
 def curve_size(shear: FloatArray, twist: FloatArray, theta: FloatArray) -> FloatArray:
-    """Size R' of the curve through (t, m)."""
+    """Size R' of the curve through (t, m), (n,); t = ``shear``, m = ``twist`` and R' are forces in one unit."""
     return np.asarray(0.5 * (theta * twist + np.sqrt((2.0 - theta) ** 2 * twist**2 + 4.0 * shear**2)))
 
 

@@ -209,7 +209,7 @@ def mean_positive(values: FloatArray) -> FloatArray:
 
 
 def positive_share(values: FloatArray) -> FloatArray:
-    """Share of a triangle where a linear function is positive."""
+    """Share of a triangle where a linear function with given values at the corners, (..., 3), is positive, (...,)."""
     return np.asarray(corner_weights(values).sum(axis=-1))
 
 

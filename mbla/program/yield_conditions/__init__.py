@@ -35,17 +35,17 @@ class YieldCondition(Protocol):
 
     @staticmethod
     def applies(limits: YieldLimits) -> BoolArray:
-        """Points at which the condition is present and not implied by the others."""
+        """Points at which the condition is present and not implied by the others, (n_points,)."""
         ...
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """β, the growth of the limit with the normal force [-]."""
+        """β, the growth of the limit with the normal force [-], (n_points,)."""
         ...
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """h, the limit without normal force [force]."""
+        """h, the limit without normal force [force], (n_points,)."""
         ...
 
 

@@ -21,15 +21,15 @@ class Coulomb:
 
     @staticmethod
     def applies(limits: YieldLimits) -> BoolArray:
-        """At every point; without friction and cohesion it says that there is no shear."""
+        """At every point, (n_points,); without friction and cohesion it says that there is no shear."""
         return np.ones(len(limits.friction), dtype=bool)
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """Slope β = μ."""
+        """Slope β = μ, (n_points,)."""
         return limits.friction
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """Offset h = c."""
+        """Offset h = c [force], (n_points,)."""
         return limits.cohesion

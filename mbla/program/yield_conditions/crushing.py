@@ -18,15 +18,15 @@ class Crushing:
 
     @staticmethod
     def applies(limits: YieldLimits) -> BoolArray:
-        """Where the compressive strength is finite."""
+        """Where the compressive strength is finite, (n_points,)."""
         return np.isfinite(limits.compression)
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """Slope β = −1."""
+        """Slope β = −1, (n_points,)."""
         return -np.ones(len(limits.friction))
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """Offset h = f_c."""
+        """Offset h = f_c [force], (n_points,)."""
         return limits.compression

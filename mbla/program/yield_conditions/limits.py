@@ -27,7 +27,7 @@ class YieldLimits:
     compression: FloatArray
 
     def scaled(self, factor: FloatArray | float) -> YieldLimits:
-        """The same limits with forces multiplied by a factor."""
+        """The same limits with forces multiplied by a factor, one for all points or (n_points,)."""
         return YieldLimits(
             self.friction, self.dilatancy, self.cohesion * factor, self.tension * factor, self.compression * factor
         )

@@ -18,15 +18,15 @@ class TensionCutOff:
 
     @staticmethod
     def applies(limits: YieldLimits) -> BoolArray:
-        """Not where the Coulomb cone has its apex at N = 0 and so forbids tension by itself."""
+        """Not where the Coulomb cone has its apex at N = 0 and so forbids tension by itself, (n_points,)."""
         return np.asarray((limits.cohesion > 0) | (limits.friction == 0))
 
     @staticmethod
     def slope(limits: YieldLimits) -> FloatArray:
-        """Slope β = 1."""
+        """Slope β = 1, (n_points,)."""
         return np.ones(len(limits.friction))
 
     @staticmethod
     def offset(limits: YieldLimits) -> FloatArray:
-        """Offset h = f_t."""
+        """Offset h = f_t [force], (n_points,)."""
         return limits.tension

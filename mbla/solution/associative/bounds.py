@@ -104,7 +104,10 @@ def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> 
 
 
 def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
-    """Power of the joints by associative flow; incompatibility where they cannot crush costs ``charge`` as force."""
+    """Power of the joints by associative flow; incompatibility where they cannot crush costs ``charge`` as force.
+
+    velocities : (n_rows,)  non-dimensional, as is the power
+    """
     power, closing = point_dissipation(program, velocities)
     return float(power.sum() + charge * closing.sum())
 

@@ -224,7 +224,7 @@ def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
 
 
 def proved_certificate(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> FloatArray | None:
-    """Velocities that prove that the dead load alone is not carried, where the solution has them."""
+    """Velocities, (n_rows,), that prove that the dead load alone is not carried; None where the solution has none."""
     if solution.status in WITH_VALUE and not solution.objective < 0.0:
         return None
     motion = form.velocities(solution)

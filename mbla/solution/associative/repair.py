@@ -39,6 +39,8 @@ def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
 
     Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
+
+    x : (n_points, components)  non-dimensional, compression positive; the matrix has a row for each of its numbers
     """
     mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
     t = x[:, 1:]
@@ -64,6 +66,8 @@ def velocity_hessian(friction: FloatArray, v: FloatArray) -> FloatArray:
     """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside; −log v_N² where μ = 0.
 
     Not finite where squares of velocities are beyond the range of numbers.
+
+    friction : (n,); v : (n, components)  opening positive; the Hessians are (n, components, components)
     """
     squared = friction**2
     det = np.maximum(v[:, 0] ** 2 - squared * (v[:, 1:] ** 2).sum(axis=1), TINY)
@@ -228,7 +232,10 @@ def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[Fl
 
 
 def incompatibility(program: Program, velocities: FloatArray) -> float:
-    """Sum of μ s − v_N over points that cannot crush, where that is positive."""
+    """Sum of μ s − v_N over points that cannot crush, where that is positive.
+
+    velocities : (n_rows,)  non-dimensional
+    """
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
     return float(lack[np.isinf(program.limits.compression)].sum())

@@ -36,7 +36,10 @@ FAST = "cholmod"
 
 
 def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
-    """The program held by ``settings.solver``; UnfitSolverError with the remedy where that cannot take it."""
+    """The program held by ``settings.solver``.
+
+    Raises UnfitSolverError with the remedy where that cannot take it, SolverError where there is none of that name.
+    """
     if settings.solver != "highs":
         return interior_point_solver(cone_program, settings, log)
     if cone_program.n_cones:
@@ -55,6 +58,8 @@ def interior_point_solver(
 
     has_inside : false where the admissible set has none, forces that fit a given mechanism for example: the strong
                  regularisation of clarabel gets closer there
+
+    Raises SolverError where there is no solver of the name ``settings.solver``.
     """
     if settings.solver not in SOLVERS:
         raise SolverError(
@@ -115,6 +120,7 @@ class _OneThenOther:
         return self._either(solution, program_number, to_load_factor)
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
+        """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         self.first.update(cost=cost, rhs=rhs)
 
     def _either(self, solution: ConeSolution, program_number: int, to_load_factor: float) -> ConeSolution:

@@ -94,6 +94,8 @@ class ClarabelProgram:
         """Solve what is loaded once, for callers that judge the answer themselves.
 
         enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
+
+        Raises SolverError if the data are not finite or the solver's status is not known, and whatever ``log`` raises.
         """
         import clarabel
 
@@ -130,7 +132,10 @@ class ClarabelProgram:
         )
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
-        """Change cost or right-hand side; the matrix stays."""
+        """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays.
+
+        Raises SolverError if the new data are not finite, once the solver holds the program.
+        """
         changed: dict[str, FloatArray] = {}
         if cost is not None:
             changed["q"] = cost

@@ -80,7 +80,7 @@ class ConeSolver(Protocol):
         ...
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
-        """Change cost or right-hand side; the matrix stays."""
+        """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         ...
 
 

@@ -52,12 +52,12 @@ class ConeVectors:
         )
 
     def products(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """x_0 y_0 − x̄·ȳ of every cone."""
+        """x_0 y_0 − x̄·ȳ of every cone, (n_cones,), of vectors of all cones, (n_entries,)."""
         signed = np.where(self.is_head, 1.0, -1.0) * x * y
         return np.asarray(np.bincount(self.cone_of_row, signed, len(self.sizes)))
 
     def tails(self, x: FloatArray) -> FloatArray:
-        """‖x̄‖ of every cone."""
+        """‖x̄‖ of every cone, (n_cones,), of a vector of all cones, (n_entries,)."""
         return np.asarray(np.sqrt(np.bincount(self.cone_of_row, np.where(self.is_head, 0.0, x**2), len(self.sizes))))
 
     def pulled_inside(
@@ -75,13 +75,13 @@ class ConeVectors:
         return inside
 
     def step_to_boundary(self, z: FloatArray, step: FloatArray) -> float:
-        """Largest factor with which z + factor step stays inside."""
+        """Largest factor with which z + factor step stays inside, infinite where all do; both are (n_entries,)."""
         cones = cones_to_boundary(self.products(z, z), self.products(z, step), self.products(step, step))
         lines = lines_to_boundary(z[self.head], step[self.head])
         return float(np.where(self.sizes == 1, lines, cones).min(initial=np.inf))
 
     def inverse_hessian(self, z: FloatArray) -> sp.csr_array:
-        """Block-diagonal, of the barrier −log(z_0² − ‖z̄‖²)."""
+        """Block-diagonal, (n_entries, n_entries), of the barrier −log(z_0² − ‖z̄‖²) at z, (n_entries,)."""
         determinant = np.maximum(self.products(z, z), 0.0)
         reflection = np.where(self.is_head, -0.5, 0.5) * determinant[self.cone_of_row]
         reflection[self.sizes[self.cone_of_row] == 1] = 0.0
@@ -89,7 +89,7 @@ class ConeVectors:
         return sp.csr_array(membership @ membership.T + sp.diags_array(reflection))
 
     def root_of_inverse_hessian(self, z: FloatArray) -> sp.csr_array:
-        """L, block-diagonal and symmetric, with L L the inverse Hessian.
+        """L, (n_entries, n_entries), block-diagonal and symmetric, with L L the inverse Hessian at z, (n_entries,).
 
         Of a cone it is [[z_0, z̄ᵀ], [z̄, d I + (z_0 − d) u uᵀ]]/√2 with u = z̄/‖z̄‖ and d² = z_0² − ‖z̄‖².
         """

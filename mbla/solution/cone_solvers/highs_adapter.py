@@ -112,7 +112,10 @@ class HighsProgram:
             )
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
-        """Solve what is loaded; a verdict without a load factor comes with the ray that proves it."""
+        """Solve what is loaded; a verdict without a load factor comes with the ray that proves it.
+
+        Raises SolverError if the data are not finite, HiGHS refuses an option or its status is not known.
+        """
         self._check_finite()
         self._started = time.perf_counter()
         run = self._run(_as_linear(self.cone_program))
@@ -125,7 +128,7 @@ class HighsProgram:
         return solution
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
-        """Change cost or right-hand side; the matrix stays.
+        """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays.
 
         Nothing is kept between programs: simplex from the last vertex took five times as long as a new start.
         """

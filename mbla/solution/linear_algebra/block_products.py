@@ -129,7 +129,11 @@ def alike(columns: IntArray) -> IntArray:
 
 
 def by_group(members: IntArray, group: IntArray, n_groups: int) -> tuple[IntArray, IntArray]:
-    """Members of all groups, one after the other, and where each starts."""
+    """Members of all groups, one after the other, (n_kept,), and where each group starts, (n_groups + 1,).
+
+    members : (n,)
+    group   : (n,) to which each belongs, negative: to none, and it is left out
+    """
     here = group >= 0
     order = np.argsort(group[here], kind="stable")
     counts = np.bincount(group[here], minlength=n_groups)
@@ -157,7 +161,7 @@ def triangular_factor(x: FloatArray) -> FloatArray:
 
 
 def forward(r: FloatArray, rhs: FloatArray) -> FloatArray:
-    """R⁻ᵀ rhs, (g, n, k)."""
+    """R⁻ᵀ rhs, of the shape of rhs, (g, n, k), for n upper triangles R at once, (g, g, n)."""
     result = np.empty_like(rhs)
     for i in range(len(r)):
         result[i] = rhs[i]
@@ -168,7 +172,7 @@ def forward(r: FloatArray, rhs: FloatArray) -> FloatArray:
 
 
 def backward(r: FloatArray, rhs: FloatArray) -> FloatArray:
-    """R⁻¹ rhs, (g, n, k)."""
+    """R⁻¹ rhs, of the shape of rhs, (g, n, k), for n upper triangles R at once, (g, g, n)."""
     result = np.empty_like(rhs)
     for i in reversed(range(len(r))):
         result[i] = rhs[i]

@@ -46,6 +46,11 @@ def bordered_solver(normal: sp.csc_array, live: FloatArray, weight: float) -> So
     """Solver of [[N, f], [fᵀ, −1/weight]] (y, t) = (rhs, 0); weight inf makes f·y = 0 a constraint.
 
     N is scaled to unit diagonal first; its one tiny eigenvalue is the collapse mechanism, which the border controls.
+
+    normal : (n, n) N
+    live   : (n,) f
+
+    The solver takes rhs, (n,), and returns y with t behind it, (n + 1,). None where the system cannot be factorised.
     """
     diagonal = normal.diagonal()
     largest = float(diagonal.max(initial=0.0))

@@ -46,7 +46,10 @@ class CholmodFactors:
         self._good = False
 
     def factorize(self, values: FloatArray) -> bool:
-        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        """Factorise; False where the matrix is not positive definite to working accuracy or not finite.
+
+        values : (nnz,) in the order of the pattern
+        """
         self._good = False
         if not np.isfinite(values).all():
             return False
@@ -59,7 +62,10 @@ class CholmodFactors:
         return True
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        """Solution for one right-hand side, (n,), or several, (n, k).
+
+        Raises ValueError without a good factorisation, and where rhs has another number of rows.
+        """
         if not self._good:
             raise ValueError("solve without a good factorisation")
         if len(rhs) != self._matrix.size[0]:

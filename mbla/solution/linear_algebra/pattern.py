@@ -34,13 +34,16 @@ class SymmetricPattern:
         return np.repeat(np.arange(self.n), np.diff(self.pointers))
 
     def matrix(self, values: FloatArray) -> sp.csc_array:
-        """Both triangles, for products."""
+        """Both triangles, (n, n), for products, from the entries of the lower one, (nnz,)."""
         lower = sp.csc_array((values, self.indices, self.pointers), shape=(self.n, self.n))
         return sp.csc_array(lower + sp.tril(lower, -1).T)
 
 
 def lower_triangle(matrix: sp.csc_array) -> tuple[SymmetricPattern, FloatArray]:
-    """Pattern and values of the lower triangle of a matrix that stores its whole diagonal, and every entry once."""
+    """Pattern and values, (nnz,), of the lower triangle of a matrix.
+
+    matrix : (n, n), its whole diagonal stored, and every entry once
+    """
     held = matrix if matrix.has_sorted_indices else matrix.sorted_indices()
     n = int(held.shape[0])
     columns = np.repeat(np.arange(n), np.diff(held.indptr))

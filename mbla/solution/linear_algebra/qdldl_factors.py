@@ -45,7 +45,10 @@ class QdldlFactors:
         self._good = False
 
     def factorize(self, values: FloatArray) -> bool:
-        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        """Factorise; False where the matrix is not positive definite to working accuracy or not finite.
+
+        values : (nnz,) in the order of the pattern
+        """
         pivots = self.pivots(values)
         self._good = pivots is not None and bool((pivots > 0.0).all())
         return self._good
@@ -71,7 +74,10 @@ class QdldlFactors:
         return np.asarray(pivots) if self._good else None
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        """Solution for one right-hand side, (n,), or several, (n, k).
+
+        Raises ValueError without a good factorisation.
+        """
         if self._solver is None or not self._good:
             raise ValueError("solve without a good factorisation")
         if rhs.ndim == 1:

@@ -91,7 +91,10 @@ class SuperluFactors:
         self._factors: spla.SuperLU | None = None
 
     def factorize(self, values: FloatArray) -> bool:
-        """Factorise; False where the matrix is not positive definite to working accuracy or not finite."""
+        """Factorise; False where the matrix is not positive definite to working accuracy or not finite.
+
+        values : (nnz,) in the order of the pattern
+        """
         self._factors = None
         if not np.isfinite(values).all():
             return False
@@ -103,7 +106,10 @@ class SuperluFactors:
         return True
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side, (n,), or several, (n, k)."""
+        """Solution for one right-hand side, (n,), or several, (n, k).
+
+        Raises ValueError without a good factorisation, and where rhs has another number of rows.
+        """
         if self._factors is None:
             raise ValueError("solve without a good factorisation")
         if len(rhs) != len(self._order):

@@ -61,7 +61,11 @@ class _Tries:
         return ProximalRun(stepper, self.records, stress_free=self.stress_free)
 
     def along(self, angles: list[FloatArray], forces: FloatArray) -> SequenceResult:
-        """From given forces through angles, each from the state of the one before; the result at the last."""
+        """From given forces through angles, each from the state of the one before; the result at the last.
+
+        angles : (n_points,) each [rad]
+        forces : (n_points, components)  non-dimensional, compression positive
+        """
         for angle in angles:
             result = steps_from(self.run(np.tan(angle)), forces, self.most_steps)
             if result.state is None or result.status is Status.TIME_LIMIT:

@@ -72,7 +72,7 @@ def factor_range(
     """Range of the load factor for the mechanism of a state.
 
     first_program : number of the first cone program in the records
-    slope         : dilatancy of the flow rule (tangent), zero without
+    slope         : dilatancy of the flow rule (tangent), (n_points,) or one for all, zero without
     """
     search = _Search(program, state, slope, first_program)
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION)

@@ -44,12 +44,16 @@ class InteriorLaw:
 
 
 def exact_law(program: Program, dilatancy: FloatArray) -> InteriorLaw:
-    """The joint law with a dilatancy."""
+    """The joint law with a dilatancy, the tangent of its angle, (n_points,)."""
     return InteriorLaw(program.limits.friction, program.limits.cohesion, dilatancy)
 
 
 def lagged_law(program: Program, dilatancy: FloatArray, anchor: FloatArray) -> InteriorLaw:
-    """Friction beyond the dilatancy taken from the anchor's normal forces: a convex program."""
+    """Friction beyond the dilatancy taken from the anchor's normal forces: a convex program.
+
+    dilatancy : (n_points,) tangent of its angle
+    anchor    : (n_points, components)  forces, non-dimensional, compression positive
+    """
     limits = program.limits
     offset = np.maximum((limits.friction - dilatancy) * anchor[:, 0] + limits.cohesion, 0.0)
     return InteriorLaw(dilatancy, offset, dilatancy)
@@ -104,7 +108,7 @@ class JointEquations:
 
     @staticmethod
     def of(stiffness: Stiffness, law: InteriorLaw, anchor: FloatArray, rho: float) -> JointEquations:
-        """Of a program."""
+        """Of a program; the forces x̄ of the anchor are (n_points, components)."""
         return JointEquations(
             stiffness, law, anchor, rho, np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
         )
@@ -115,7 +119,7 @@ class JointEquations:
         return self.stiffness.program
 
     def limit(self, normal: FloatArray) -> FloatArray:
-        """Shear limit l at normal forces over −f_t."""
+        """Shear limit l at normal forces over −f_t, N + f_t; both are (n_points,)."""
         full = self.law.slope * (normal - self.program.limits.tension) + self.law.offset
         return np.where(self.law.slope > 0.0, full, np.maximum(full, LEAST_LIMIT))
 
@@ -124,7 +128,10 @@ class JointEquations:
         return np.column_stack([now.normal - self.program.limits.tension, now.shear])
 
     def room(self, normal: FloatArray) -> FloatArray:
-        """What is left to the compressive strength, at the points that can crush."""
+        """What is left to the compressive strength at the points that can crush, (n_crushable,).
+
+        normal : (n_points,) N + f_t
+        """
         limits = self.program.limits
         return np.asarray((limits.compression + limits.tension - normal)[self.crushable])
 
@@ -254,7 +261,10 @@ class Joints:
         missing: Missing,
         products: Products,
     ) -> Iterate:
-        """Direction that changes the products as told and makes up for what else is missing."""
+        """Direction that changes the products as told and makes up for what else is missing.
+
+        solve : from a right-hand side, (n_rows + 1,), to velocities and load factor, (n_rows + 1,)
+        """
         step, law, program = self.step, self.step.law, self.step.program
         opening, crushing, sliding, turning = products.opening, products.crushing, products.sliding, products.turning
         over = 1.0 / self.limit

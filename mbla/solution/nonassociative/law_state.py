@@ -98,6 +98,10 @@ def law_state(
     joint cannot crush; share of the power balance that the law (dilatancy ``slope``, a tangent) does not explain. A
     joint under force that lifts by less than its sliding takes part in the last; what normal forces do where joints
     close is of second order close to the law, and left out.
+
+    slope      : (n_points,) or one for all
+    forces     : (n_points, components)  non-dimensional, compression positive
+    velocities : (n_rows,)  non-dimensional
     """
     limits = program.limits
     v, surplus, unexplained, balance = _unexplained(program, slope, forces, velocities, load_factor)
@@ -116,6 +120,8 @@ def residual_with_closing(program: Program, slope: FloatArray | float, state: La
     """The residual of a state as verification sees it: what normal forces do where joints close counts too.
 
     ``law_state`` leaves it out; of a rough state it may be the most.
+
+    slope : tangent of the dilatancy angle, (n_points,) or one for all
     """
     _, surplus, unexplained, balance = _unexplained(program, slope, state.forces, state.velocities, state.load_factor)
     closing = np.where(np.isfinite(program.limits.compression), 0.0, np.maximum(-surplus, 0.0))

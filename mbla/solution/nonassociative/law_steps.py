@@ -101,6 +101,7 @@ class Step:
 def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None, number: int) -> Step | None:
     """The next step of the exact law, or a shorter one; None where there is none in reach.
 
+    anchor : (n_points, components)  forces, non-dimensional, compression positive
     before : the step that led to ``anchor``
     number : of the step in the sequence, for the log
     """
@@ -127,7 +128,10 @@ def next_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | N
 
 
 def continuing_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step | None) -> tuple[Step | None, int]:
-    """The step that Newton's method finds where the joints go on as before, None where it finds none; its work."""
+    """The step that Newton's method finds where the joints go on as before, None where it finds none; its work.
+
+    anchor : (n_points, components)  forces, non-dimensional, compression positive
+    """
     start = None if before is None or not before.exact else continued(stepper, before, anchor)
     if before is None or start is None:
         return None, 0
@@ -158,6 +162,8 @@ def lagged_step(stepper: Stepper, anchor: FloatArray, rho: float, number: int) -
     """A step with the friction of the anchor's normal forces: convex, and there is always one.
 
     Near the end the exact step is close to it, and is returned instead.
+
+    anchor : (n_points, components)  forces, non-dimensional, compression positive
     """
     result = _interior(stepper, lagged_law(stepper.program, stepper.slope, anchor), anchor, rho, None, number)
     return _polished(stepper, anchor, rho, result, result.iterations) if result.converged else None
@@ -168,6 +174,8 @@ def repeated_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step
 
     What they come to is the exact step; it is returned once Newton's method finds it from there. Where that is not so
     after ``REPEATS`` the last one is, and None where there is none. To be tried close to ``before`` only.
+
+    anchor : (n_points, components)  forces, non-dimensional, compression positive
     """
     last, forces, near, work = None, anchor, before, 0
     for _ in range(REPEATS):
@@ -184,7 +192,7 @@ def repeated_step(stepper: Stepper, anchor: FloatArray, rho: float, before: Step
 
 
 def moved_by(before: Step, anchor: FloatArray) -> float:
-    """Change of the forces from the anchor of a step to ``anchor``, relative."""
+    """Change of the forces from the anchor of a step to ``anchor``, (n_points, components), relative."""
     return float(np.linalg.norm(anchor - before.anchor)) / max(float(np.linalg.norm(anchor)), 1e-300)
 
 
@@ -196,7 +204,11 @@ def _polished(stepper: Stepper, anchor: FloatArray, rho: float, result: Interior
 
 
 def continued(stepper: Stepper, before: Step, anchor: FloatArray) -> tuple[FloatArray, float] | None:
-    """Velocities and load factor if every joint goes on as at the end of a step, open, sliding or sticking."""
+    """Velocities and load factor if every joint goes on as at the end of a step, open, sliding or sticking.
+
+    Velocities are (n_rows,), forces of the anchor (n_points, components), non-dimensional. None where the
+    tangent cannot be factorised or the answer is not finite.
+    """
     program, law = stepper.program, stepper.law(before.anchor, before.rho)
     solve = law.factorized(law.joints(before.velocities))
     if solve is None:

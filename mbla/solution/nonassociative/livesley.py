@@ -46,7 +46,7 @@ def solve_livesley(
 ) -> SequenceResult:
     """The second program, from a solved associative one.
 
-    facets : directions that bound shear in the associative program, None where cones did
+    facets : (n_facets, components − 1) directions that bound shear in the associative program, None where cones did
 
     The state has the corrected mechanism, with the associative forces and load factor or with those of the second
     program, whichever fits the exact law better.

@@ -43,7 +43,8 @@ def point_motion(program: Program, state: LawState, touching: float, slope: Floa
     """Motion of every point in a state.
 
     touching : velocity over the largest contact speed below which a point is at rest
-    slope    : dilatancy of the flow rule (tangent): a sliding point opens with that share of its sliding velocity
+    slope    : dilatancy of the flow rule (tangent), (n_points,) or one for all: a sliding point opens with that share
+               of its sliding velocity
     """
     limits, forces = program.limits, state.forces
     v = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, program.components)
@@ -80,7 +81,8 @@ def _shear_direction(v: FloatArray, speed: FloatArray, shear: FloatArray, size: 
 def motion_of(program: Program, velocities: FloatArray, at_rest: float) -> PointMotion:
     """Motion of every point in a mechanism without dilatancy whose velocities are exact.
 
-    at_rest : velocity over the largest contact speed below which a point is at rest
+    velocities : (n_rows,)  non-dimensional
+    at_rest    : velocity over the largest contact speed below which a point is at rest
     """
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     least = at_rest * float(np.linalg.norm(v, axis=1).max(initial=0.0))

@@ -255,14 +255,20 @@ def _as_asked(run: ProximalRun, last: Step, rho: float) -> SequenceResult:
 
 
 def is_rough_enough(program: Program, slope: FloatArray | float, state: LawState, wanted: float) -> bool:
-    """Whether a rough state is asked for, by ``wanted`` above ``SOLVED``, and this is one as verification sees it."""
+    """Whether a rough state is asked for, by ``wanted`` above ``SOLVED``, and this is one as verification sees it.
+
+    slope : tangent of the dilatancy angle, (n_points,) or one for all
+    """
     return wanted > SOLVED and residual_with_closing(program, slope, state) <= wanted
 
 
 def rough_result(
     program: Program, slope: FloatArray | float, state: LawState, wanted: float, records: tuple[ProgramRecord, ...]
 ) -> SequenceResult:
-    """A state with which a scheme may end, by ``wanted`` above ``SOLVED``, judged by its residual in verification."""
+    """A state with which a scheme may end, by ``wanted`` above ``SOLVED``, judged by its residual in verification.
+
+    slope : tangent of the dilatancy angle, (n_points,) or one for all
+    """
     if state.residual <= SOLVED:
         return SequenceResult(Status.SOLVED, state, "", records)
     return as_asked(state, residual_with_closing(program, slope, state), wanted, records)

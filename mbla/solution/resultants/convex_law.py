@@ -77,7 +77,7 @@ class ConvexLaw:
         return motions
 
     def own_of(self, motions: FloatArray) -> FloatArray:
-        """η and ω from motions of the interfaces."""
+        """η and ω, (3 n_torsion + 3 n_crushing,), from motions of the interfaces, (n_interfaces, 2, 6)."""
         limits = self.convex.torsion
         of_torsion = motions[limits.interfaces, 0, 1:4].copy()
         of_torsion[:, 2] *= limits.radii
@@ -181,6 +181,10 @@ class _Trial:
     def at(
         cls, law: ConvexLaw, anchor: FloatArray, rho: float, u: FloatArray, factor: float, near: FloatArray
     ) -> _Trial:
+        """At velocities and slips u, (n_rows,), and a load factor, for a step from forces ``anchor``, (n_points, 3).
+
+        near : (n_crushing, 3), see ``ConvexLaw.crushed``
+        """
         program, convex = law.program, law.convex
         n_blocks, limits = convex.n_block_rows, convex.torsion
         points = joint_state(program.limits, anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / rho)
@@ -209,7 +213,10 @@ class _Trial:
         return float(np.abs(self.residual).max(initial=0.0))
 
     def direction(self, law: ConvexLaw, rho: float, stiffness: FloatArray) -> FloatArray | None:
-        """Newton's step of velocities, slips and load factor."""
+        """Newton's step of velocities, slips and load factor, (n_rows + 1,); None where it cannot be solved for.
+
+        stiffness : (n_rows,) of springs that hold every row
+        """
         program, n_blocks = law.program, law.convex.n_block_rows
         matrix, live = program.equilibrium_matrix, program.live_load
         above, below = (sp.csr_array((n, matrix.shape[1])) for n in (n_blocks, 3 * len(law.convex.crushing.interfaces)))
@@ -231,7 +238,10 @@ def _columns(vectors: FloatArray, n: int) -> sp.csr_array:
 
 
 def with_motions(program: Program, motions: sp.csr_array) -> Program:
-    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w."""
+    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w.
+
+    motions : (n_motions, 3 n_points)
+    """
     none = np.zeros(motions.shape[0])
     return replace(
         program,
@@ -248,6 +258,10 @@ def state_without_dilatancy(
 
     Excess over the conditions of points and interfaces, in mean block loads; closing velocity of points by their own
     motion over the largest contact speed; share of the power balance that the law leaves unexplained.
+
+    forces     : (n_points, 3)  non-dimensional, compression positive
+    velocities : (n_rows,) of the blocks, non-dimensional
+    motions    : (n_interfaces, 2, 6) by torsion and by crushing, non-dimensional
     """
     program, limits = convex.points, convex.torsion
     moved = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)

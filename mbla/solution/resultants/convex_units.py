@@ -64,7 +64,10 @@ def units_of_unknowns(form: KinematicForm, convex: ConvexProgram, forces: FloatA
 
 
 def loses_light_blocks(convex: ConvexProgram, forces: FloatArray, load_factor: float) -> bool:
-    """Whether a solution leaves lightly loaded blocks out of balance that deserve units of their own."""
+    """Whether a solution leaves lightly loaded blocks out of balance that deserve units of their own.
+
+    forces : (n_points, 3)  non-dimensional, compression positive
+    """
     program, carried = convex.points, carried_loads(convex.points, forces)
     loads = program.dead_load + load_factor * program.live_load
     unbalanced = np.abs(program.equilibrium_matrix @ forces.ravel() + loads)
@@ -72,7 +75,10 @@ def loses_light_blocks(convex: ConvexProgram, forces: FloatArray, load_factor: f
 
 
 def in_units(program: ConeProgram, units: FloatArray) -> ConeProgram:
-    """The same in unknowns multiplied by their units; the quadratic term, which is none of the structure's, stays."""
+    """The same in unknowns multiplied by their units; the quadratic term, which is none of the structure's, stays.
+
+    units : (n_unknowns,)
+    """
     matrix = sp.csc_array(program.matrix @ sp.diags_array(1.0 / units))
     matrix.sort_indices()
     return replace(program, cost=program.cost / units, matrix=matrix)

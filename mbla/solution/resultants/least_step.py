@@ -69,7 +69,7 @@ StepOf = Callable[[Equilibrium, ConeVectors, FloatArray], FloatArray | None]
 
 
 def normal_step(equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray) -> FloatArray | None:
-    """The step by normal equations; None where they cannot be solved."""
+    """The step of z, (n_dual + 1,), by normal equations; None where they cannot be solved."""
     matrix, weights = equilibrium.matrix, cones.inverse_hessian(z[1:])
     normal = sp.csc_array(matrix.T @ weights @ matrix)
     free = _free_change(z)
@@ -86,7 +86,7 @@ def normal_step(equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray) -> 
 
 
 def augmented_step(equilibrium: Equilibrium, cones: ConeVectors, z: FloatArray) -> FloatArray | None:
-    """The step by the augmented system; None where it cannot be solved."""
+    """The step of z, (n_dual + 1,), by the augmented system; None where it cannot be solved."""
     root, free = cones.root_of_inverse_hessian(z[1:]), _free_change(z)
     rows = sp.csr_array(sp.hstack([sp.csr_array(free * equilibrium.live[:, None]), equilibrium.matrix.T @ root]))
     length = np.sqrt(rows.power(2).sum(axis=1))

@@ -128,7 +128,12 @@ def convex_mechanics(convex: ConvexProgram, state: LawState, dilatancy: FloatArr
 
 
 def modes_of(convex: ConvexProgram, mechanics: Mechanics, dilatancy: FloatArray) -> IntArray:
-    """Modes of the contact points from forces and motions in the deck's units, as ``convex_mechanics`` has them."""
+    """Modes of the contact points from forces and motions in the deck's units, as ``convex_mechanics`` has them.
+
+    Returned are (n_points,) numbers of ``ContactMode``.
+
+    dilatancy : (n_points,) tangent of the dilatancy angle of the flow rule
+    """
     program, scaling = convex.points, convex.points.scaling
     assert mechanics.interface_motions is not None
     state = LawState(

@@ -82,7 +82,7 @@ class SpringProblem:
 
     @property
     def stiffnesses(self) -> FloatArray:
-        """k_N and k_T, (components,)."""
+        """Stiffness of a point, k_N and then k_T for each tangent, of shape (components,)."""
         return np.append(1.0, np.full(self.components - 1, self.shear_stiffness))
 
     @property
@@ -98,7 +98,13 @@ def spring_problem(
     springs: sp.csr_array,
     deadline: float | None,
 ) -> SpringProblem:
-    """A problem with joints as stiff in shear as in compression."""
+    """A problem with joints as stiff in shear as in compression.
+
+    equilibrium_matrix : A, (n_rows, components n_points)
+    load               : f, (n_rows,)
+    springs            : W, (n_rows, n_rows)
+    deadline           : time.monotonic() at which to stop, or None
+    """
     components = equilibrium_matrix.shape[1] // max(len(limits.friction), 1) or 3
     return SpringProblem(
         equilibrium_matrix=equilibrium_matrix,
@@ -121,7 +127,10 @@ class Joints:
 
 
 def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints) -> bool:
-    """Whether the joints and the springs balance the load of every block."""
+    """Whether the joints and the springs balance the load of every block.
+
+    u : (n_rows,) displacements
+    """
     furthest = float(np.abs(u).max(initial=0.0))
     share = max(BALANCED, NEARLY * kappa * furthest) if problem.on_the_way else BALANCED
     return bool(
@@ -138,7 +147,7 @@ def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatA
 
 
 def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: bool) -> sp.csc_matrix:
-    """A C Aᵀ + κ W."""
+    """A C Aᵀ + κ W, (n_rows, n_rows)."""
     diagonal = block_diagonal(joint_stiffness(problem, joints, lagged))
     return sp.csc_matrix(problem.equilibrium_matrix @ diagonal @ problem.transpose + kappa * problem.springs)
 

@@ -79,7 +79,7 @@ def _backtracked(
 
 
 def newton_step(problem: SpringProblem, kappa: float, joints: Joints, *, lagged: bool) -> FloatArray | None:
-    """Newton's step, None where the tangent is singular."""
+    """Newton's step, (n_rows,), None where the tangent is singular."""
     stiffness = None if problem.pattern is None else problem.pattern.next()
     if stiffness is not None:
         tangents, shift = joint_stiffness(problem, joints, lagged), kappa * problem.springs.diagonal()
@@ -117,7 +117,10 @@ FLAT = 0.5
 
 
 def by_lagged_limits(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
-    """Minima under limits of shear that follow the normal forces; whether they led there, and the last minimum."""
+    """Minima under limits of shear that follow the normal forces; whether they led there, and the last minimum.
+
+    u : (n_rows,) displacements to start from
+    """
     limit, share, before = joints_at(problem, kappa, u).state.limit, 1.0, np.zeros(len(problem.limits.friction))
     for lag in range(1, LAGS + 1):
         if problem.late:
@@ -191,7 +194,10 @@ springs alone."""
 
 
 def by_dashpots(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
-    """Steps in time with ever weaker dashpots; whether they led there, and the last state."""
+    """Steps in time with ever weaker dashpots; whether they led there, and the last state.
+
+    u : (n_rows,) displacements to start from
+    """
     eta, steps, refused = DASHPOT, 0, 0
     while steps + refused < DASHPOT_STEPS and refused < MOST_REFUSED and not problem.late:
         held = replace(problem, load=problem.load + eta * (problem.springs @ u), on_the_way=False)

@@ -140,7 +140,7 @@ def weaken_springs(
 
 
 def is_diagonal(matrix: sp.csr_array) -> bool:
-    """Whether nothing is stored beside the diagonal but zeros."""
+    """Whether nothing is stored beside the diagonal of a matrix, (n, n), but zeros."""
     return bool(matrix.count_nonzero() == np.count_nonzero(matrix.diagonal()))
 
 
@@ -169,7 +169,11 @@ class _Blocks:
 
 
 def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
-    """W by the size of each block's load, the mean of the others' where it has none; see ``_Blocks``."""
+    """W by the size of each block's load, the mean of the others' where it has none; see ``_Blocks``.
+
+    Returned are W, (n_rows, n_rows), the way back to velocities of the model's free blocks, (6 n_free, n_rows), and the
+    numbers of these blocks, (n_free,).
+    """
     way_back = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
     while program.reduction is not None:
         way_back = sp.csr_array(program.reduction.velocities @ way_back)

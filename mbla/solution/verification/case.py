@@ -82,7 +82,7 @@ class Case:
         return contact_velocities(self.model, self.contacts, mechanism)
 
     def powers(self, mechanism: FloatArray) -> tuple[float, float]:
-        """Power of dead and of live load."""
+        """Power of dead and of live load on a mechanism, (n_blocks, 6)."""
         return power(self.load_case.dead_load, mechanism), power(self.load_case.live_load, mechanism)
 
     def unbalanced_wrenches(self, forces: FloatArray, factor: float) -> FloatArray:
@@ -114,7 +114,11 @@ class Case:
         return InterfaceTerms()
 
     def interface_excess(self, forces: FloatArray, point_scale: FloatArray) -> float:
-        """Largest excess of an interface over its conditions, relative to the scale of its points."""
+        """Largest excess of an interface over its conditions, relative to the scale of its points.
+
+        forces      : (n_points, 3) N, compression positive
+        point_scale : (n_points,) N
+        """
         return 0.0
 
     def block_scale(self, forces: FloatArray, factor: float) -> FloatArray:
@@ -122,7 +126,7 @@ class Case:
         return self.scale.block_scale(self.contacts, forces)
 
     def repaired_forces(self, mechanics: Mechanics) -> tuple[FloatArray, float] | None:
-        """Forces near the given ones that may prove the load factor that comes with them; None without."""
+        """Forces near the given ones, (n_points, 3) N, and the load factor that they may prove; None without."""
         scaling = self.program.scaling
         forces = scaling.scaled_forces(mechanics.contact_forces)
         found = repaired_forces(self.program, forces, mechanics.load_factor / scaling.live)
@@ -134,7 +138,7 @@ class Case:
             yield allowed_motion(self.model, self.program.mechanism(u), self.scale.arms), None
 
     def forces_prove(self, forces: FloatArray, factor: float) -> bool:
-        """Whether forces balance the loads within all conditions up to rounding."""
+        """Whether forces, (n_points, 3) N, balance the loads within all conditions up to rounding."""
         block_scale = self.scale.rounded_scale(self.contacts, forces, factor, PASSED_ON_ROUNDING)
         allowed = PROVED_RESIDUAL * self.scale.of_lighter(self.contacts, block_scale)
         return bool(
@@ -143,7 +147,10 @@ class Case:
         )
 
     def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
-        """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power."""
+        """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power.
+
+        forces : (n_points, 3) N, compression positive
+        """
         mechanism = motion[0]
         left = self.unbalanced_wrenches(forces, factor)
         unbalanced = float(np.abs(np.einsum("bi,bi->b", left, mechanism)).sum())

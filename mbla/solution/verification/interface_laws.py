@@ -67,7 +67,7 @@ class InterfaceLaws:
 
     @property
     def own_cohesion(self) -> FloatArray:
-        """C' A = (c − μ f_t) A."""
+        """The cohesion c' A = (c − μ f_t) A, (n,) [force]."""
         return np.asarray(self.cohesion - self.friction * self.tension)
 
 
@@ -132,7 +132,7 @@ def _rectangle_terms(shapes: InterfaceShapes) -> tuple[FloatArray, FloatArray, F
 
 
 def largest(shapes: InterfaceShapes, of_corner: FloatArray) -> FloatArray:
-    """Largest value over the corners of each hull."""
+    """Largest value over the corners of each hull, (n,), of values at all corners, (n_corners,)."""
     if len(of_corner) == 0:
         return np.zeros(0)
     return np.asarray(np.maximum.reduceat(of_corner, shapes.start[:-1]))
@@ -289,6 +289,7 @@ class _Outlines:
 
     @classmethod
     def of(cls, shapes: InterfaceShapes, rows: IntArray, part: FloatArray) -> _Outlines:
+        """Of the interfaces ``rows``, (n,), with the share of the area under full stress, (n,), cut to 0 ... 1."""
         fan, place = Fan.of_some(shapes, rows), np.full(len(shapes.convex), -1)
         place[rows] = np.arange(len(rows))
         roots = np.asarray(np.linalg.cholesky(second_moments(shapes, rows)), dtype=np.float64)

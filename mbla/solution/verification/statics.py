@@ -92,7 +92,11 @@ def allowed_motion(model: Model, mechanism: FloatArray, arms: FloatArray) -> Flo
 
 
 def off_guides(model: Model, mechanism: FloatArray, arms: FloatArray) -> float:
-    """Largest velocity of a guided block against its guide, over the largest of any block; 0 where none moves."""
+    """Largest velocity of a guided block against its guide, over the largest of any block; 0 where none moves.
+
+    mechanism : (n_blocks, 6)
+    arms      : (n_blocks,) lever arm of each block
+    """
     across = np.abs((mechanism - allowed_motion(model, mechanism, arms)) * _sizes(arms)).max(initial=0.0)
     largest = np.abs(mechanism * _sizes(arms)).max(initial=0.0)
     return float(across / largest) if largest > 0 else 0.0

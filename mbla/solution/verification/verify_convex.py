@@ -97,7 +97,10 @@ class InterfaceCase(Case):
         return np.asarray(arm)
 
     def resultants(self, forces: FloatArray) -> FloatArray:
-        """Forces and moments about the centroids of the interfaces in their frames."""
+        """Forces and moments about the centroids of the interfaces in their frames, (n_interfaces, 6) N, N m.
+
+        forces : (n_points, 3) N, compression positive
+        """
         both = np.concatenate([forces, np.cross(self._arms, forces)], axis=1)
         total = np.zeros((len(self.contacts), 6))
         np.add.at(total, self.contacts.interface_of_point, both)
@@ -143,7 +146,11 @@ class InterfaceCase(Case):
         return np.maximum(torsion_excess(self.laws, resultants), crushing_excess(self.laws, resultants))
 
     def interface_excess(self, forces: FloatArray, point_scale: FloatArray) -> float:
-        """Largest excess of an interface over its conditions, relative to the scale of its points."""
+        """Largest excess of an interface over its conditions, relative to the scale of its points.
+
+        forces      : (n_points, 3) N, compression positive
+        point_scale : (n_points,) N
+        """
         scale = np.minimum.reduceat(point_scale, self.contacts.point_start[:-1])
         return float((self._excess(forces) / scale).max(initial=0.0))
 
@@ -152,7 +159,7 @@ class InterfaceCase(Case):
         return self.scale.rounded_scale(self.contacts, forces, factor, SHARP)
 
     def repaired_forces(self, mechanics: Mechanics) -> tuple[FloatArray, float] | None:
-        """Forces near the given ones that may prove the load factor that comes with them; None without."""
+        """Forces near the given ones, (n_points, 3) N, and the load factor that they may prove; None without."""
         scaling = self.program.scaling
         forces = scaling.scaled_forces(mechanics.contact_forces)
         crushes = np.any(self._motions(mechanics.interface_motions)[:, 1] != 0.0, axis=1)
@@ -172,7 +179,10 @@ class InterfaceCase(Case):
             yield allowed_motion(self.model, program.mechanism(u), self.scale.arms), moved * to_deck
 
     def forces_prove(self, forces: FloatArray, factor: float) -> bool:
-        """Whether forces balance the loads within all conditions, those of interfaces too, up to rounding."""
+        """Whether forces balance the loads within all conditions, those of interfaces too, up to rounding.
+
+        forces : (n_points, 3) N, compression positive
+        """
         block_scale, start = (
             self.scale.rounded_scale(self.contacts, forces, factor, PASSED_ON_ROUNDING),
             self.contacts.point_start[:-1],
@@ -184,7 +194,7 @@ class InterfaceCase(Case):
         return super().forces_prove(forces, factor) and bool(np.all(self._excess(forces) <= of_interfaces))
 
     def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
-        """Nothing: forces are repaired to less than rounding."""
+        """Nothing: forces, (n_points, 3) N, are repaired to less than rounding."""
         return 0.0
 
     def dissipation(self, motion: Motion) -> tuple[float, float]:

@@ -60,7 +60,10 @@ STRONGER = (1.0, 1e2, 1e4)
 def refined_solution(
     data: ConeData, condensation: Condensation, scaling: Scaling, r_x: FloatArray, r_e: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Dx and dy, refined against the system itself until that brings nothing more."""
+    """The step dx, (n_unknowns,), and dy, (n_equations,), refined against the system until that brings nothing more.
+
+    r_x, r_e : right-hand sides, (n_unknowns,) and (n_equations,)
+    """
     scale_x, scale_e = largest_entry(r_x), largest_entry(r_e)
     total = max(scale_x, scale_e)
     if total == 0.0:
@@ -85,7 +88,14 @@ def refined_solution(
 
 
 def factorized(factors: Factorization, values: FloatArray, diagonal: IntArray, shift: float) -> bool:
-    """Factorise N regularised, more strongly where it turns out not to be positive definite in double precision."""
+    """Factorise N regularised, more strongly where it turns out not to be positive definite in double precision.
+
+    values   : (nnz,) of N, in the order of the pattern
+    diagonal : (n,) where the entries of its diagonal are among them
+    shift    : added to the diagonal, besides a share of itself
+
+    False where it is not positive definite in the end either.
+    """
     for stronger in STRONGER:
         shifted = values.copy()
         shifted[diagonal] += stronger * (RELATIVE_SHIFT * values[diagonal] + shift)
@@ -103,6 +113,8 @@ def bordered(inner: FloatArray, rhs: FloatArray) -> FloatArray:
     """Solution of the small system of the border, which has no more than a few unknowns and may be singular.
 
     Not-a-number where an entry has overflowed, on which least squares would end with an error.
+
+    inner : (k, k); rhs : (k,), or (k, m) for several
     """
     if not (np.isfinite(inner).all() and np.isfinite(rhs).all()):
         return np.full((inner.shape[1], *rhs.shape[1:]), np.nan)
@@ -211,7 +223,7 @@ class Condensation:
         return bool(np.isfinite(self._inner).all())
 
     def solve(self, r_x: FloatArray, r_e: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dx and dy, not refined."""
+        """The step dx, (n_unknowns,), and dy, (n_equations,), not refined, for right-hand sides of these shapes."""
         n = len(self._products.diagonal)
         right, held = r_x[:n], []
         if self._data.n_local:

@@ -63,13 +63,13 @@ class ConeProduct:
         return v[self.n_lines :].reshape(3, self.n_cones)
 
     def identity(self) -> FloatArray:
-        """E."""
+        """The identity e, (n_lines + 3 n_cones,)."""
         e = np.zeros(self.size)
         e[: self.n_lines + self.n_cones] = 1.0
         return e
 
     def product(self, u: FloatArray, v: FloatArray) -> FloatArray:
-        """U ∘ v."""
+        """The product u ∘ v; all are (n_lines + 3 n_cones,)."""
         result = np.empty_like(u)
         np.multiply(self.lines(u), self.lines(v), out=self.lines(result))
         a, b, out = self.cones(u), self.cones(v), self.cones(result)
@@ -78,7 +78,7 @@ class ConeProduct:
         return result
 
     def quotient(self, divisor: FloatArray, v: FloatArray) -> FloatArray:
-        """L ∖ v for a divisor l inside the cones."""
+        """The quotient l ∖ v for a divisor l inside the cones; all are (n_lines + 3 n_cones,)."""
         result = np.empty_like(v)
         np.divide(self.lines(v), self.lines(divisor), out=self.lines(result))
         a, b, out = self.cones(divisor), self.cones(v), self.cones(result)
@@ -89,7 +89,7 @@ class ConeProduct:
         return result
 
     def clipped(self, v: FloatArray, least: float, greatest: float) -> FloatArray:
-        """V with its eigenvalues, v₀ ± ‖v̄‖ in cones, brought between two bounds."""
+        """The vector v, (n_lines + 3 n_cones,), with its eigenvalues, v₀ ± ‖v̄‖ in cones, brought between two bounds."""
         result = np.empty_like(v)
         np.clip(self.lines(v), least, greatest, out=self.lines(result))
         cones, out = self.cones(v), self.cones(result)
@@ -100,13 +100,13 @@ class ConeProduct:
         return result
 
     def least_eigenvalue(self, v: FloatArray) -> float:
-        """Least of v on half-lines and v₀ − ‖v̄‖ in cones: positive inside."""
+        """Least of v, (n_lines + 3 n_cones,), on half-lines and v₀ − ‖v̄‖ in cones: positive inside."""
         cones = self.cones(v)
         least = float(self.lines(v).min(initial=np.inf))
         return min(least, float((cones[0] - np.hypot(cones[1], cones[2])).min(initial=np.inf)))
 
     def step_to_boundary(self, inside: FloatArray, step: FloatArray) -> float:
-        """Largest t with inside + t step in the cones; infinite where there is none."""
+        """Largest t with inside + t step in the cones, infinite where there is none; both (n_lines + 3 n_cones,)."""
         a, b = self.cones(inside), self.cones(step)
         with np.errstate(over="ignore", invalid="ignore"):
             mixed = a[0] * b[0] - a[1] * b[1] - a[2] * b[2]
@@ -116,7 +116,10 @@ class ConeProduct:
 
 
 def dot(u: FloatArray, v: FloatArray) -> float:
-    """u·v without the linear algebra library, whose threads cost more than they bring: 6 ms for 14,000 components."""
+    """u·v, (n,) each, without the linear algebra library.
+
+    Its threads cost more than they bring: 6 ms for 14,000 components.
+    """
     return float(np.einsum("i,i->", u, v))
 
 
@@ -142,7 +145,7 @@ class Scaling:
 
     @staticmethod
     def of(product: ConeProduct, s: FloatArray, z: FloatArray) -> Scaling:
-        """Of two vectors inside the cones."""
+        """Of two vectors inside the cones, (n_lines + 3 n_cones,) each."""
         line = np.sqrt(product.lines(s) / product.lines(z))
         a, b = product.cones(s), product.cones(z)
         det_a, det_b = determinant(a), determinant(b)
@@ -161,7 +164,7 @@ class Scaling:
         return Scaling(product, np.ones(product.n_lines), w, np.ones(product.n_cones))
 
     def times(self, v: FloatArray) -> FloatArray:
-        """W v."""
+        """The product W v, (n_lines + 3 n_cones,)."""
         result = np.empty_like(v)
         np.multiply(self.product.lines(v), self.line, out=self.product.lines(result))
         boosted(self.w, self.product.cones(v), 1.0, self.product.cones(result))
@@ -169,7 +172,7 @@ class Scaling:
         return result
 
     def inverse(self, v: FloatArray) -> FloatArray:
-        """W⁻¹ v."""
+        """The product W⁻¹ v, (n_lines + 3 n_cones,)."""
         result = np.empty_like(v)
         np.divide(self.product.lines(v), self.line, out=self.product.lines(result))
         boosted(self.w, self.product.cones(v), -1.0, self.product.cones(result))
@@ -187,7 +190,7 @@ def boosted(w: FloatArray, v: FloatArray, sign: float, out: FloatArray) -> None:
 
 
 def largest_entry(v: FloatArray) -> float:
-    """Largest size of an entry, zero of an empty vector."""
+    """Largest size of an entry of a vector, (n,), zero of an empty one."""
     return float(np.abs(v).max(initial=0.0))
 
 

@@ -128,6 +128,8 @@ def warm_start(data: ConeData, x: FloatArray, y: FloatArray, z: FloatArray) -> P
 
     Every half-line and cone gets a distance from its border of ``MARGIN`` times the mean one: from the border itself
     the method hardly gets away.
+
+    x, y, z : (n_unknowns,), (n_equations,) and (n_lines + 3 n_cones,)
     """
     product = data.product
     inside = []

@@ -92,7 +92,11 @@ class _Frame:
         return dot(self.middle, self.middle) / self.data.product.degree
 
     def direction(self, products: FloatArray, share: float, *, refined: bool = True) -> _Direction:
-        """The step for products r and a share f of the residuals."""
+        """The step for products r and a share f of the residuals.
+
+        products : (n_lines + 3 n_cones,)
+        refined  : whether the step is refined against the system itself
+        """
         data, scaling = self.data, self.scaling
         r_x, r_e, r_z = self.residuals
         divided = data.product.quotient(self.middle, products)
@@ -112,7 +116,7 @@ class _Frame:
         return (reach[0], reach[1]) if self.data.is_linear else (min(reach), min(reach))
 
     def ahead(self, direction: _Direction, to_s: float, to_z: float) -> tuple[FloatArray, FloatArray]:
-        """Scaled s and z after a step."""
+        """Scaled s and z, (n_lines + 3 n_cones,) each, after steps of ``to_s`` and ``to_z`` along a direction."""
         return self.middle + to_s * direction.s, self.middle + to_z * direction.z
 
 

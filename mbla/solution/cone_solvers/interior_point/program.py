@@ -70,6 +70,8 @@ class CondensedProgram:
 
         enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then, and the next
                  run of the same program goes on from there
+
+        Raises SolverError if the data are not finite.
         """
         self._check_finite()
         started = time.perf_counter()
@@ -107,13 +109,15 @@ class CondensedProgram:
         """Start the next time from the solution of a neighbouring program with the same unknowns and rows.
 
         After a solution the next program of the same object starts from it without being told.
+
+        Raises ValueError where it has other numbers of unknowns or rows.
         """
         if solution.x.shape != self.cone_program.cost.shape or solution.z.shape != self.cone_program.rhs.shape:
             raise ValueError("a neighbouring program has the same unknowns and rows")
         self._near = solution.x, solution.z
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
-        """Change cost or right-hand side; the matrix stays."""
+        """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         old = self.cone_program
         self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
         self._paused = self._solved = None

@@ -66,7 +66,10 @@ class CentralPath:
 
 
 def central_path(stiffness: Stiffness, noise: float, seed: int, anchor: FloatArray | None, kappa: float) -> CentralPath:
-    """A path with the given noise and pull κ towards an anchor; it begins at ``first_point``."""
+    """A path with the given noise and pull κ towards an anchor; it begins at ``first_point``.
+
+    anchor : (n_points, components)  forces, non-dimensional, compression positive; None: no pull
+    """
     program = stiffness.program
     shape = (program.n_points, program.components)
     anchored = anchor is not None and kappa > 0.0

@@ -90,7 +90,7 @@ class Metric:
     point: Iterate
 
     def coordinates(self, change: Iterate) -> FloatArray:
-        """Relative changes of all contact quantities and the change of ln σ, one vector."""
+        """Relative changes of all contact quantities and the change of ln σ behind them, one vector, (n_changes,)."""
         joints, point, limit = self.joints, self.point, self.joints.limit(self.point.normal)
         return np.concatenate(
             [

@@ -157,7 +157,10 @@ class _Walk:
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not finite is seen and given up
 def go(attempt: Try, begin: Start, anchor: FloatArray | None) -> None:
-    """Carry out a try; what it finds is kept in ``attempt``."""
+    """Carry out a try; what it finds is kept in ``attempt``.
+
+    anchor : (n_points, components)  forces, non-dimensional, compression positive; None: no pull towards any
+    """
     path = central_path(attempt.stiffness, begin.noise, begin.seed, anchor, begin.kappa)
     walk = _Walk(follow(path, first_point(path), attempt.most))
     near = NEAR if begin.descends else float("inf")
