@@ -110,7 +110,7 @@ def _solved(deck: Deck, options: RunOptions, progress: Progress | None, started:
 
 
 def overrides_of(values: Mapping[str, object] | Sequence[str]) -> tuple[str, ...]:
-    """``key.path=value`` texts; UsageError where a value cannot be written as one."""
+    """``key.path=value`` texts; raises UsageError where a value cannot be written as one."""
     if isinstance(values, str):
         raise UsageError("set-refused", f"set={values!r}: a mapping, or a list of key.path=value texts")
     if not isinstance(values, Mapping):

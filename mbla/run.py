@@ -87,7 +87,11 @@ def solve_deck(
 def solved_case_by_case(
     deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
 ) -> Iterator[Results]:
-    """As ``solve_deck``: the results so far, before any load case is solved and after each of them."""
+    """As ``solve_deck``: the results so far, before any load case is solved and after each of them.
+
+    Raises DeckError for faults of the deck, UsageError for load cases that it does not have and where expectations are
+    asked for and it has none.
+    """
     if options.expected and not deck.content.expected:
         raise UsageError("no-expectations", f"{deck.path}: has no expected section to compare with")
     model = build_model(deck)

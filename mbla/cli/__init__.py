@@ -86,6 +86,7 @@ class _Parser(argparse.ArgumentParser):
     """Raises what is wrong, after the line that says how the command is used."""
 
     def error(self, message: str) -> NoReturn:
+        """Raises UsageError, after the line that says how the command is used."""
         self.print_usage(sys.stderr)
         command = self.prog.partition(" ")[2]
         raise UsageError("command-line", f"{command}: {message}" if command else message)

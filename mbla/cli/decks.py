@@ -167,7 +167,7 @@ def _cases(options: argparse.Namespace) -> tuple[str, ...]:
 
 
 def refuse_unfit_name(deck: Path, what: str = "deck") -> None:
-    """A name that no result file can have, or that no text can hold."""
+    """Raises FileError for a name that no result file can have, or that no text can hold."""
     if not deck.name or deck.is_dir():
         raise FileError("folder-given", f"{deck}: is a folder, not a {what}")
     try:

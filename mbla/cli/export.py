@@ -162,7 +162,7 @@ def add_export(commands: Any) -> None:
 
 
 def export(options: argparse.Namespace) -> int:
-    """Write tables and meshes; their paths are printed."""
+    """Write tables and meshes; their paths are printed. Raises UsageError for ``--vtkhdf``, which is no more."""
     with loading():
         from mbla.results.hdf5.result_file import read_results_hdf5
         from mbla.results.tables.tables import Formats, export_results

@@ -19,7 +19,7 @@ MOST = 1024
 
 
 def names(text: str) -> list[str]:
-    """Names with commas between them."""
+    """Names with commas between them; raises ArgumentTypeError where one is empty."""
     listed = [name.strip() for name in text.split(",")]
     if not all(listed):
         raise argparse.ArgumentTypeError(f"{text!r} is not a list of names with commas between them")
@@ -27,7 +27,7 @@ def names(text: str) -> list[str]:
 
 
 def place(text: str) -> Path:
-    """A file or a folder to write to."""
+    """A file or a folder to write to; raises ArgumentTypeError for an empty text."""
     if not text:  # as where a script has a variable that is not set: not the current folder
         raise argparse.ArgumentTypeError("'' is no name of a file or a folder")
     return Path(text)
@@ -59,7 +59,7 @@ def threads(text: str) -> int:
 
 
 def shard(text: str) -> tuple[int, int]:
-    """Part and number of parts, ``2/8``."""
+    """Part and number of parts, ``2/8``; raises ArgumentTypeError for what is none."""
     match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
     if not match or not 1 <= int(match[1]) <= int(match[2]):
         raise argparse.ArgumentTypeError(f"{text!r} is not a shard, such as 2/8: part 1 to n of n parts")

@@ -197,7 +197,11 @@ def solid_guides(guides: Guides, label: IntArray, arms: FloatArray) -> Guides:
 
 
 def guides_at_odds(guides: Guides, label: IntArray, arms: FloatArray) -> tuple[int, int] | None:
-    """Two guided blocks of one solid whose guides do not say the same of it; None where there are none."""
+    """Two guided blocks of one solid whose guides do not say the same of it; None where there are none.
+
+    label : (n_blocks,) solid of each block
+    arms  : (n_blocks, 3) m, from the centroid of the solid to that of the block
+    """
     if not len(guides):
         return None
     _, first, row = np.unique(label[guides.blocks], return_index=True, return_inverse=True)

@@ -43,7 +43,7 @@ def box_pairs(lower: FloatArray, upper: FloatArray, most: float = np.inf) -> tup
     """Pairs i < j of boxes that share a point, sorted by i, then j.
 
     lower, upper : (n, 3) corners of the boxes
-    most         : pairs that are found; ``CrowdedError`` is raised before there are many more
+    most         : pairs that are found; raises ``CrowdedError`` before there are many more
 
     The tree works on the two axes along which the boxes are smallest against the whole; the third is compared after.
     """

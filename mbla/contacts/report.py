@@ -192,7 +192,10 @@ NO_DISTANCE = 1e-9
 
 
 def nearest_words(model: Model, part: IntArray) -> str:
-    """``; nearest to it is lower[33], 0.0128 m from upper[0] ...``; nothing where nothing else is there."""
+    """``; nearest to it is lower[33], 0.0128 m from upper[0] ...``; nothing where nothing else is there.
+
+    part : (n,) blocks that hang together
+    """
     blocks, units = model.blocks, model.units
     first = blocks.vertex_start[:-1]
     least, greatest = np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)

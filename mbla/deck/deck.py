@@ -230,7 +230,7 @@ def _resolver(tree: Tree, deck_path: Path) -> Callable[[KeyPath, str], Path]:
 
 
 def check_regular(path: Path) -> None:
-    """FileError unless a path is a regular file that can be opened."""
+    """Raises FileError unless a path is a regular file that can be opened."""
     try:
         if not path.exists():
             raise FileError("file-missing", "does not exist")

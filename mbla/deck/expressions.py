@@ -192,7 +192,7 @@ def _parse(text: str) -> ast.expr:
 
 
 def parse_source(text: str) -> ast.expr:
-    """Syntax of an expression without its ``=``; ExpressionError if it cannot be read."""
+    """Syntax of an expression without its ``=``; raises ExpressionError if it cannot be read."""
     source = text.strip()
     if not source:
         raise ExpressionError(
@@ -212,7 +212,7 @@ def parse_source(text: str) -> ast.expr:
 
 
 def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> float:
-    """Value of a syntax node, by recursion; ``depth`` bounds it."""
+    """Value of a syntax node, by recursion; ``depth`` bounds it. Raises ExpressionError where it has none."""
     if depth > MAX_DEPTH:
         raise ExpressionError("wrong-expression", f"is an expression nested more than {MAX_DEPTH} levels deep")
     match node:

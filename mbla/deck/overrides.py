@@ -92,7 +92,7 @@ def next_key(data: Any, words: list[str]) -> tuple[str, list[str]]:
 
 
 def item_index(data: list[Any], key: str) -> int:
-    """Number of an item of a list; RefusedError where there is none."""
+    """Number of an item of a list; raises RefusedError where there is none."""
     if not key.isascii() or not key.isdecimal():
         raise RefusedError(
             "set-refused", f"{shorten(key) or 'nothing'} is not a number of an item: 0 to {len(data) - 1} are allowed"

@@ -149,6 +149,7 @@ class _Builder:
             self.start_document(event, mark)
 
     def start_document(self, event: Any, mark: int) -> None:
+        """A document begins; raises _StopError at a second one."""
         self.documents += 1
         if self.documents == 2:
             words = f"a second document begins here: a {self.kind.name} is one document"
@@ -160,6 +161,7 @@ class _Builder:
     # --- putting values where they belong ---
 
     def open(self, data: Any, marks: Any, event: Any) -> None:
+        """A list or a mapping begins; raises _StopError where it is nested too deeply."""
         if event.anchor or event.tag:
             self.refuse_properties(event, marks.own)
         if len(self.stack) >= MAX_DEPTH:
@@ -244,6 +246,7 @@ class _Builder:
         )
 
     def fault(self, mark: int, message: Message, value: str | None = None, path: KeyPath | None = None) -> None:
+        """Add a fault; raises _StopError once there are ``MOST_FAULTS``."""
         key = key_text(self.path() if path is None else path)
         self.document.faults.append(Fault(self.place(mark), key, message, shorten(value) if value else None))
         if len(self.document.faults) == MOST_FAULTS:
@@ -252,7 +255,7 @@ class _Builder:
             raise _StopError
 
     def refuse_entry(self, mark: int, words: str, path: KeyPath) -> None:
-        """Refuse a key or an item that is one too many; nothing is read any more."""
+        """Refuse a key or an item that is one too many; raises _StopError, for nothing is read any more."""
         self.fault(mark, Message("too-many-entries", words), path=path)
         raise _StopError
 

@@ -125,7 +125,7 @@ def source_of_text(text: str, path: Path, label: str) -> SourceText:
 
 
 def check_characters(source: SourceText, kind: FileKind = DECK) -> None:
-    """DeckError at the first control character."""
+    """Raises DeckError at the first control character."""
     if match := _CONTROL.search(source.text):
         words = f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
         raise _refusal(source, match.start(), Message("control-character", words))

@@ -75,7 +75,7 @@ def held_components(fixed: BoolArray, count: int) -> FloatArray:
 
 
 def slide(direction: FloatArray, count: int) -> FloatArray:
-    """Velocity along a unit direction, (count, 6)."""
+    """Velocity along a unit direction (3,), (count, 6): without rotation."""
     return np.broadcast_to(np.concatenate([direction, np.zeros(3)]), (count, 6)).copy()
 
 

@@ -251,7 +251,7 @@ class Model:
 
 
 def select_cases(model: Model, names: Sequence[str]) -> tuple[LoadCase, ...]:
-    """The load cases of those names in the order of the deck, all if none is named; UsageError for an unknown one.
+    """The load cases of those names in the order of the deck, all if none is named; raises UsageError for unknown ones.
 
     The name of a load that travels stands for all its positions.
     """

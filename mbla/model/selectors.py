@@ -41,7 +41,7 @@ class Roster:
 
     @cached_property
     def members(self) -> dict[str, IntArray]:
-        """Blocks of each group, in order."""
+        """Blocks of each group by its name, (n,) each, in order."""
         names, codes = np.unique(np.array(self.blocks.groups, dtype=np.str_), return_inverse=True)
         order = np.argsort(codes, kind="stable")
         parts = np.split(order, np.cumsum(np.bincount(codes, minlength=len(names)))[:-1])

@@ -130,7 +130,11 @@ def plane_of(section: GroundPlane | SymmetryPlane) -> tuple[FloatArray, FloatArr
 
 
 def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float) -> None:
-    """Blocks it may carry must not reach below it, and one of their faces must lie on it."""
+    """Blocks it may carry must not reach below it, and one of their faces must lie on it.
+
+    fixed     : (n_blocks,) blocks that cannot move
+    tolerance : relative to block size
+    """
     blocks = roster.blocks
     # what cannot be built need not lie right, either
     may_carry = ~fixed & ~np.isin(np.array(blocks.groups), list(roster.partial))

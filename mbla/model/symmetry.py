@@ -266,7 +266,7 @@ class Mirror:
 
 
 def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> Mirror:
-    """The plane as it stands to the blocks; DeckError where blocks reach across it."""
+    """The plane as it stands to the blocks; raises DeckError where blocks reach across it."""
     blocks, (point, normal, label) = model.blocks, plane_of(plane)
     label = label or "the plane of symmetry"
     heights = (blocks.vertices - point) @ normal

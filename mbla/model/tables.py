@@ -63,7 +63,7 @@ class Table:
         self.faults.append(Message("table-row", f"{self.file}:{self.lines[row]}: {words}"))
 
     def check(self) -> None:
-        """TableRefused where something is wrong with a row."""
+        """Raises TableRefused where something is wrong with a row."""
         if self.faults:
             raise TableRefused(*self.faults)
 

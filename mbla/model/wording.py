@@ -26,7 +26,7 @@ def was(count: int) -> str:
 
 
 def named(blocks: IntArray, name: Callable[[int], str]) -> str:
-    """The first names, and how many more: ``a[0], a[4] and 7 more``."""
+    """The first names of blocks, (n,), and how many more: ``a[0], a[4] and 7 more``."""
     names = ", ".join(name(int(block)) for block in blocks[:NAMED])
     return f"{names} and {len(blocks) - NAMED} more" if len(blocks) > NAMED else names
 

@@ -37,7 +37,7 @@ LEAST = {"RLIMIT_AS": (400 * MIB, "address space (ulimit -v)"), "RLIMIT_DATA": (
 
 
 def refuse_too_low_limits() -> None:
-    """Raise LimitError where not even the libraries would find room; before any of them is imported.
+    """Raises LimitError where not even the libraries would find room; before any of them is imported.
 
     Without that much OpenBLAS ends the process with a status of its own or asks for memory for ever, deaf to signals,
     while it is loaded, and others name what has nothing to do with memory.

@@ -143,7 +143,7 @@ def content_hash(content: Any) -> bytes:
 
 
 def arrays_in(value: Any) -> list[np.ndarray[Any, Any]]:
-    """All arrays in records, lists, mappings and sparse matrices, each once."""
+    """All arrays, of any shape, in records, lists, mappings and sparse matrices, each once."""
     import numpy as np  # decks are read without it
 
     found: dict[int, np.ndarray[Any, Any]] = {}

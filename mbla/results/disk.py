@@ -41,7 +41,10 @@ if sys.platform != "win32":
 
 @contextlib.contextmanager
 def file_errors(path: Path) -> Iterator[None]:
-    """An error of the operating system becomes a FileError that names the file, as one of a temporary name does."""
+    """Raises FileError that names the file for an error of the operating system within it.
+
+    Also for one that names a temporary file.
+    """
     try:
         yield
     except OSError as error:

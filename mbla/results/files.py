@@ -116,7 +116,10 @@ class OutputFolder:
             self._refuse(name)
 
     def path(self, name: str) -> Path:
-        """Where to write the file that will be ``name``; for libraries that write files themselves."""
+        """Where to write the file that will be ``name``; for libraries that write files themselves.
+
+        Raises ValueError for a name that is not plain or was given before, FileError where it may not be replaced.
+        """
         if not name or Path(name).name != name or name.startswith(PREFIX):
             raise ValueError(f"not a plain file name: {name!r}")
         if name in self._names:

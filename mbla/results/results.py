@@ -73,7 +73,7 @@ class Results:
     not_done: tuple[str, ...] = ()
 
     def case(self, name: str) -> CaseResult:
-        """The case of that name; KeyError if there is none."""
+        """The case of that name; raises KeyError if there is none."""
         for case in self.cases:
             if case.load_case.name == name:
                 return case

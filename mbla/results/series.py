@@ -79,7 +79,7 @@ def _worst(cases: Sequence[CaseResult]) -> CaseResult | None:
 
 
 def chosen_cases(results: Results, names: Sequence[str] | None) -> tuple[CaseResult, ...]:
-    """Cases by name in the order of the deck, None for all; UsageError for a name that the result does not have.
+    """Cases by name in the order of the deck, None for all; raises UsageError for a name that the result does not have.
 
     The name of a load that travels stands for all its positions.
     """

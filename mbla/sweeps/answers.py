@@ -113,7 +113,10 @@ UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status
 
 
 def told_apart(values: FloatArray) -> FloatArray:
-    """The values, with one value for those that differ by less than ``ALIKE`` of the largest size among them."""
+    """The values, with one value for those that differ by less than ``ALIKE`` of the largest size among them.
+
+    values : of any shape, which the result has too
+    """
     if not values.size:
         return values
     ascending = np.sort(values, axis=None)

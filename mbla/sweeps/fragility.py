@@ -75,7 +75,7 @@ class Fragility:
 
     @property
     def greatest(self) -> FloatArray:
-        """The same if every unknown point is below it."""
+        """The same if every unknown point is below it, (n,)."""
         return np.asarray((self.below + self.unknown) / self.points)
 
 

@@ -99,7 +99,10 @@ def _line(cells: Sequence[Plain]) -> bytes:
 
 
 def read_row(header: JournalHeader, line: bytes) -> Outcome:
-    """The point of a line; results that it has not are None. ValueError says what is wrong with a line that is none."""
+    """The point of a line; results that it has not are None.
+
+    Raises ValueError, which says what is wrong, for a line that is none.
+    """
     text = line.decode("utf-8").removesuffix("\n")
     if "\0" in text:
         raise ValueError("has NUL bytes")

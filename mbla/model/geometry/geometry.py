@@ -36,7 +36,7 @@ def malformed(kind: str, reason: str) -> GeometryFileError:
 
 
 def refuse_long_line(number: int, length: int) -> None:
-    """GeometryFileError for a line of so many characters that what it lists would take gigabytes."""
+    """Raises GeometryFileError for a line of so many characters that what it lists would take gigabytes."""
     if length > LONGEST_LINE:
         words = f"line {number} is too long: with the lines that it continues it has more than {LONGEST_LINE:,} "
         raise GeometryFileError("geometry-too-large", words + "characters; no face has so many corners")
@@ -112,7 +112,7 @@ def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, 
 
 
 def check_rows(rows: IntArray, count: int) -> None:
-    """GeometryFileError where a cell names a point, by its row, that is none of so many."""
+    """Raises GeometryFileError where a cell names a point, by its row, that is none of so many."""
     wrong = rows[(rows < 0) | (rows >= count)]
     if wrong.size:
         words = f"a cell names point {wrong.flat[0]}, which does not exist; there are {count}, from 0 on"

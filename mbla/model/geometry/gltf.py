@@ -219,7 +219,7 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 def entry_of(document: dict[str, Any], key: str, number: Any) -> dict[str, Any]:
-    """An entry of one of the document's lists by its number; ValueError where there is none.
+    """An entry of one of the document's lists by its number; raises ValueError where there is none.
 
     >>> entry_of({"meshes": [{}]}, "meshes", -1)
     Traceback (most recent call last):

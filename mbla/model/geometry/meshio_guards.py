@@ -75,10 +75,10 @@ def checked_cells(points: IntArray, offsets: IntArray, types: IntArray) -> tuple
 
 
 def refuse_other_faces(faces: IntArray, ends: IntArray) -> None:
-    """GeometryFileError where the faces of a polyhedron do not end where its offset says.
+    """Raises GeometryFileError where the faces of a polyhedron do not end where its offset says.
 
-    faces : of each polyhedron their number, and of each of them the number of its points and these
-    ends  : where the faces of each polyhedron end
+    faces : (n,) of each polyhedron their number, and of each of them the number of its points and these
+    ends  : (n_polyhedra,) where the faces of each polyhedron end
     """
     numbers, begin = faces.tolist(), 0
     for row, end in enumerate(ends.tolist()):
@@ -115,13 +115,13 @@ def _number(text: bytes, words: str) -> int:
 
 
 def refuse_other_count(words: str, noun: str, announced: int, read: int) -> None:
-    """GeometryFileError where not all was read that is announced."""
+    """Raises GeometryFileError where not all was read that is announced."""
     if announced != read:
         raise malformed(words, f"it announces {counted(announced, noun)}, {read} can be read")
 
 
 def refuse_other_sections(path: Path) -> None:
-    """GeometryFileError where a section of a Gmsh file of text, version 2, has other lines than it announces."""
+    """Raises GeometryFileError where a section of a Gmsh file of text, version 2, has other lines than it announces."""
     content = path.read_bytes()
     if not re.match(rb"\s*\$MeshFormat\s+2\S*\s+0\s", content):
         return

@@ -20,6 +20,8 @@ def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     """Rows with group, index, force, and optionally a point where it acts, a moment, or both.
 
     A force without a point acts at the centroid. A moment is added to what the force brings about the centroid.
+
+    blocks : (n,) or None, those that other kinds of load act on; the rows name theirs
     """
     assert load.table is not None  # what makes it this kind
     here = (*path, "table")

@@ -85,6 +85,7 @@ def blocks_from_polyhedra(
 ) -> Blocks:
     """Blocks from a list of points and a list of faces (corners as indices from 0, any orientation) for each.
 
+    vertex_lists : (n, 3) m, points of each
     groups, densities : one for all, or one for each
     tolerance : of planarity, relative to block size
 

@@ -76,7 +76,7 @@ def polyhedra_from_lists(
     vertex_lists: Sequence[Sequence[Sequence[float]] | FloatArray],
     face_lists: Sequence[Sequence[Sequence[int]]],
 ) -> Polyhedra:
-    """Polyhedra from a list of points and a list of faces (corners as indices from 0) for each."""
+    """Polyhedra from a list of points, (n, 3) m, and a list of faces (corners as indices from 0) for each."""
     vertex_counts = np.array([len(vertices) for vertices in vertex_lists], dtype=np.int64)
     face_counts = np.array([len(faces) for faces in face_lists], dtype=np.int64)
     faces = list(chain.from_iterable(face_lists))

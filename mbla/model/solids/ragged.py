@@ -8,7 +8,7 @@ from mbla.arrays import FloatArray, IntArray
 
 
 def ranges(first: IntArray, counts: IntArray) -> IntArray:
-    """Concatenated ranges first[i] ... first[i] + counts[i] - 1.
+    """Concatenated ranges first[i] ... first[i] + counts[i] - 1, (n_items,) from (n,) and (n,).
 
     >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
     [5, 6, 0, 1, 2]

@@ -196,7 +196,7 @@ class _Shifted:
         return None if pivots is None else int(np.sum(pivots < 0))
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """With the factors at the last shift."""
+        """Solution, (n,) from (n,), of the shifted system, with the factors at the last shift."""
         return self._factors.solve(rhs)
 
 

@@ -162,7 +162,11 @@ def reactions_of(
 def support_reactions(
     model: Model, contacts: Contacts, contact_forces: FloatArray, *, by_group: bool = False
 ) -> tuple[Reaction, ...]:
-    """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out."""
+    """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out.
+
+    contact_forces : (n_points, 3)  N, T1, T2 [N], compression positive
+    by_group       : fixed blocks of one group as one, however few they are
+    """
     supports, _, onto_structure = _onto_structure(model, contacts, contact_forces)
     blocks = supports < len(model.blocks)
     single = len(np.unique(supports[blocks])) <= MOST_SINGLE_SUPPORTS and not by_group
@@ -178,6 +182,8 @@ def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray
     """Reactions by the group of the free blocks that supports act on, in the order in which groups are met.
 
     Forces of guides are not among them.
+
+    contact_forces : (n_points, 3)  N, T1, T2 [N], compression positive
     """
     _, carried, onto_structure = _onto_structure(model, contacts, contact_forces)
     return _by_name([model.blocks.groups[block] for block in carried.tolist()], onto_structure)

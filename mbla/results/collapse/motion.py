@@ -35,7 +35,10 @@ def drawn_motion(model: Model, case: CaseResult | None) -> FloatArray:
 
 
 def motion_scale(model: Model, motion: FloatArray) -> float:
-    """Factor from velocities to displacements as drawn; 0 where nothing moves."""
+    """Factor from velocities to displacements as drawn; 0 where nothing moves.
+
+    motion : (n_blocks, 6) velocity and angular velocity about the centroid
+    """
     displacement = np.linalg.norm(vertex_displacements(model.blocks, motion), axis=1).max(initial=0.0)
     rotation = np.linalg.norm(motion[:, 3:], axis=1).max(initial=0.0)
     if displacement == 0.0:

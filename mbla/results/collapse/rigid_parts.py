@@ -94,7 +94,11 @@ def resting_blocks(model: Model, motion: FloatArray) -> BoolArray:
 
 
 def part_motions(model: Model, parts: IntArray, motion: FloatArray) -> tuple[PartMotion, ...]:
-    """How each part that moves does it, the heaviest first: the mean by volume of the motions of its blocks."""
+    """How each part that moves does it, the heaviest first: the mean by volume of the motions of its blocks.
+
+    parts  : (n_blocks,) part of each block, 0 at rest
+    motion : (n_blocks, 6) velocity and angular velocity about the centroid
+    """
     count = int(parts.max(initial=0)) + 1
     blocks = model.blocks
     volume = _sums(parts, blocks.volumes, count)
@@ -150,7 +154,10 @@ def moving_blocks(model: Model, parts: IntArray) -> int:
 
 
 def moving_share(model: Model, parts: IntArray) -> float:
-    """Share of the weight of the free blocks that moves; of their number where they weigh nothing."""
+    """Share of the weight of the free blocks that moves, 0 to 1; of their number where they weigh nothing.
+
+    parts : (n_blocks,) part of each block, 0 at rest
+    """
     free = ~model.fixed
     sizes = model.blocks.masses if model.blocks.masses[free].any() else np.ones(len(model.blocks))
     total = float(sizes[free].sum())

@@ -65,7 +65,10 @@ class Thrust:
 
     @property
     def unpressed(self) -> BoolArray:
-        """Interfaces with a force but no compression on the whole: tension, or shear that cohesion takes."""
+        """Interfaces with a force but no compression on the whole, (n_interfaces,).
+
+        That is tension, or shear that cohesion takes.
+        """
         sizes = np.linalg.norm(self.forces, axis=1)
         return np.asarray(~self.carried & (sizes > NO_FORCE * sizes.max(initial=0.0)))
 
@@ -124,7 +127,7 @@ def allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArr
 
 
 def shear_use(shear: FloatArray, allowed: FloatArray) -> FloatArray:
-    """Ratio; nan where both are nothing, measured by the largest force."""
+    """Ratio, (n,) of forces (n,) N each; nan where both are nothing, measured by the largest force."""
     finite = allowed[np.isfinite(allowed)]
     nothing = ROUNDING * max(finite.max(initial=0.0), shear.max(initial=0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -225,7 +228,7 @@ def _walks(neighbours: list[list[int]]) -> list[IntArray]:
 
 
 def thrust_lines(model: Model, contacts: Contacts, thrust: Thrust) -> tuple[IntArray, ...]:
-    """Lines of thrust as interfaces in their order; a chain is cut where an interface carries nothing."""
+    """Lines of thrust as interfaces in their order, (n,) each; a chain is cut where an interface carries nothing."""
     lines = []
     for chain in interface_chains(model, contacts):
         cuts = np.flatnonzero(~thrust.carried[chain])

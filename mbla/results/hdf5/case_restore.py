@@ -31,7 +31,7 @@ Record = TypeVar("Record")
 
 
 def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
-    """The results of a load case from the content below it; ValueError where it contradicts itself."""
+    """The results of a load case from the content below it; raises ValueError where it contradicts itself."""
     answers: dict[str, Any] = {
         part: _mechanics(get, f"{group}/".lstrip("/"), part) for part, (group, _) in ANSWERS.items()
     }

@@ -80,7 +80,10 @@ def strings(dataset: h5py.Dataset) -> list[str]:
 
 
 def read_field(dataset: h5py.Dataset, path: str, field: Quantity, sizes: dict[str, int]) -> Value:
-    """One dataset, with the type, the dimensions and the range of numbers that the layout asks for."""
+    """One dataset, with the type, the dimensions and the range of numbers that the layout asks for.
+
+    Raises ValueError where it has others.
+    """
     if dataset.ndim != len(field.dims):
         raise ValueError(f"{path} has {dataset.ndim} dimensions instead of {len(field.dims)}")
     for name, size in zip(field.dims, dataset.shape, strict=True):
@@ -106,7 +109,10 @@ def read_field(dataset: h5py.Dataset, path: str, field: Quantity, sizes: dict[st
 
 
 def check_indices(path: str, field: Quantity, value: Value, sizes: dict[str, int]) -> None:
-    """Indices within what they count; offsets from zero, never falling, to the end of what they divide."""
+    """Indices within what they count; offsets from zero, never falling, to the end of what they divide.
+
+    Raises ValueError for others.
+    """
 
     def size(name: str) -> int:
         if name == "body":

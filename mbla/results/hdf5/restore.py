@@ -33,7 +33,7 @@ LEAST, MOST = 1e-120, 1e120
 
 
 def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
-    """Results from content and root attributes; ValueError where they contradict themselves."""
+    """Results from content and root attributes; raises ValueError where they contradict themselves."""
     get = cast("dict[str, Any]", content)
     names = get["model/load_cases"]
     load_cases = {name: _load_case(name, _part(get, f"cases/{name}/")) for name in names}

@@ -229,7 +229,10 @@ def _place_of_line(model: Model, contacts: Contacts, failure: Failure, outward: 
 
 
 def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
-    """Where a hinge line lies on its first interface: intrados or extrados in an arch, else the axis it is off to."""
+    """Where a hinge line lies on its first interface: intrados or extrados in an arch, else the axis it is off to.
+
+    outward : (n_interfaces, 3) direction out of the curve, as ``curvature_sides`` gives it
+    """
     first = int(line.interfaces[0])
     offset = (line.start + line.end) / 2 - contacts.centroids[first]
     offset = offset - (offset @ line.direction) * line.direction

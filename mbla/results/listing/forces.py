@@ -60,7 +60,10 @@ def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
 
 
 def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
-    """Forces that balance the live load alone, the largest interfaces first."""
+    """Forces that balance the live load alone, the largest interfaces first.
+
+    lock : (n_points, 3)  N, T1, T2 [N], compression positive
+    """
     thrust = thrust_of(model, contacts, lock)
     normal, shear, sizes = thrust.normal_forces, thrust.shear_forces, np.linalg.norm(thrust.forces, axis=1)
     loaded = int(np.sum(sizes > 1e-6 * sizes.max(initial=0.0)))
@@ -76,7 +79,10 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
 
 
 def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
-    """How far normal forces can range at the load factor, the widest ranges first."""
+    """How far normal forces can range at the load factor, the widest ranges first.
+
+    ranges : (n_interfaces, 2) least and greatest [N], compression positive; inf where unlimited, nan where not found
+    """
     found = sum_by_interface(contacts, mechanics.contact_forces[:, 0])
     widths = ranges[:, 1] - ranges[:, 0]
     order = np.argsort(-widths, kind="stable")[:MOST_ROWS]

@@ -17,7 +17,7 @@ MOST_STRETCHES = 2
 
 
 def block_names(model: Model, blocks: IntArray) -> str:
-    """``arch[3..9], facade[2]``: blocks that follow each other in their group as one stretch, the longest first.
+    """``arch[3..9], facade[2]``: blocks, (n,), that follow each other in a group as one stretch, the longest first.
 
     Of many stretches the longest are named and the blocks of the others counted.
     """
@@ -65,6 +65,8 @@ def region_words(model: Model, blocks: IntArray) -> str:
     """``upper right corner``, ``lower part``, ``part at the +y end``; ``part`` where no side of it is meant.
 
     Left and right are those of a wall along x seen along +y; in other structures the ends of the axes say it.
+
+    blocks : (n,) those of the part
     """
     low, high = _box(model, blocks)
     size = _extents(model)[1] - _extents(model)[0]
@@ -114,7 +116,7 @@ def extents_of(model: Model, blocks: IntArray) -> tuple[FloatArray, FloatArray]:
 
 
 def group_words(model: Model, blocks: IntArray) -> str:
-    """``arch[3..9]``, ``12 blocks of wall``, ``40 blocks of pier, wall and 2 more groups``."""
+    """Of blocks, (n,): ``arch[3..9]``, ``12 blocks of wall``, ``40 blocks of pier, wall and 2 more groups``."""
     if len(_stretches(model, blocks)[0]) <= MOST_STRETCHES:
         return block_names(model, blocks)
     names = list(dict.fromkeys(model.blocks.groups[block] for block in blocks.tolist()))
@@ -124,7 +126,10 @@ def group_words(model: Model, blocks: IntArray) -> str:
 
 
 def range_words(model: Model, blocks: IntArray) -> list[str]:
-    """``courses 1 to 6``, ``x 2.1 .. 3.2 m``: positions in one group, and coordinates that the structure exceeds."""
+    """``courses 1 to 6``, ``x 2.1 .. 3.2 m``: positions in one group, and coordinates that the structure exceeds.
+
+    blocks : (n,) those of which it is said
+    """
     words = []
     groups = np.array(model.blocks.groups)
     if len(set(groups[blocks].tolist())) == 1:
@@ -173,7 +178,10 @@ WITH = 0.8
 
 
 def direction_words(direction: FloatArray, digits: int = 3) -> str:
-    """``+y`` for what nearly follows an axis, else the components, with some digits behind the point."""
+    """``+y`` for what nearly follows an axis, else the components, with some digits behind the point.
+
+    direction : (3,) unit
+    """
     axis = int(np.argmax(np.abs(direction)))
     if abs(direction[axis]) >= ALONG_AXIS:
         return ("+" if direction[axis] > 0 else "-") + "xyz"[axis]

@@ -33,7 +33,10 @@ def moves_whole(model: Model, part: PartMotion) -> bool:
 
 
 def other_name(model: Model, contacts: Contacts, failure: Failure, number: int, interfaces: IntArray) -> str:
-    """The same; the stationary by their name where it is one body: ``ground z = 0``, ``base[0]``."""
+    """The same; the stationary by their name where it is one body: ``ground z = 0``, ``base[0]``.
+
+    interfaces : (n,) those between the two parts
+    """
     if number:
         return part_name(model, failure, number)
     rests = np.append(failure.clusters, np.zeros(len(model.grounds), dtype=np.int64)) == 0

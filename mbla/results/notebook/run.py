@@ -38,7 +38,7 @@ class Run:
         return tuple(Case(self.records, record) for record in self.records.cases)
 
     def case(self, name: str) -> Case:
-        """The load case of that name; UsageError if there is none."""
+        """The load case of that name; raises UsageError if there is none."""
         for case in self.cases:
             if case.name == name:
                 return case

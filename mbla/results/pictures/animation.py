@@ -37,7 +37,7 @@ COLOURS = 128
 
 
 def format_of_film(path: Path) -> str:
-    """``gif`` or ``mp4`` by the name of a file; UsageError for any other."""
+    """``gif`` or ``mp4`` by the name of a file; raises UsageError for any other."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
         raise UsageError("output-format", f"{path}: animations are written as GIF or MP4, by the name of the file")

@@ -27,7 +27,7 @@ def block_edges(blocks: Blocks) -> IntArray:
 
 
 def edges_of_blocks(blocks: Blocks, edges: IntArray, chosen: BoolArray) -> IntArray:
-    """Edges of the chosen blocks only."""
+    """Edges, (n, 2) vertices, of the chosen blocks, (n_blocks,), only."""
     return edges[chosen[blocks.block_of_vertex[edges[:, 0]]]]
 
 

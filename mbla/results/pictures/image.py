@@ -22,7 +22,10 @@ class Picture:
     content: bytes = field(repr=False)
 
     def save(self, path: str | Path) -> Path:
-        """Write it; the suffix must be that of its format. FileError if that fails, UsageError for another suffix."""
+        """Write it; the suffix must be that of its format.
+
+        Raises FileError if that fails, UsageError for another suffix.
+        """
         path = Path(path)
         if path.suffix.lower() != f".{self.format}":
             raise UsageError("output-format", f"{path}: the picture is {self.format}; ask picture() for another format")

@@ -68,7 +68,7 @@ class PictureOptions:
 
 
 def page_options(arguments: Any) -> PictureOptions:
-    """Size, dots per inch and format from the command line; UsageError for what is none."""
+    """Size, dots per inch and format from the command line; raises UsageError for what is none."""
     if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
         raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
     return PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
@@ -98,7 +98,7 @@ def is_single(target: Path) -> bool:
 
 
 def parse_kinds(text: str, known: Sequence[str] = KINDS) -> tuple[str, ...]:
-    """``model,forces`` or ``all``, in the order of the known ones; UsageError for others."""
+    """``model,forces`` or ``all``, in the order of the known ones; raises UsageError for others."""
     asked = [part.strip() for part in text.split(",") if part.strip()]
     if asked == ["all"]:
         return tuple(known)
@@ -110,7 +110,7 @@ def parse_kinds(text: str, known: Sequence[str] = KINDS) -> tuple[str, ...]:
 
 
 def parse_view(text: str) -> tuple[float, float] | None:
-    """Name of a view, ``AZIMUTH,ELEVATION`` in degrees, or ``auto`` for None; UsageError for others."""
+    """Name of a view, ``AZIMUTH,ELEVATION`` in degrees, or ``auto`` for None; raises UsageError for others."""
     if text == "auto":
         return None
     if text in VIEWS:
@@ -132,7 +132,7 @@ LARGEST_SCALE = 1000.0
 
 
 def parse_scale(text: str) -> float:
-    """A multiple of the usual displacements, 0 to ``LARGEST_SCALE``; ``auto`` is 1. UsageError for others."""
+    """A multiple of the usual displacements, 0 to ``LARGEST_SCALE``; ``auto`` is 1. Raises UsageError for others."""
     try:
         value = 1.0 if text == "auto" else float(text)
     except ValueError:
@@ -146,7 +146,7 @@ def parse_scale(text: str) -> float:
 
 
 def parse_size(text: str) -> tuple[int, int]:
-    """``1600x1000``; UsageError for others."""
+    """``1600x1000``; raises UsageError for others."""
     try:
         width, height = (int(part) for part in text.lower().split("x"))
     except ValueError:
@@ -159,7 +159,7 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def format_of(path: Path) -> str:
-    """``png``, ``svg`` or ``pdf`` by the name of a file; UsageError for any other."""
+    """``png``, ``svg`` or ``pdf`` by the name of a file; raises UsageError for any other."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
         raise UsageError("output-format", f"{path}: pictures are written as PNG, SVG or PDF, by the name of the file")

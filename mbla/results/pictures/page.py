@@ -94,7 +94,7 @@ EDGE = 0.015
 
 
 def matplotlib_parts() -> Any:
-    """The library matplotlib with its figures; UsageError where the extra is not installed."""
+    """The library matplotlib with its figures; raises UsageError where the extra is not installed."""
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # remarks on its cache folder are not for users
     try:
         import matplotlib.backends.backend_agg

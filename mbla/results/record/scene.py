@@ -96,7 +96,7 @@ class Scene:
 
     @cached_property
     def lines(self) -> tuple[IntArray, ...]:
-        """Thrust lines, interfaces in their order."""
+        """Thrust lines, interfaces in their order, (n,) each."""
         return () if self.thrust is None else thrust_lines(self.model, self.contacts, self.thrust)
 
     @cached_property
@@ -128,7 +128,7 @@ class Scene:
 
     @cached_property
     def parts(self) -> IntArray:
-        """Part of each block in the motion as drawn, 0 at rest."""
+        """Part of each block in the motion as drawn, (n_blocks,), 0 at rest."""
         return rigid_parts(self.model, self.contacts, self.motion)
 
 

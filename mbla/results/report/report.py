@@ -160,7 +160,7 @@ def render(content: Mapping[str, Any], views: Iterable[str]) -> str:
 
 
 def library() -> Any:
-    """jinja2, or UsageError that says what to install: asked before anything is drawn."""
+    """jinja2; raises UsageError that says what to install: asked before anything is drawn."""
     try:
         import jinja2
     except ImportError as error:

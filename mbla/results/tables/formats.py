@@ -74,7 +74,7 @@ def table_parquet(table: Table, about: dict[str, str]) -> bytes:
 
 
 def require_parquet() -> None:
-    """UsageError where pyarrow is not installed."""
+    """Raises UsageError where pyarrow is not installed."""
     try:
         import pyarrow  # noqa: F401
     except ImportError as error:

@@ -124,7 +124,11 @@ def shades(normals: FloatArray, light: FloatArray) -> IntArray:
 
 
 def eye_of(vertices: FloatArray, moved: FloatArray, view: tuple[float, float] | None = None) -> list[float]:
-    """Direction from which the structure is seen first: nearly the front of what is thin, else slanted, or as given."""
+    """Direction from which the structure is seen first: nearly the front of what is thin, else slanted, or as given.
+
+    vertices, moved : (n_vertices, 3) m, at rest and as drawn
+    view            : azimuth and elevation in degrees
+    """
     axis = front_axis(np.ptp(vertices, axis=0), np.abs(moved - vertices).max(axis=0))
     if axis is None and view is not None:
         azimuth, elevation = np.deg2rad(view)
@@ -144,7 +148,10 @@ def _with_mark(scene: Scene, words: str) -> str:
 
 
 def block_texts(model: Model, parts: IntArray | None) -> list[str]:
-    """What the browser says of each block: name, position, weight, part; as HTML."""
+    """What the browser says of each block: name, position, weight, part; as HTML.
+
+    parts : (n_blocks,) part of each block, 0 at rest; None without a motion
+    """
     blocks, units = model.blocks, model.units
     weights = model.weights.tolist()
     known = [name for name in POSITIONS if (blocks.labels.position(name) >= 0).any()]
@@ -197,7 +204,7 @@ def colourings(scene: Scene) -> list[Colouring]:
 
 
 def by_part(scene: Scene, parts: IntArray) -> Colouring:
-    """Parts that move together; what rests is pale, what is fixed grey."""
+    """Parts that move together, (n_blocks,) from 1; what rests, 0, is pale, what is fixed grey."""
     tints = tint_of_part(scene, parts, len(GROUPS)).tolist()
     names = ["fixed", "at rest", *(f"part {i}" for i in range(1, len(tints)))]
     colours = [FIXED_BLOCK, REST, *(GROUPS[tint] for tint in tints[1:])]
@@ -242,7 +249,7 @@ def _block_eccentricity(scene: Scene) -> FloatArray:
 
 
 def packed(values: FloatArray | IntArray, kind: str | None = None) -> dict[str, str]:
-    """An array, flat, as base64 of little-endian numbers: single precision, or 32-bit integers."""
+    """An array of any shape, flat, as base64 of little-endian numbers: single precision, or 32-bit integers."""
     kind = kind or ("f4" if values.dtype.kind == "f" else "i4")
     data = np.ascontiguousarray(values.ravel(), dtype=np.dtype(kind).newbyteorder("<"))
     return {"dtype": kind, "bdata": base64.b64encode(data.tobytes()).decode("ascii")}

@@ -138,6 +138,8 @@ def case_record(results: Results, scene: Scene, files: Mapping[str, str]) -> dic
     """What the script must know of a load case.
 
     files : names of its files by kind; ``animation`` where it moves
+
+    Raises ValueError for a scene without a load case.
     """
     if scene.case is None:
         raise ValueError("standard views are those of a load case")

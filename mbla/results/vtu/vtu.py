@@ -122,7 +122,10 @@ def has_thrust(scene: Scene) -> bool:
 
 
 def write_thrust_vtu(path: Path, scene: Scene) -> None:
-    """Points of application as vertices, thrust lines as chains of line cells; outside a joint its edge."""
+    """Points of application as vertices, thrust lines as chains of line cells; outside a joint its edge.
+
+    Raises ValueError for a case without forces.
+    """
     thrust = scene.thrust
     if thrust is None:
         raise ValueError("a case without forces has no thrust")
@@ -158,7 +161,10 @@ def has_hinges(scene: Scene) -> bool:
 
 
 def write_hinges_vtu(path: Path, scene: Scene) -> None:
-    """Each hinge as one line cell, as long as its faces stay closed; then those about a corner as vertex cells."""
+    """Each hinge as one line cell, as long as its faces stay closed; then those about a corner as vertex cells.
+
+    Raises ValueError for a case without a mechanism.
+    """
     motion = scene.interfaces
     if motion is None or scene.mechanics is None:
         raise ValueError("a case without a mechanism has no hinges")

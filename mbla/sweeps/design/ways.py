@@ -98,7 +98,10 @@ def rounded(value: float) -> float:
 
 
 def rounded_within(values: Iterable[float], least: float | None, greatest: float | None) -> list[float]:
-    """Each value rounded, and none thereby beyond its limits, if any; WayError where one is larger than numbers are."""
+    """Each value rounded, and none thereby beyond its limits, if any.
+
+    Raises WayError where one is larger than numbers are.
+    """
     found = [rounded(float(value)) for value in values]
     if not all(map(math.isfinite, found)):
         raise WayError("sweep-values", "has values beyond what a number holds")

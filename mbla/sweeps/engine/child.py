@@ -88,7 +88,7 @@ def import_everything() -> None:
 
 
 def prepared(plan: Plan) -> PointRunner:
-    """What solves the points; UsageError where program or base deck are not those of the plan.
+    """What solves the points; raises UsageError where program or base deck are not those of the plan.
 
     The deck is read for that, so what reading takes is not charged to the first point.
     """

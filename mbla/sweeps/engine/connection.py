@@ -100,13 +100,13 @@ class Connection:
             raise UsageError("scheduler-lost", self._no_worker())
 
     def refuse_lost(self, cause: BaseException | None = None) -> None:
-        """FileError where the scheduler is gone."""
+        """Raises FileError where the scheduler is gone."""
         if self.client.status != "running":
             raise self._lost() from cause
 
     @contextmanager
     def lost_where_it_fails(self) -> Iterator[None]:
-        """What cannot be handed over is the scheduler's end: FileError."""
+        """What cannot be handed over is the scheduler's end: raises FileError."""
         try:
             yield
         except (OSError, RuntimeError, *self.dask.cancelled) as error:
@@ -232,13 +232,13 @@ MISSING = "several processes and clusters need an extra that is not installed: p
 
 
 def refuse_missing() -> None:
-    """UsageError where the extra is not installed; imports nothing, for that takes a second."""
+    """Raises UsageError where the extra is not installed; imports nothing, for that takes a second."""
     if importlib.util.find_spec("distributed") is None:
         raise UsageError("extra-missing", MISSING)
 
 
 def dask_parts() -> Any:
-    """What is used of Dask, by name; UsageError where the extra is not installed."""
+    """What is used of Dask, by name; raises UsageError where the extra is not installed."""
     try:
         from asyncio import CancelledError as Cancelled
         from concurrent.futures import CancelledError
@@ -278,7 +278,7 @@ def silenced() -> Iterator[None]:
 
 
 def within(seconds: float, ask: Callable[[], Answer]) -> Answer:
-    """The answer; TimeoutError where it does not come in time, whatever the library waits for."""
+    """The answer; raises TimeoutError where it does not come in time, whatever the library waits for."""
     answers: queue.Queue[tuple[Answer | None, BaseException | None]] = queue.Queue()
 
     def answer() -> None:

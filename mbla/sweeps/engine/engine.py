@@ -54,7 +54,7 @@ class EngineOptions:
 
 
 def check_options(options: EngineOptions) -> None:
-    """UsageError for what does not go together or is not there; all of it in one line each."""
+    """Raises UsageError for what does not go together or is not there; all of it in one line each."""
     wrong = []
     if options.workers < 1:
         wrong.append(f"-j {options.workers}: at least 1")

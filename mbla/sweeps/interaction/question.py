@@ -112,7 +112,10 @@ NO_SUM = {
 
 
 def section_of(deck: Deck, case: str, what: str) -> LoadCaseSection:
-    """A load case whose live loads are a sum of loads; UsageError for any other, where ``what`` cannot be asked."""
+    """A load case whose live loads are a sum of loads.
+
+    Raises UsageError for any other, where ``what`` cannot be asked.
+    """
     cases = deck.content.load_cases
     if case not in cases:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")

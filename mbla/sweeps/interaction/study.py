@@ -133,7 +133,10 @@ def interact(
 
 
 def factor_ratio(deck: Deck, overrides: Sequence[str], options: Any, workers: Engine) -> float:
-    """Load factor of the second load alone over that of the first; 1 where either has none."""
+    """Load factor of the second load alone over that of the first; 1 where either has none.
+
+    Raises KeyboardInterrupt or Terminated where such a signal stopped it.
+    """
     alone = copy(options)
     alone.start, alone.end, alone.directions = 0.0, QUARTER, 2
     study = study_points(deck, overrides, question_of(deck, alone), workers, None)
@@ -147,6 +150,13 @@ def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
     """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
 
     ratio : of two loads, as ``factor_ratio`` gives it
+
+    Raises
+    ------
+    DeckError
+        for what is wrong with the deck
+    UsageError
+        for options that do not go together, and for load cases of which it cannot be asked
     """
     model = build_model(deck)
     contacts_of(deck, model)

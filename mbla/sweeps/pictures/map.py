@@ -152,7 +152,7 @@ def _hatch(sheet: Diagrams, axes: Any, x: FloatArray, y: FloatArray, cells: Cell
 
 
 def hatch_handles(page: Page, answers: IntArray) -> list[Any]:
-    """Entries of a legend for the answers among these that are no values, as cells have them."""
+    """Entries of a legend for the answers among these, of any shape, that are no values, as cells have them."""
     handles = [
         page.box(mark.words, facecolor="white", edgecolor=mark.colour, hatch=2 * mark.hatch)
         for answer, mark in MARKS.items()

@@ -122,7 +122,7 @@ def _draw_curve(sheet: Diagrams, axes: Any, turn: Axis, cells: Cells, style: dic
 
 
 def closes(azimuths: FloatArray) -> bool:
-    """Whether directions in degrees, ascending, go around the full circle without a gap."""
+    """Whether directions, (n,) in degrees, ascending, go around the full circle without a gap."""
     if len(azimuths) < 3:
         return False
     steps = np.diff(azimuths)

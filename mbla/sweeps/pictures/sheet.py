@@ -114,7 +114,7 @@ def _crowded(axis: Axis, most: int) -> bool:
 
 
 def mark_handles(page: Page, answers: IntArray) -> list[Any]:
-    """Entries of a legend for the answers among these that are no values."""
+    """Entries of a legend for the answers among these, of any shape, that are no values."""
     return [
         page.line(mark.words, **hollow(page, mark.marker, mark.colour))
         for answer, mark in MARKS.items()
@@ -127,6 +127,8 @@ def place_marks(sheet: Diagrams, axes: Any, x: Any, answer: IntArray, values: An
 
     Of a load factor what does not stand lies at zero, of other results at the lower edge; what nothing brings down at
     the upper edge; what failed or has no such value at the lower edge; a value that is not verified at its place.
+
+    x, answer, values : (n,) place along the axis, ``Answer``, result
     """
     for kind, mark in MARKS.items():
         own = answer == kind

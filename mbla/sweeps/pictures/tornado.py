@@ -80,7 +80,7 @@ def correlation(view: View, column: SweepColumn) -> Correlation:
 
 
 def rank_correlation(x: FloatArray, y: FloatArray) -> float:
-    """Spearman's coefficient, equal values at their mean rank; nan where either does not vary."""
+    """Spearman's coefficient of (n,) and (n,), equal values at their mean rank; nan where either does not vary."""
     if len(x) < 2 or np.ptp(x) == 0 or np.ptp(y) == 0:
         return float("nan")
     return float(np.corrcoef(rankdata(x), rankdata(y))[0, 1])

@@ -185,7 +185,7 @@ def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple
 
 
 def column_by_name(table: SweepTable, name: str) -> SweepColumn:
-    """A parameter by its name; UsageError for none."""
+    """A parameter by its name; raises UsageError for none."""
     names = {column.name: column for column in design_columns(table)}
     if name not in names:
         raise UsageError("unknown-column", f"--by {name}: {unknown('parameter', name, names, 'the sweep has')}")

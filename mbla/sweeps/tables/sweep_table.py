@@ -76,7 +76,7 @@ def sweep_table(
 
     columns    : of results, as ``result_columns`` makes them
     keys       : key of each point of the design, in their order; points with one key have one outcome
-    unfinished : points without an outcome have a row without values; KeyError for them otherwise
+    unfinished : points without an outcome have a row without values; raises KeyError for them otherwise
     """
     if len(keys) != len(design.points):
         raise AssertionError(f"{len(keys)} keys of {len(design.points)} points")

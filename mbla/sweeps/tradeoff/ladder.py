@@ -152,7 +152,7 @@ def other_model(deck: DeckContent, changed: DeckContent) -> str:
 
 
 def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
-    """Settings of the two options, none if neither is given; UsageError for a text that is none."""
+    """Settings of the two options, none if neither is given; raises UsageError for a text that is none."""
     choices = [_values(text) for text in knobs]
     count = len(settings) + (prod(len(choice) for choice in choices) if knobs else 0)
     if count > MOST:

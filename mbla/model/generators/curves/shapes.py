@@ -121,7 +121,7 @@ class Symmetric:
     crest: None = None
 
     def divide(self, count: int, offset: float) -> FloatArray:
-        """As ``Curve.divide``; both halves are mirror images to the last digit, and the ends are exact."""
+        """Parameters (n,) as ``Curve.divide``; both halves are mirror images to the last digit, the ends are exact."""
 
         def length(parameters: FloatArray) -> FloatArray:
             return np.asarray(self.length(parameters) + offset * self.turned(parameters), dtype=np.float64)
@@ -133,19 +133,19 @@ class Symmetric:
         return np.concatenate([-half, [0.0] if count % 2 == 0 else [], half[::-1]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """As ``Curve.points``; the springings of the curve itself are exact."""
+        """Points (n, k, 2) as ``Curve.points``; the springings of the curve itself are exact."""
         curve = np.stack([self.x(parameters), self.z(parameters)], axis=1)
         curve[parameters == -self.end] = [0.0, 0.0]
         curve[parameters == self.end] = [self.span, 0.0]
         return beside(curve, self.forwards(parameters), offsets)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.forwards``."""
+        """Unit directions (n, 2) as ``Curve.forwards``."""
         turned = self.turned(parameters)
         return np.stack([_cosine(turned), -np.sin(turned)], axis=1)
 
     def lengths(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.lengths``."""
+        """Lengths (n,) [length] as ``Curve.lengths``."""
         return np.asarray(self.length(parameters) + self.length(np.array([self.end])), dtype=np.float64)
 
 
@@ -254,13 +254,13 @@ class Pointed:
         return self.span / 4 + self.rise / self.span * self.rise
 
     def divide(self, count: int, offset: float) -> FloatArray:
-        """As ``Curve.divide``; the apex is a joint where the number of voussoirs is even."""
+        """Parameters (n,) as ``Curve.divide``; the apex is a joint where the number of voussoirs is even."""
         whole = float(np.arccos((self.radius - self.span / 2) / (self.radius + offset)))
         left = 2 * whole * np.arange((count + 1) // 2) / count
         return np.concatenate([left, [APEX] if count % 2 == 0 else [], np.pi - left[::-1]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """As ``Curve.points``."""
+        """Points (n, k, 2) as ``Curve.points``."""
         reach = self.radius + offsets
         left = parameters < APEX
         turned = np.where(left, parameters, np.pi - parameters)[:, None]
@@ -273,14 +273,14 @@ class Pointed:
         return np.stack([x, z], axis=-1)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.forwards``; exact at the springings and at the apex."""
+        """Unit directions (n, 2) as ``Curve.forwards``; exact at the springings and at the apex."""
         left = parameters < APEX
         turned = np.where(left, parameters, np.pi - parameters)
         up = np.where(parameters == APEX, 0.0, np.cos(turned))
         return np.stack([np.sin(turned), np.where(left, up, -up)], axis=1)
 
     def lengths(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.lengths``."""
+        """Lengths (n,) [length] as ``Curve.lengths``."""
         half = float(np.arctan2(self.rise, self.radius - self.span / 2))
         turned = np.minimum(np.where(parameters < APEX, parameters, np.pi - parameters), half)
         return np.asarray(self.radius * np.where(parameters < APEX, turned, 2 * half - turned), dtype=np.float64)

@@ -31,7 +31,7 @@ class Spline:
     crest: None = None
 
     def divide(self, count: int, offset: float) -> FloatArray:
-        """As ``Curve.divide``."""
+        """Parameters (n,) as ``Curve.divide``."""
 
         def length(parameters: FloatArray) -> FloatArray:
             return np.asarray(self.lengths(parameters) + offset * self._turned(parameters), dtype=np.float64)
@@ -42,16 +42,16 @@ class Spline:
         return np.concatenate([[low], inner, [high]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """As ``Curve.points``."""
+        """Points (n, k, 2) as ``Curve.points``."""
         return beside(self._spline(parameters), self.forwards(parameters), offsets)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.forwards``."""
+        """Unit directions (n, 2) as ``Curve.forwards``."""
         tangents = self._spline(parameters, 1)
         return np.asarray(tangents / np.hypot(tangents[:, :1], tangents[:, 1:]), dtype=np.float64)
 
     def lengths(self, parameters: FloatArray) -> FloatArray:
-        """As ``Curve.lengths``."""
+        """Lengths (n,) [length] as ``Curve.lengths``."""
         panel = self._panel(parameters)
         start = self._nodes[panel]
         return np.asarray(self._length_at_nodes[panel] + self._stretch(start, parameters), dtype=np.float64)

@@ -154,7 +154,7 @@ def stream(irregular: Irregular, number: int) -> np.random.Generator:
 
 
 def random_levels(item: Masonry, fixed: Sequence[int]) -> FloatArray:
-    """Heights of bed joints, (courses + 1,) [length]; those numbered ``fixed`` stay where equal courses have them."""
+    """Heights of bed joints, (n_courses + 1,) [length]; those numbered ``fixed`` stay where equal courses have them."""
     levels = item.unit[2] * np.arange(item.courses + 1, dtype=np.float64)
     if item.irregular is None or item.irregular.heights == 0:
         return levels

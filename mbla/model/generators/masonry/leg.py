@@ -49,7 +49,10 @@ class Void:
         return self.bottom <= course < self.top
 
     def at(self, course: int, levels: FloatArray) -> Stretch:
-        """Its extent in a course, ends at the bed and at the top."""
+        """Its extent in a course, ends at the bed and at the top.
+
+        levels : (n_courses + 1,) heights of the bed joints [length]
+        """
         low, high = (self.lean * float(levels[n] - levels[self.bottom]) for n in (course, course + 1))
         return Stretch(self.left - low, self.left - high, self.right + low, self.right + high)
 

@@ -61,14 +61,14 @@ class Sheet:
             self.drawn.append(np.vstack(list(paths)))
 
     def dots(self, points: FloatArray, size: float | FloatArray, **style: Any) -> None:
-        """Markers of a diameter in points, one or one for each."""
+        """Markers at places, (n, 2) m, of a diameter in points, one or one for each, (n,)."""
         if len(points):
             edge = self.width(style.pop("linewidths", 1.2))
             self.axes.scatter(*points.T, s=(np.asarray(size) * self.page.scale) ** 2, linewidths=edge, **style)
             self.drawn.append(points)
 
     def write(self, place: FloatArray, text: str) -> None:
-        """A few letters in a white disc."""
+        """A few letters in a white disc at a place, (2,) m."""
         style = {"ha": "center", "va": "center", "color": INK, "fontsize": 0.75 * self.page.letter, "zorder": 5.5}
         box = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": INK, "linewidth": self.width(0.6)}
         self.axes.text(*place, text, bbox=box, parse_math=False, **style)
@@ -172,7 +172,11 @@ def _ground_line(scene: Scene, flat: Flat, ground: int) -> FloatArray | None:
 
 
 def draw_blocks(sheet: Sheet, flat: Flat, scene: Scene, colours: list[str], vertices: FloatArray) -> None:
-    """Blocks filled with their colours, fixed ones hatched, guided ones dotted."""
+    """Blocks filled with their colours, fixed ones hatched, guided ones dotted.
+
+    colours  : of each block
+    vertices : (n_vertices, 3) m, as drawn
+    """
     blocks, model = scene.model.blocks, scene.model
     polygons, owner = face_polygons(blocks, flat, vertices), blocks.block_of_face[flat.faces]
     sheet.areas(polygons, facecolors=[colours[b] for b in owner], edgecolors="none", zorder=1)

@@ -140,7 +140,7 @@ def thrust_tubes(scene: Scene) -> Faces | None:
 
 
 def drawn_resultants(thrust: Thrust) -> IntArray:
-    """Interfaces whose resultants are drawn, in their order: the largest ones above the least share."""
+    """Interfaces whose resultants are drawn, (n,), in their order: the largest ones above the least share."""
     sizes = np.where(thrust.carried, np.linalg.norm(thrust.forces, axis=1), 0.0)
     order = np.argsort(-sizes, kind="stable")[:MOST_RODS]
     return np.sort(order[sizes[order] > LEAST * sizes.max()])

@@ -137,13 +137,13 @@ def hinge_rods(scene: Scene, joints: InterfaceMotion, rows: IntArray, radii: Flo
 
 
 def hinge_threads(scene: Scene, joints: InterfaceMotion, rows: IntArray) -> Lines:
-    """Thin lines along the axes of hinges."""
+    """Thin lines along the axes of hinges, (n,) interfaces."""
     first, last = hinge_ends(scene, joints, rows)
     return Lines(np.vstack([first, last]), np.arange(2 * len(rows)).reshape(2, -1).T, HINGE, 1.1)
 
 
 def weights(sizes: FloatArray) -> FloatArray:
-    """Thickness of marks, 1 for what moves most; they stay visible where it moves little."""
+    """Thickness of marks, (n,), 1 for what moves most; they stay visible where it moves little."""
     return np.asarray(np.clip(np.sqrt(sizes / (sizes.max(initial=0.0) or 1.0)), THINNEST, 1.0))
 
 
@@ -153,6 +153,9 @@ def slide_arrows(scene: Scene, clusters: IntArray, joints: InterfaceMotion, told
     It is that of the part which moves, of two that do the lighter one, as in the listing.
 
     A plane of many interfaces has ``MOST_ARROWS`` of them, spread over it.
+
+    clusters : (n_blocks,) part of each block, 0 at rest
+    radius   : of the rods of the hinges that move most, m
     """
     contacts = scene.contacts
     a, b = np.append(clusters, np.zeros(len(scene.model.grounds), dtype=np.int64))[contacts.bodies].T

@@ -154,7 +154,10 @@ def draw_in_space(path: Path, scene: Scene, kind: str, options: PictureOptions) 
 def images_of(
     renderer: Renderer, panels: Sequence[Panel], drawing: Drawing, pixels: tuple[int, int]
 ) -> list[FloatArray]:
-    """What each panel of a page of these pixels shows; loads in that of the whole structure only."""
+    """What each panel of a page of these pixels shows; loads in that of the whole structure only.
+
+    Each (n_rows, n_columns, 3), red, green and blue from 0 to 1.
+    """
     width, height = pixels
     return [
         renderer.image(each.camera, round(each.share * width), height, drawing.shine, loads=each.gain == 1.0)

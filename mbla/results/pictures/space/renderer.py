@@ -52,7 +52,7 @@ def can_draw() -> bool:
 
 
 def pyvista() -> Any:
-    """The library, or UsageError that says what to install."""
+    """The library; raises UsageError that says what to install."""
     try:
         import pyvista as vista
         from vtkmodules.vtkCommonCore import vtkLogger

@@ -68,7 +68,7 @@ def rgb(colour: str) -> FloatArray:
 
 
 def painted(points: FloatArray, start: IntArray, loops: IntArray, colour: str, lit: bool = True) -> Faces:
-    """Faces of one colour."""
+    """Faces of one colour; points (n, 3) m, start (n_faces + 1,) and loops (n_corners,) as ``Faces`` has them."""
     return Faces(points, start, loops, np.tile(rgb(colour), (len(start) - 1, 1)), lit=lit)
 
 
@@ -234,7 +234,10 @@ def block_faces(scene: Scene, points: FloatArray, colours: FloatArray, lit: bool
 
 
 def ghost_lines(scene: Scene, moving: BoolArray) -> Lines:
-    """Edges of the blocks that move where they were; of many only those that bound them together."""
+    """Edges of the blocks that move where they were; of many only those that bound them together.
+
+    moving : (n_blocks,) True for them
+    """
     blocks = scene.model.blocks
     edges = edges_of_blocks(blocks, block_edges(blocks), moving)
     if int(moving.sum()) > MANY:
