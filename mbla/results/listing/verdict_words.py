@@ -38,7 +38,7 @@ DECIDED = ("associative", "non_associative")
 
 SCHEMES = {
     "published": "The published procedure starts from the associative forces and ends high in the range of load "
-    "factors, on the unsafe side: with slope 0 by 5 % and 2 % above the published figures of two of the three walls "
+    "factors, on the unsafe side: with slope 0 by 3 % and 2 % above the published figures of two of the three walls "
     "of Ferris and Tin-Loi (2001); a slope above 0 is a dilatancy, which locks confined joints and raises the factor "
     "towards the associative one.",
     "lowest": "The lowest load factor that the search found is an upper bound of the least one, no proof of it.",

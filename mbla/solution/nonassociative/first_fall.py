@@ -11,7 +11,7 @@ Forces and mechanism may fit the joint law at a load factor that the structure n
 
 The forces of the last state that stands balance the loads within the yield conditions, which shows that the peak is
 carried. It belongs to joints of equal stiffness. A plank clamped in a wall and pulled out (associative 3.3086) has its
-peak at 2.1734 and is at rest at 1.0720.
+peak at 2.17 and is at rest at 1.0720.
 """
 
 from __future__ import annotations

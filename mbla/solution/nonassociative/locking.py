@@ -5,7 +5,7 @@ taken (‖T‖ ≤ μN, without cohesion and tension, none where the joint can c
 times to forces that carry the dead load they stay within the yield conditions, because those are convex.
 
 They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
-cones, and then brought to exact equilibrium (``force_repair``). They are evaluated by other code:
+cones, and then brought to exact equilibrium (``repaired_forces``). They are evaluated by other code:
 :mod:`mbla.solution.verification.further_claims`.
 
 *Without dilatancy* the load factor may be bounded where friction with normality locks the structure. With normality

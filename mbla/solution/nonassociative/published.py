@@ -13,7 +13,7 @@ associative forces. Parameters: α ``slope`` (share of the friction slope that i
 Published runs take α slightly above zero and stop when the load factor settles. Measured on the walls of Ferris and
 Tin-Loi: with α = 0.01 the load factor settles near 0.643, 0.402, 0.232 while single forces go on jumping and exceed
 their true friction by up to half a block's weight; any α > 0 is a dilatancy, which locks confined joints. With α = 0
-and β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3731, 0.2197). So α = 0 is the default here, and
+and β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3682, 0.2193). So α = 0 is the default here, and
 the sequence stops only when the load factor has settled and forces and velocities fit the scheme's own law. Forces that
 jump along self-stresses are averaged over the last programs: the mean balances the mean load factor and lies closer to
 the true cones. The solution found is one of many.

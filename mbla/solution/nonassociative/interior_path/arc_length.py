@@ -7,7 +7,7 @@ matrix being singular there; arc length goes round it (Allgower and Georg 2003, 
     corrector   Newton's method in the plane across the tangent; each factorisation gives the Newton step and the new
                 tangent, and a last Newton step is made with the factors at hand once the point is close
 
-Steps are measured in relative changes (``relative_changes``). The sense of the path is known
+Steps are measured in relative changes (``Metric``). The sense of the path is known
 from its start: dσ along it changes sign with the determinant, so that a tangent that turns too far, or against that
 sign, tells of a jump to another stretch of the path; such a step is rejected and made shorter.
 """
