@@ -17,7 +17,8 @@ def random_matrix(shape: tuple[int, int], density: float, rng: np.random.Generat
 
 def triangle_of(matrix: sp.sparray) -> tuple[SymmetricPattern, FloatArray]:
     """Pattern and values of the lower triangle of a symmetric matrix, its whole diagonal included."""
-    n = int(matrix.shape[0])
     held = sp.csc_array(matrix)
+    n = held.shape[0]
     both = sp.coo_array(held + sp.eye_array(n))  # the sum stores every place of both
-    return lower_triangle(sp.csc_array((held.toarray()[both.coords], both.coords), shape=(n, n)))
+    row, column = both.coords
+    return lower_triangle(sp.csc_array((held.toarray()[row, column], (row, column)), shape=(n, n)))
