@@ -69,19 +69,25 @@ def judged_by_path(
     state, started = sequence.state, time.perf_counter()
     if state is None or not path.last.stands:
         return PathVerdict(sequence, remark=None if state is None else NOT_STANDING)
-    margin = PEAK * max(abs(state.load_factor), PEAK * path.unit)
+    margin = _margin(path, state)
     if most - state.load_factor <= margin:
         return PathVerdict(sequence)
     if state.load_factor > margin:
         path.follow(state.load_factor - margin)
     if path.fall is not None and path.fall.load_factor <= state.load_factor - margin:
         sequence = _from_the_end(path, sequence, margin, log)
+        margin = margin if sequence.state is None else _margin(path, sequence.state)
     elif path.goes_on and (peak or state.load_factor <= 0.0):
         path.follow(state.load_factor + margin, within=2.0 * margin)
         path.follow_on(max(GROWTH * state.load_factor, SMALL * path.unit), most)
     verdict = _verdict(path, sequence, most, margin)
     sequence = replace(verdict.sequence, path=path.points())
     return replace(verdict, sequence=sequence, programs=(_record(path, first_program, time.perf_counter() - started),))
+
+
+def _margin(path: StandingPath, state: LawState) -> float:
+    """By how much the end of the path must differ from the load factor of a state."""
+    return PEAK * max(abs(state.load_factor), PEAK * path.unit)
 
 
 def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, log: Log) -> SequenceResult:
@@ -157,7 +163,7 @@ NOT_SEEN = Message(
 LOWER = Message(
     "found-above-path",
     "the steps came to {}, above the load that the structure reaches: from the dead load on it no longer stands at {}, "
-    "next to which the state given was found",
+    "from where the steps led to the state given",
 )
 NO_STATE = (
     "forces and mechanism fit the joint law at {}, but from the dead load on the structure no longer stands at {}; "
