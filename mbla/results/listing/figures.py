@@ -296,7 +296,7 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
     if peak.load_factor - last.load_factor > BELOW_PEAK * abs(peak.load_factor):
         says += f": its peak, {highest} at step {peak.step}, is a limit point; it ended below, at {ended}."
     else:
-        says += f": it rose to {ended}, without a peak before its end."
+        says += f": it rose to {ended}, the last at which the structure was seen to stand."
     shown = _steps_that_matter(path)
     rows = [
         [str(point.step), number(point.load_factor), str(point.open), str(point.slide), small(point.residual)]
