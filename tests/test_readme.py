@@ -7,10 +7,7 @@ import io
 import os
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -146,43 +143,6 @@ def test_commands_in_blocks_are_understood() -> None:
     for line in (*lines, *recipes):
         build_parser().parse_args(shlex.split(line)[1:])
     assert all((ROOT / deck).is_file() for line in recipes for deck in re.findall(r"decks/\S+", line))
-
-
-def test_the_script_for_slurm_hands_a_sweep_to_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With a cluster that only says where it is; its own arguments were held against dask-jobqueue 0.9.0."""
-    asked: list[Any] = []
-
-    class Cluster(contextlib.nullcontext[Any]):
-        scheduler_address = "tcp://127.0.0.1:8786"
-
-        def __init__(self, **options: Any) -> None:
-            asked.append(options)
-
-        def __enter__(self) -> Any:
-            return self
-
-        def scale(self, jobs: int) -> None:
-            asked.append(jobs)
-
-        def wait_for_workers(self, count: int) -> None:
-            asked.append(count)
-
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Cluster))
-    commands: list[list[str]] = []
-
-    def call(command: list[str]) -> int:
-        commands.append(command)
-        return 8
-
-    monkeypatch.setattr(subprocess, "call", call)
-    monkeypatch.setattr(sys, "argv", ["on_slurm.py", "door.yaml", "--resume"])
-    with pytest.raises(SystemExit) as ended:
-        exec(block("<!-- jobqueue:begin -->", SWEEPS), {"__name__": "__main__"})
-    assert ended.value.code == 8
-    options = build_parser().parse_args(commands[0][1:])
-    assert (options.command, options.sweep, options.resume) == ("sweep", Path("door.yaml"), True)
-    assert options.scheduler == Cluster.scheduler_address
-    assert asked[0]["cores"] == asked[0]["processes"]  # one thread each
 
 
 def test_commands_of_the_readme_are_those_of_the_program() -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.resultants import convex_proximal
-from mbla.solution.resultants.convex_proximal import _finished, _Run, solve_convex_proximal
+from mbla.solution.resultants.convex_proximal import solve_convex_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing import standing
@@ -59,32 +57,3 @@ def test_steps_that_may_not_go_on_say_how_far_they_came(wall: ConvexProgram) -> 
     assert result.state is not None
     assert result.spread is not None
     assert result.spread[0] <= result.state.load_factor <= result.spread[1]
-
-
-@pytest.mark.parametrize(
-    ("residual", "wanted", "status", "asked"),
-    [
-        (1e-7, 1e-3, Status.SOLVED, None),
-        (5e-5, 1e-3, Status.SOLVED, None),
-        (5e-5, 1e-8, Status.SOLVED, None),
-        (5e-4, 1e-3, Status.APPROXIMATE, 1e-3),
-        (5e-3, 1e-3, Status.APPROXIMATE, None),
-        (5e-2, 1e-3, Status.NOT_VERIFIED, None),
-    ],
-)
-def test_a_state_is_judged_by_its_residual_and_what_was_asked_for(
-    residual: float, wanted: float, status: Status, asked: float | None, wall: ConvexProgram
-) -> None:
-    """The last two states have the same load factor; words come with all that miss the law by more than 1e-6."""
-    state = sequence(wall, 1).state
-    assert state is not None
-    made: list[LawState] = [replace(state, residual=0.9), *[replace(state, residual=residual)] * 2]
-    settings = replace(SETTINGS, residual=wanted)
-    result = _finished(_Run(wall, settings, lambda record: None, [], made, [0.9, residual, residual]))
-    assert result.status is status
-    assert result.tolerance_requested == asked
-    assert result.state is not None
-    assert result.state.residual == residual
-    words = " ".join((result.reason, *result.remarks))
-    assert (f"{residual:.2g}" in words) is (residual > 1e-6)
-    assert (f"within the requested {wanted:g}" in words) is (1e-6 < residual <= wanted)

@@ -11,7 +11,6 @@ import scipy.sparse as sp
 
 from mbla.program.resultants import assemble_convex, convex_form
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
-from mbla.solution.resultants import least_step
 from mbla.solution.resultants.convex_units import in_units, loses_light_blocks, units_of_unknowns
 from mbla.solution.resultants.least_step import Equilibrium, augmented_step, normal_step
 from tests.extremes.weights import TOWER, tower_factor
@@ -32,12 +31,6 @@ def test_the_root_of_the_inverse_hessian_has_it_for_its_square(distance: float) 
     root = CONES.root_of_inverse_hessian(z)
     assert abs(root - root.T).max() < 1e-14
     assert abs(root @ root - CONES.inverse_hessian(z)).max() < 1e-13
-
-
-def test_a_cone_without_shear_has_a_root_too() -> None:
-    z = np.array([2.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 4.0, 0.0, 0.0])
-    root = CONES.root_of_inverse_hessian(z)
-    assert abs(root @ root - CONES.inverse_hessian(z)).max() < 1e-14
 
 
 def test_both_ways_find_the_same_step_well_inside_the_cones() -> None:
@@ -70,18 +63,6 @@ def test_structures_whose_forces_lie_on_their_cones_are_proved(deck: str) -> Non
     assert solution.mechanics is not None
     assert checks.static_bound == pytest.approx(checks.kinematic_bound, rel=1e-7)
     assert checks.kinematic_bound == pytest.approx(solution.mechanics.load_factor, rel=1e-6)
-
-
-@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
-def test_without_an_answer_there_is_no_step(answer: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
-    random = np.random.default_rng(5)
-    equilibrium = Equilibrium(sp.csr_array(random.normal(size=(12, 4))), random.normal(size=4), random.normal(size=4))
-    z = np.append(-0.7, inside(7, 0.5))
-    solve = None if answer is None else lambda rhs: np.full(len(rhs) + 1, answer)
-    monkeypatch.setattr(least_step, "bordered_solver", lambda *arguments: solve)
-    monkeypatch.setattr(least_step, "factorize", lambda *arguments: solve)
-    assert normal_step(equilibrium, CONES, z) is None
-    assert augmented_step(equilibrium, CONES, z) is None
 
 
 def tower(*loads: float) -> Line:

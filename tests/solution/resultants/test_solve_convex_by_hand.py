@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
 from mbla.solution.nonassociative.law_state import SequenceResult
-from mbla.solution.resultants import convex_associative, convex_law, convex_repair
+from mbla.solution.resultants import convex_associative
 from mbla.solution.resultants import solve_convex as convex
 from mbla.solution.resultants.convex_associative import solve_convex_associative
-from mbla.solution.resultants.convex_law import exact_convex_step
-from mbla.solution.resultants.convex_repair import repaired_convex_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.solve import ONLY_BY_SELF_STRESS
@@ -45,63 +42,6 @@ def test_a_program_without_an_answer_leaves_no_load_factor(sense: float, monkeyp
     assert result.status is Status.TIME_LIMIT
     assert result.state is None
     assert ("whether the dead load alone is carried is not known" in result.reason) is (sense < 0)
-
-
-def test_light_blocks_that_stay_lost_are_given_their_own_units_no_more_often_than_that(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    program = sliding()
-    once = solve_convex_associative(program, SETTINGS, lambda record: None)
-    monkeypatch.setattr(convex_associative, "loses_light_blocks", lambda *arguments: True)
-    result = solve_convex_associative(program, SETTINGS, lambda record: None)
-    assert len(result.programs) == (1 + convex_associative.OWN_UNITS) * len(once.programs)
-    assert result.state is not None
-    assert program.points.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-6)
-
-
-def test_forces_that_no_repair_brings_near_to_balance_are_given_where_that_is_enough(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    program = sliding()
-    state = solve_convex_associative(program, SETTINGS, lambda record: None).state
-    assert state is not None
-    monkeypatch.setattr(convex_repair, "GOOD_EQUILIBRIUM", -1.0)
-    found = repaired_convex_forces(program, state.forces, state.load_factor)
-    assert found is not None
-    assert found[1] == pytest.approx(state.load_factor, rel=1e-6)
-    result = solve_convex_associative(program, SETTINGS, lambda record: None)
-    assert result.state is not None
-    assert program.points.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-6)
-
-
-@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
-def test_a_step_of_the_law_without_a_direction_stays_where_it_is(
-    answer: float | None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    program = sliding()
-    law = convex_law.convex_law(program)
-    anchor = np.ones((program.points.n_points, 3))
-    start = np.zeros(len(law.program.live_load))
-    solve = None if answer is None else lambda rhs: np.full_like(rhs, answer)
-    monkeypatch.setattr(convex_law, "factorize", lambda system: solve)
-    step = exact_convex_step(law, anchor, 1e-2, start, 0.1)
-    assert not step.velocities.any()
-    assert step.load_factor == 0.1
-    assert step.factorizations > 1
-    assert step.residual > 1e-3
-
-
-def test_a_step_of_the_law_ends_with_its_factorisations(monkeypatch: pytest.MonkeyPatch) -> None:
-    program = sliding()
-    law = convex_law.convex_law(program)
-    anchor = np.ones((program.points.n_points, 3))
-    start = np.zeros(len(law.program.live_load))
-    far = exact_convex_step(law, anchor, 1e-2, start, 0.1)
-    assert far.factorizations > 1
-    monkeypatch.setattr(convex_law, "MOST_STEPS", 1)
-    step = exact_convex_step(law, anchor, 1e-2, start, 0.1)
-    assert step.factorizations == 1
-    assert step.residual > far.residual
 
 
 def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import flow_power, penetration_of, residuals_of, share_of
-from tests.line import Line
+from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import EXACT, cube, limits_of, loaded, on_ground, state
 
 # One point, friction 1/2, cohesion 3, tension 2; N = 8 and T of size 5 against the slip of 5 make 7 · 5 − 25 = 10.
@@ -248,3 +248,21 @@ def test_fixed_blocks_need_no_balance(dry: Line) -> None:
     left = [case.unbalanced_loads(forces, 1.0) for case in cases]
     assert left[0].tolist() == [0.0]
     assert left[1][0] > 0.0
+
+
+@pytest.mark.parametrize("share", [1.0, 1e-4, 1e-8])
+def test_an_unbalanced_light_block_is_judged_by_its_own_weight(share: float) -> None:
+    """Beside a heavy block that its forces carry: whatever its weight, the whole of it is unbalanced."""
+    light = "  - box: {group: light, material: feather, min: [5, 0, 0], max: [6, 1, 1]}\n"
+    text = BLOCK.replace("blocks:\n", f"blocks:\n{light}").replace(
+        "stone: {density: 2000}", f"stone: {{density: 2000}}, feather: {{density: {2000 * share!r}}}"
+    )
+    line = line_of(text)
+    weights, contacts = -line.load_case.dead_load[:, 2], line.contacts
+    motion = np.zeros((2, 6))
+    motion[:, 0] = 1.0 / line.load_case.live_load[:, 0].sum()
+    heavy = (contacts.bodies[contacts.interface_of_point] == np.argmax(weights)).any(axis=1)
+    carried = np.zeros((len(contacts.points), 3))
+    carried[heavy, 0] = weights.max() / heavy.sum()
+    found = residuals_of(Case(line.model, contacts, line.load_case), state(carried, motion, 0.0), np.zeros(len(heavy)))
+    assert found.equilibrium == pytest.approx(1.0)

@@ -468,37 +468,6 @@ def test_forces_locked_in_raise_no_bound(off: float, proves: bool) -> None:
     assert (static == pytest.approx(0.0)) if proves else np.isnan(static)
 
 
-@pytest.fixture
-def bounds(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[float, float]]:
-    of: dict[str, tuple[float, float]] = {}
-    monkeypatch.setattr("mbla.solution.verification.verify_points.associative_bounds", lambda *_: of["bounds"])
-    return of
-
-
-@pytest.mark.parametrize(
-    ("static", "kinematic", "told", "gap"),
-    [
-        (2.0, 2.0, 2.0, 0.0),
-        (2.0 + 1.9e-9, 2.0, 2.0, 0.0),  # they have met
-        (2.0 + 2.1e-9, 2.0, 2.0 + 2.1e-9, 1.05e-9),
-        (1.0, 2.0, 1.0, 0.5),
-        (-1.0, -2.0, -1.0, 0.5),
-        (0.0, 0.001, 0.0, math.hypot(8.0, 2.0 / 0.75) / 32.0),  # over a thousandth of dead over live load
-        (np.nan, 2.0, np.nan, np.nan),
-        (2.0, np.nan, 2.0, np.nan),
-    ],
-)
-def test_bounds_as_they_are_told(
-    static: float, kinematic: float, told: float, gap: float, dry: Line, bounds: dict[str, tuple[float, float]]
-) -> None:
-    bounds["bounds"] = static, kinematic
-    checks = judged(dry, answer(dry))
-    assert checks.static_bound == pytest.approx(told, abs=1e-15, nan_ok=True)
-    assert checks.kinematic_bound == pytest.approx(kinematic, nan_ok=True)
-    assert checks.gap == pytest.approx(gap, rel=1e-5, nan_ok=True)
-    assert checks.verified == (gap <= 1e-5)
-
-
 # Claims without a load factor.
 
 

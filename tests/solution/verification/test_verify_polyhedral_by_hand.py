@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 import pytest
 
-from mbla.solution.solution import Checks, Mechanics
+from mbla.solution.associative.polyhedral import solve_polyhedral
+from mbla.solution.mechanics import mechanics_of
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Checks, Mechanics, Solution, Status
 from mbla.solution.verification.residuals import Residuals
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
 from mbla.solution.verification.verify_polyhedral import verify_polyhedral
-from tests.line import Line
+from tests.line import BLOCK, WALL, Line, line_of, solution_of
 from tests.solution.by_hand import EXACT, claim, cube, loaded, on_ground, state
 
 MODULE = import_module("mbla.solution.verification.verify_polyhedral")
@@ -243,3 +249,57 @@ def test_another_flow_rule_has_their_bracket_alone(line: Line) -> None:
     checks = verify_polyhedral(line.model, line.contacts, line.load_case, solution)
     assert checks.verified, checks.failures
     assert (checks.static_bound, checks.kinematic_bound) == pytest.approx((2.0, 2.0))
+
+
+# Polyhedral answers of an oblique push on a small wall, verified; then one thing broken at a time.
+
+
+OBLIQUE = "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]"
+
+
+@cache
+def answer(sides: int = 8, solver: str = "clarabel", text: str = WALL, *overrides: str) -> tuple[Line, Solution]:
+    line = line_of(text, OBLIQUE, *(overrides or ("parameters.n=3",)))
+    result = solve_polyhedral(line.program, sides, SolverSettings(1e-8, solver=solver), lambda _: None)
+    assert result.inner.state is not None
+    assert result.outer.state is not None
+    inner, outer = (mechanics_of(line.program, found.state) for found in (result.inner, result.outer) if found.state)
+    solution = replace(
+        solution_of(line), status=result.inner.status, mechanics=inner, associative=inner, outer=outer, sides=sides
+    )
+    return line, solution
+
+
+def checked(line: Line, solution: Solution) -> tuple[Checks, Status]:
+    checks = verify(line.model, line.contacts, line.load_case, solution)
+    return checks, verified_status(solution, checks)
+
+
+@pytest.mark.parametrize("sides", [3, 8])
+@pytest.mark.parametrize("solver", ["clarabel", "highs"])
+def test_the_bracket_is_proved_and_holds_the_true_factor(sides: int, solver: str) -> None:
+    line, solution = answer(sides, solver)
+    checks, status = checked(line, solution)
+    assert checks.verified, checks.failures
+    assert status is Status.APPROXIMATE  # both programs are solved, and leave the load factor a bracket
+    true = solution_of(line).mechanics
+    assert true is not None
+    assert checks.static_bound <= true.load_factor * (1 + 1e-7)
+    assert checks.kinematic_bound >= true.load_factor * (1 - 1e-7)
+    assert checks.gap > 1e-2
+    assert max(checks.complementarity_residual, checks.equilibrium_residual, checks.yield_violation) < 1e-6
+
+
+def test_with_cohesion_and_tension() -> None:
+    line, solution = answer(8, "clarabel", BLOCK, "parameters.c=4000", "parameters.ft=2000", "parameters.h=0.5")
+    checks, _ = checked(line, solution)
+    assert checks.verified, checks.failures
+    assert checks.static_bound < checks.kinematic_bound
+
+
+def test_where_the_polyhedra_meet_the_case_is_solved() -> None:
+    """Pushed along its tangents the wall slides where both polygons touch the circle."""
+    line, solution = answer(8, "clarabel", WALL, "load_cases.push.live=[{acceleration: [1, 0, 0]}]")
+    checks, status = checked(line, solution)
+    assert status is Status.SOLVED, checks.failures
+    assert checks.gap < 1e-6

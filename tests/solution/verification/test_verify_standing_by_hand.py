@@ -9,9 +9,18 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.assemble import yield_limits
+from mbla.program.program import Program
+from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.solution.mechanics import forces_of
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Standing
+from mbla.solution.standing.standing import assess_dead_load, settlement_of
 from mbla.solution.verification.further_claims import standing_failures
+from mbla.solution.verification.statics import contact_resultants
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
+from tests.solution.standing_structures import STRUCTURES, Structure, bar
 
 # A block 1 x 1 x 0.5 on the ground, friction 1/2, weight 32 and a force of 8 along x at its base: it sinks by 8 and
 # slips by 4, and each corner bears as much.
@@ -235,3 +244,53 @@ def test_fixed_blocks_stay(way: int, row: Line) -> None:
     forces, settled = of_row(row)
     settled[0, way] = -1e-12
     assert of_standing(row, forces, settled) == ("fixed blocks are displaced",)
+
+
+# Forces and displacements that show that a structure stands: accepted as they are, refused when anything is off.
+
+
+SETTINGS = SolverSettings(tolerance=1e-8)
+STANDING = [structure for structure in STRUCTURES if structure.verdict is Standing.YES]
+
+
+def shown_solved(line: Line, parts: tuple[Program, ...]) -> tuple[FloatArray, FloatArray]:
+    """Forces and displacements of the model under its dead load."""
+    forces, settlement = np.zeros((len(line.contacts.points), 3)), np.zeros((len(line.model.blocks), 6))
+    for program in parts:
+        state = assess_dead_load(program, SETTINGS)
+        assert state.forces is not None
+        assert state.displacements is not None
+        forces += forces_of(program, state.forces)
+        settlement += settlement_of(program, state.displacements)
+    return forces, settlement
+
+
+def failures_solved(line: Line, forces: FloatArray, settlement: FloatArray) -> tuple[str, ...]:
+    """What verification has against them."""
+    limits = yield_limits(line.model, line.contacts)
+    return standing_failures(line.model, line.contacts, line.load_case, forces, settlement, limits)
+
+
+@pytest.mark.parametrize("structure", STANDING, ids=lambda structure: structure.name)
+def test_what_stands_is_shown_to_stand_by_whole_and_reduced_programs(structure: Structure) -> None:
+    line = line_of(structure.text)
+    assert failures_solved(line, *shown_solved(line, (line.program,))) == ()
+    # the most that is ever left out: halves, points inside the hull of others
+    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=True)
+    assert failures_solved(line, *shown_solved(line, reduced.parts)) == ()
+
+
+def test_thrust_that_was_locked_in_does_not_come_from_displacements() -> None:
+    """The bar between two walls: pressed by both, held by friction, in balance, and moved in whatever way."""
+    line = line_of(bar("friction: 0.5"))
+    weight = 1 * 0.4 * 2000 * 9.81
+    normal = np.where(np.abs(line.contacts.frames[:, 0, 0]) > 0.9, weight / 4, 0.0)
+    upwards = line.contacts.frames[:, 1:] @ np.array([0.0, 0.0, 1.0])
+    sign = np.where(line.contacts.bodies[line.contacts.interface_of_point][:, 1] == 0, 1.0, -1.0)
+    forces = np.column_stack([normal, (sign * weight / 8)[:, None] * upwards])
+    assert np.abs(contact_resultants(line.model, line.contacts, forces) + line.load_case.dead_load).max() < 1e-9
+    falling = np.array([[0.0, 0.0, -1.0, 0.0, 0.0, 0.0]])
+    for settlement in (falling, *np.random.default_rng(7).normal(size=(20, 1, 6))):
+        for size in (1e6, 1e20):
+            (failure,) = failures_solved(line, forces, size * settlement)
+            assert "do not come from the displacements" in failure

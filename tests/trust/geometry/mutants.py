@@ -10,17 +10,14 @@ from functools import cache
 import numpy as np
 
 from tests.trust.geometry.formats import FORMATS, Files, Format
-from tests.trust.geometry.shapes import EITHER, MUTATIONS, REFUSED, SAME, Expect
+from tests.trust.geometry.shapes import EITHER, MUTATIONS, SAME, Expect
 from tests.trust.geometry.stones import arch
 from tests.trust.geometry.texts import (
     COORDINATES,
     CORNERS,
-    FORMAT_FAULTS,
     TEXT_FAULTS,
     mark_coordinate,
     mark_corner,
-    replaced,
-    set_stl_count,
     with_number,
 )
 
@@ -54,7 +51,6 @@ def _mutants() -> Iterator[Mutant]:
         yield from _of_shapes(kind)
         yield from _of_texts(kind)
         yield from _of_numbers(kind)
-    yield from _of_formats()
 
 
 def _random(*words: str) -> np.random.Generator:
@@ -94,13 +90,3 @@ def _of_numbers(kind: Format) -> Iterator[Mutant]:
             damaged = with_number(files, marked, fault)
             if damaged is not None:
                 yield Mutant(kind, title, damaged, fault.expect)
-
-
-def _of_formats() -> Iterator[Mutant]:
-    for fault in FORMAT_FAULTS:
-        kind = FORMATS[fault.kind]
-        yield Mutant(kind, fault.name, replaced(kind.write(arch()), fault), fault.expect, fault.told)
-    kind = FORMATS["stl binary"]
-    ((name, content),) = kind.write(arch()).items()
-    for count in (0, 96, 107, 109, 2**32 - 1):
-        yield Mutant(kind, f"triangles {count}, not 108", {name: set_stl_count(content, count)}, REFUSED)

@@ -10,22 +10,12 @@ LOADS = "load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}\n"
 
 ITEMS = {
     "a wall of 10^12 units": "wall: {unit: [0.001, 0.1, 0.001], length: 1000, courses: 1000000}",
-    "a wall of 10^300 units": "wall: {unit: [1.e-150, 0.1, 0.1], length: 1.e+150, courses: 1}",
-    "a wall of 10^12 courses": "wall: {unit: [0.4, 0.2, 0.1], length: 4, courses: 1000000000000}",
-    "a wall of 100 leaves and 10^9 units": "wall: {unit: [0.4, 0.2, 0.1], length: 40000, courses: 1000, leaves: 100}",
     "walls of 10^12 units": (
         "walls: {unit: [0.4, 0.2, 0.1], courses: 1000000, plan: [[0, 0], [400000, 0], [400000, 400000]]}"
-    ),
-    "10^5 walls of 10^6 units": (
-        "wall: {unit: [0.4, 0.2, 0.1], length: 400, courses: 1000, repeat: {count: 100000, translate: [0, 9, 0]}}"
     ),
     "10^10 boxes": (
         "box: {min: [0, 0, 0], max: [1, 1, 1], "
         "repeat: [{count: 100000, translate: [2, 0, 0]}, {count: 100000, translate: [0, 2, 0]}]}"
-    ),
-    "10^15 boxes": (
-        "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: [{count: 100000, translate: [2, 0, 0]}, "
-        "{count: 100000, translate: [0, 2, 0]}, {count: 100000, translate: [0, 0, 2]}]}"
     ),
     "10^500 boxes": (
         "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: ["
@@ -33,51 +23,24 @@ ITEMS = {
         + "]}"
     ),
     "a repeat of 10^12": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 1000000000000, translate: [2, 0, 0]}}",
-    "5,000 boxes in one place": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 5000, translate: [0, 0, 0]}}",
     "100,000 boxes in one place": (
         "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 100000, translate: [0, 0, 1.e-9]}}"
     ),
-    "1,000 boxes in one place": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 1000, translate: [0, 0, 0]}}",
-    "50 boxes in one place": "box: {min: [0, 0, 0], max: [1, 1, 1], repeat: {count: 50, translate: [0, 0, 0]}}",
-    "10^5 columns of 360 sides": (
-        "column: {radius: 0.5, height: 1, drums: 1, sides: 360, repeat: {count: 100000, translate: [2, 0, 0]}}"
-    ),
     "an arch of 10^12 voussoirs": (
         "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 1000000000000}"
-    ),
-    "an arch of 10^18 voussoirs": (
-        "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 1000000, rings: 1000000, "
-        "units_across: 1000000}"
-    ),
-    "10^10 bricks in 10^500 copies": (
-        "wall: {unit: [0.4, 0.2, 0.1], length: 400, courses: 1000, repeat: ["
-        + ", ".join(["{count: 100000, translate: [0, 9, 0]}"] * 100)
-        + "]}"
     ),
     "a bridge of 10^12 voussoirs": (
         "bridge: {spans: [5], shape: semicircular, thickness: 0.4, width: 3, voussoirs: 1000000, rings: 1000000, "
         "abutments: {width: 2}, spandrels: none}"
     ),
-    "10^11 blocks in stacks": (
-        "stack: {block: [1, 1, 1], count: 1000000, repeat: {count: 100000, translate: [2, 0, 0]}}"
-    ),
-    "an arch of 10^9 rings": (
-        "arch: {shape: semicircular, span: 4, thickness: 0.3, width: 1, voussoirs: 27, rings: 1000000000}"
-    ),
     "a column of 10^12 drums": "column: {radius: 0.5, height: 1.e+12, drums: 1000000000000}",
-    "a dome of 10^8 blocks": "dome: {span: 10, thickness: 0.5, courses: 10000, segments: 10000}",
     "a dome of 10^11 facets": "dome: {span: 10, thickness: 0.5, courses: 10000, segments: 10000, facets: 1000}",
     "a barrel vault of 10^10 blocks": (
         "barrel_vault: {span: 4, length: 1.e+6, thickness: 0.3, courses: 100000, unit: 0.001}"
     ),
     "a stair of 10^12 treads": "spiral_stair: {treads: 1000000000000, radius: 1, rise: 0.2, angle: 15}",
     "a wall as long as numbers go": "wall: {unit: [0.4, 0.2, 0.1], length: 1.e+308, courses: 1}",
-    "a wall of units as small as numbers go": "wall: {unit: [5.e-324, 5.e-324, 5.e-324], length: 1, courses: 1}",
     "a box as large as numbers go": "box: {min: [-1.e+308, -1.e+308, 0], max: [1.e+308, 1.e+308, 1.e+308]}",
-    "a box as small as numbers go": "box: {min: [0, 0, 0], max: [5.e-324, 5.e-324, 5.e-324]}",
-    "a scale as large as numbers go": (
-        "box: {min: [0, 0, 0], max: [1, 1, 1], transform: [{scale: 1.e+300}, {scale: 1.e+300}]}"
-    ),
 }
 
 GRID = ", ".join(
@@ -86,7 +49,6 @@ GRID = ", ".join(
     for n in range(60)
 )
 """each of them is allowed, 50 million units together are not"""
-STACKS = ", ".join(["{stack: {material: stone, block: [1, 1, 1], count: 1000000}}"] * 3)
 
 
 def of_item(item: str) -> str:
@@ -98,14 +60,9 @@ def of_item(item: str) -> str:
 CASES = [
     *(deck(name, of_item(item)) for name, item in ITEMS.items()),
     deck("60 walls of a million units each", HEAD + SPACE + LOADS + f"blocks: [{GRID}]\n"),
-    deck("three stacks of a million blocks each", HEAD + SPACE + LOADS + f"blocks: [{STACKS}]\n"),
     deck(
         "contact points without end",
         BLOCK.replace("contacts: {joint: dry}", "contacts: {joint: dry, points: {spacing: 1.e-12}}"),
-    ),
-    deck(
-        "contact points without end along edges",
-        BLOCK.replace("contacts: {joint: dry}", "contacts: {joint: dry, points: {per_edge: 1000000000}}"),
     ),
     deck(
         "10^12 positions of a load",
@@ -115,15 +72,9 @@ CASES = [
         ),
     ),
     deck(
-        "a load on 10^9 blocks",
-        BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: {group: block, index: 1000000000}}]"),
-    ),
-    deck(
         "a list of 100,000 selectors of nothing",
         BLOCK.replace("[{acceleration: [1, 0, 0]}]", "[{force: [1, 0, 0], on: [" + "nothing, " * 100_000 + "]}]"),
     ),
-    deck("a load as large as numbers go", BLOCK.replace("[1, 0, 0]}]", "[1.e+308, 1.e+308, 1.e+309]}]")),
-    deck("a tolerance of nothing", BLOCK.replace("contacts: {joint: dry}", "contacts: {joint: dry, tolerance: 0}")),
     deck(
         "a parameter that makes 10^12 blocks",
         BLOCK.replace("parameters: {", "parameters: {n: 1.e+12, ").replace(
