@@ -122,7 +122,7 @@ def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative
     assert remark.startswith("with associative flow forces prove")
     assert remark.identifier == "associative-bounds-apart"
     limit = load_factor_words(model, result.load_case, checks.kinematic_bound)
-    assert f"the kinematic bound of the associative factor, {limit}, is an upper limit" in uniqueness_words(
+    assert f"the kinematic bound of the associative load factor, {limit}, is an upper limit" in uniqueness_words(
         model, result
     )
 

@@ -1,6 +1,6 @@
 """Cracks: interfaces that open in one surface, and yield lines of walls that bend.
 
-Connected are interfaces that touch; a chain may lead over joints that only slide or turn between those that
+Connected are interfaces that share a place; a chain may lead over joints that only slide or turn between those that
 open, as the bed joints of a stepped crack do.
 
 The interfaces on both sides of which there are different main parts lie along a line that steps from joint to joint. A
@@ -15,9 +15,8 @@ from itertools import combinations
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.polygons import box_pairs
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import items_of_rows
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_radii
@@ -25,63 +24,21 @@ from mbla.results.collapse.joint_planes import ClusterJoints
 from mbla.solution.solution import Mechanics
 
 TOUCH = 0.01
-"""gap of two interfaces, over the radius of the smaller one, up to which they touch"""
-PARALLEL = 1e-6
-"""sine below which two edges have no direction across both"""
+"""distance of contact points, over the radius of the smaller interface, up to which they are one place"""
 
 
-def touching_pairs(contacts: Contacts, interfaces: IntArray) -> tuple[IntArray, IntArray]:
-    """Pairs of rows of ``interfaces`` whose convex hulls touch, each pair once.
+def touching_pairs(contacts: Contacts, interfaces: IntArray) -> IntArray:
+    """Pairs of rows of ``interfaces`` that share a place, each pair once, (n, 2)."""
+    from scipy.spatial import cKDTree
 
-    Two convex bodies are apart where they are along one of these directions: the normals of their faces and edges, and
-    those across an edge of both (Gottschalk et al. 1996, doi:10.1145/237170.237244). Boxes along the axes come first.
-    """
     size = interface_radii(contacts)[interfaces]
-    margin = TOUCH * size[:, None]
-    lower = np.minimum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] - margin
-    upper = np.maximum.reduceat(contacts.points, contacts.point_start[:-1])[interfaces] + margin
-    i, j = box_pairs(lower, upper)
-    gap = TOUCH * np.minimum(size[i], size[j])
-    near = np.zeros(len(i), dtype=bool)
-    counts = np.column_stack([contacts.outline[interfaces[i]], contacts.outline[interfaces[j]]])
-    for shape in np.unique(counts, axis=0):
-        chosen = np.flatnonzero(np.all(counts == shape, axis=1))
-        first, second = (_outlines(contacts, interfaces[rows[chosen]]) for rows in (i, j))
-        normals = contacts.normals[interfaces[i[chosen]]], contacts.normals[interfaces[j[chosen]]]
-        near[chosen] = ~_apart(first, second, *normals, gap[chosen])
-    return i[near], j[near]
-
-
-def _outlines(contacts: Contacts, interfaces: IntArray) -> FloatArray:
-    """Corners of interfaces with equally many, (n, corners, 3)."""
-    count = contacts.outline[interfaces[0]]
-    return contacts.points[contacts.point_start[interfaces][:, None] + np.arange(count)]
-
-
-def _apart(
-    first: FloatArray, second: FloatArray, normal: FloatArray, other_normal: FloatArray, gap: FloatArray
-) -> BoolArray:
-    """Whether there is more than the gap between two outlines each along any of the directions, (n,)."""
-    edges, other_edges = (np.roll(outline, -1, axis=1) - outline for outline in (first, second))
-    across = np.cross(edges[:, :, None, :], other_edges[:, None, :, :]).reshape(len(first), -1, 3)
-    lengths = np.linalg.norm(edges, axis=2)[:, :, None] * np.linalg.norm(other_edges, axis=2)[:, None, :]
-    directions = np.concatenate(
-        [
-            normal[:, None],
-            other_normal[:, None],
-            np.cross(edges, normal[:, None]),
-            np.cross(other_edges, other_normal[:, None]),
-            across,
-        ],
-        axis=1,
-    )
-    size = np.linalg.norm(directions, axis=2)
-    clear = np.ones(size.shape, dtype=bool)
-    clear[:, -across.shape[1] :] = size[:, -across.shape[1] :] > PARALLEL * lengths.reshape(len(first), -1)
-    directions = directions / np.where(clear & (size > 0), size, 1.0)[:, :, None]
-    one, other = (np.einsum("ndx,npx->ndp", directions, outline) for outline in (first, second))
-    between = np.maximum(other.min(axis=2) - one.max(axis=2), one.min(axis=2) - other.max(axis=2))
-    return np.asarray(np.any(clear & (between > gap[:, None]), axis=1))
+    points = contacts.points[items_of_rows(contacts.point_start, interfaces)]
+    row = np.repeat(np.arange(len(interfaces)), np.diff(contacts.point_start)[interfaces])
+    near = cKDTree(points).query_pairs(TOUCH * float(size.max()), output_type="ndarray")
+    apart = np.linalg.norm(points[near[:, 0]] - points[near[:, 1]], axis=1)
+    pairs = np.sort(row[near], axis=1)
+    pairs = pairs[(pairs[:, 0] != pairs[:, 1]) & (apart <= TOUCH * size[pairs].min(axis=1))]
+    return np.unique(pairs, axis=0)
 
 
 # --- Cracks: interfaces between the same two clusters that open, as far as they are connected -----------------------
@@ -131,9 +88,9 @@ def cracks(
 
 def _connected(contacts: Contacts, joints: ClusterJoints, moving: IntArray) -> IntArray:
     """Number of the connected chain of each moving interface."""
-    i, j = touching_pairs(contacts, moving)
-    same = np.all(joints.pairs[moving[i]] == joints.pairs[moving[j]], axis=1)
-    return connected_labels(np.stack([i[same], j[same]], axis=1), len(moving))
+    pairs = touching_pairs(contacts, moving)
+    same = np.all(joints.pairs[moving[pairs[:, 0]]] == joints.pairs[moving[pairs[:, 1]]], axis=1)
+    return connected_labels(pairs[same], len(moving))
 
 
 def _crack(

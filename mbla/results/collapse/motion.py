@@ -1,7 +1,8 @@
 """Blocks carried along by a mechanism, for files and pictures: displacements to a scale that can be seen.
 
 A mechanism has no size of its own. It is drawn so that the farthest corner moves by a tenth of the size of the part of
-the model that can move, or the fastest block turns by half a radian, whichever comes first.
+the model that can move, or the fastest block turns by half a radian, whichever comes first. Every block follows its own
+screw: parts that turn against each other come apart at their hinge by the square of the angle, less than can be seen.
 """
 
 from __future__ import annotations
@@ -112,29 +113,18 @@ def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, s
 
 
 def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions."""
-    rotation, path = screw_matrices(motion[:, 3:])
-    return rotation, np.einsum("nij,nj->ni", path, motion[:, :3])
-
-
-def rotation_vectors(rotations: FloatArray) -> FloatArray:
-    """Rotation vectors, (n, 3) rad up to π long, of rotation matrices, (n, 3, 3): back from ``screw_matrices``."""
-    from scipy.spatial.transform import Rotation
-
-    return np.asarray(Rotation.from_matrix(rotations).as_rotvec())
-
-
-def screw_matrices(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """R and V of rotation vectors, (n, 3, 3) each.
+    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
 
     With the angle θ and K of the unit axis: V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
     """
     from scipy.spatial.transform import Rotation
 
+    vectors = motion[:, 3:]
     angles = np.linalg.norm(vectors, axis=1)
     axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
     cross = np.cross(axes[:, None, :], np.eye(3)).transpose(0, 2, 1)
     half = angles[:, None, None] / 2
     # (1 − cos θ)/θ and sin θ/θ without loss of digits near zero
     lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(2 * half / np.pi)
-    return np.asarray(Rotation.from_rotvec(vectors).as_matrix()), np.eye(3) + lag * cross + (1 - share) * cross @ cross
+    paths = np.eye(3) + lag * cross + (1 - share) * cross @ cross
+    return np.asarray(Rotation.from_rotvec(vectors).as_matrix()), np.einsum("nij,nj->ni", paths, motion[:, :3])

@@ -1,4 +1,10 @@
-"""One load case in two results: what the record says of it, figure by figure, and mechanism, modes, reactions, time."""
+"""One load case in two results: the figures of the record, mechanism, modes and reactions.
+
+Figures of B are brought into the units of A. The angle between two mechanisms is as the kinetic energy of the blocks
+measures it: cos φ = ⟨u, v⟩/√(⟨u, u⟩⟨v, v⟩) with ⟨u, v⟩ = ∫ρ u·v dV over the blocks that both have, by points that have
+the inertia of a box. It is 0 degrees for the same motion, however scaled; 90 where nothing of the one is in the other;
+180 for the opposite motion.
+"""
 
 from __future__ import annotations
 
@@ -9,45 +15,42 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase, Model
+from mbla.model.solids.blocks import Blocks
+from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import load_on_structure, reactions_of
-from mbla.results.diff.matching import Factors, Matching
-from mbla.results.diff.motion import ModeComparison, angle_between, compare_modes
+from mbla.results.collapse.motion import displacements_at
+from mbla.results.diff.matching import Factors, Matching, match_interfaces
 from mbla.results.outcome import law_residual, result_of
 from mbla.results.record.cases import CASE_COLUMNS
 from mbla.results.record.quantity import unit_text
-from mbla.results.record.scene import Scene, scene_of
-from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Mechanics, Status
+from mbla.results.record.scene import Scene
+from mbla.results.results import CaseResult
+from mbla.solution.solution import Status
 
 LEAST_TOLERANCE = 1e-6
 """Relative difference of answers that is none: the accuracy to which solved programs agree."""
-
 ZERO = 1e-3
 """Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
-
 NOISE = 1e-9
 """Share of the loads below which a difference of reactions is rounding."""
-
-COMPARED = (
-    "load_factor",
-    "angle",
-    "reaction_force",
-    "reaction_moment",
+ANSWERS = ("load_factor", "angle", "reaction_force", "reaction_moment")
+"""figures of the record of which each load case has one"""
+EXTENT = ("least_load_factor", "greatest_load_factor")
+FURTHER = (
     "associative_load_factor",
     "static_bound",
     "kinematic_bound",
-    "least_load_factor",
-    "greatest_load_factor",
+    *EXTENT,
     "range_lower",
     "range_upper",
     "peak_load_factor",
 )
-"""figures of the record that are compared; of the first four the one that is asked for"""
+"""figures that are compared besides"""
 COLUMNS = {
     name: (column, place)
     for column in CASE_COLUMNS
     for place, name, _ in column.quantity.components()
-    if name in COMPARED
+    if name in (*ANSWERS, *FURTHER)
 }
 """column of each, and its place in it"""
 
@@ -56,7 +59,7 @@ COLUMNS = {
 class Figure:
     """A quantity of the record in A and in B, both in the unit of A; nan where there is none.
 
-    difference : (B - A) over A, at least over ``least``, over B where A is zero; nan where one of them is missing
+    difference : (B - A) over A, at least over a least size, over B where A is zero; nan where one of them is missing
     same       : within the tolerance, or missing in both
     """
 
@@ -100,6 +103,24 @@ class MotionComparison:
 
 
 @dataclass(frozen=True)
+class InterfaceChange:
+    """An interface with another mode: its bodies as A names them, centroid in A (3,), modes in A and in B."""
+
+    bodies: str
+    centroid: FloatArray
+    modes: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class ModeComparison:
+    """How many interfaces both results have, how many A alone and B alone, and those with another mode."""
+
+    compared: int
+    only: tuple[int, int]
+    interfaces: tuple[InterfaceChange, ...]
+
+
+@dataclass(frozen=True)
 class CaseComparison:
     """What differs in a load case; pairs are of A and of B.
 
@@ -129,40 +150,41 @@ class CaseComparison:
         return self.status[0] is not self.status[1] or not all(answer.same for answer in self.answers)
 
 
+def compare_cases(
+    first: Scene, second: Scene, matching: Matching, factors: Factors, tolerance: float | None
+) -> CaseComparison:
+    """A load case of A with that of B.
+
+    tolerance : relative, of answers; None for the sum of what the two are good to, at least 1e-6
+    """
+    own, its = _case(first), _case(second)
+    if tolerance is None:
+        tolerance = max(accuracy_of(own) + accuracy_of(its), LEAST_TOLERANCE)
+    answer, figures = _figures(first, second, factors, tolerance)
+    results = result_of(own) is not None and result_of(its) is not None
+    return CaseComparison(
+        name=own.load_case.name,
+        status=(own.status, its.status),
+        flow_rule=(_rule(own), _rule(its)),
+        answers=(answer,),
+        figures=figures,
+        mechanism=_motions(first, second, matching, factors.length),
+        modes=_modes(first, second, matching, factors.length) if results else None,
+        reactions=_reactions(first, second, matching, factors) if results else (),
+        load=_load(first),
+        time=(own.solution.seconds, its.solution.seconds),
+    )
+
+
+def _case(scene: Scene) -> CaseResult:
+    assert scene.case is not None  # made of one
+    return scene.case
+
+
 def accuracy_of(case: CaseResult) -> float:
     """What a load factor is good to, relatively: its gap with associative flow, else its largest residual."""
     value = case.checks.gap if case.solution.flow_rule == "associative" else law_residual(case.checks)
     return 0.0 if result_of(case) is None or math.isnan(value) else value
-
-
-def compare_cases(
-    results: tuple[Results, Results],
-    cases: tuple[CaseResult, CaseResult],
-    matching: Matching,
-    factors: Factors,
-    tolerance: float | None = None,
-) -> CaseComparison:
-    """Compare a load case of A with that of B.
-
-    tolerance : relative, of answers; None for the sum of what the two are good to, at least 1e-6
-    """
-    if tolerance is None:
-        tolerance = max(sum(map(accuracy_of, cases)), LEAST_TOLERANCE)
-    own, its = (result_of(case) for case in cases)
-    answer, figures = _figures(results, cases, factors, tolerance)
-    changes, load = _reactions(results, cases, matching, factors)
-    return CaseComparison(
-        name=cases[0].load_case.name,
-        status=(cases[0].status, cases[1].status),
-        flow_rule=(_rule(cases[0]), _rule(cases[1])),
-        answers=(answer,),
-        figures=figures,
-        mechanism=_motions(results[0].model, cases, matching, factors.length),
-        modes=None if own is None or its is None else compare_modes(results, cases, matching, factors.length),
-        reactions=changes,
-        load=load,
-        time=(cases[0].solution.seconds, cases[1].solution.seconds),
-    )
 
 
 def _rule(case: CaseResult) -> str:
@@ -171,26 +193,23 @@ def _rule(case: CaseResult) -> str:
     return ", ".join(word for word in words if word)
 
 
-def _figures(
-    results: tuple[Results, Results], cases: tuple[CaseResult, CaseResult], factors: Factors, tolerance: float
-) -> tuple[Figure, tuple[Figure, ...]]:
+def _figures(first: Scene, second: Scene, factors: Factors, tolerance: float) -> tuple[Figure, tuple[Figure, ...]]:
     """What a user asks of the case, and the figures beside it that one of the two has."""
-    scenes = [scene_of(*each) for each in zip(results, cases, strict=True)]
-    model, load_case = results[0].model, cases[0].load_case
+    load_case = _case(first).load_case
 
     def compared(name: str) -> Figure:
         unit = COLUMNS[name][0].quantity.unit
-        values = _value(scenes[0], name), _value(scenes[1], name) * factors.of(unit)
-        least = 0.0 if unit == "degree" else least_factor(model, load_case)
+        values = _value(first, name), _value(second, name) * factors.of(unit)
+        least = 0.0 if unit == "degree" else least_factor(first.model, load_case)
         if load_case.settlement is not None and unit in ("force", "moment"):
             least = ZERO * load_case.settlement.unit
-        return figure(name, None if unit == "1" else unit_text(unit, model.units), values, tolerance, least)
+        return figure(name, None if unit == "1" else unit_text(unit, first.model.units), values, tolerance, least)
 
-    asked = {_asked(case.load_case) for case in cases}
+    asked = {_asked(_case(scene).load_case) for scene in (first, second)}
     answer = compared(asked.pop() if len(asked) == 1 else "load_factor")
-    several = any(_value(each, "least_load_factor") < _value(each, "greatest_load_factor") for each in scenes)
-    further = [name for name in COMPARED[4:] if several or name not in ("least_load_factor", "greatest_load_factor")]
-    return answer, tuple(found for found in map(compared, further) if not np.isnan(found.values).all())
+    several = any(_value(scene, EXTENT[0]) < _value(scene, EXTENT[1]) for scene in (first, second))
+    further = [compared(name) for name in FURTHER if several or name not in EXTENT]
+    return answer, tuple(found for found in further if not np.isnan(found.values).all())
 
 
 def _asked(load_case: LoadCase) -> str:
@@ -213,50 +232,105 @@ def least_factor(model: Model, load_case: LoadCase) -> float:
     return ZERO * dead / live if live > 0.0 else 0.0
 
 
-def _motions(model: Model, cases: tuple[CaseResult, CaseResult], matching: Matching, length: float) -> MotionComparison:
+def _motions(first: Scene, second: Scene, matching: Matching, length: float) -> MotionComparison:
     """Angle between mechanisms that are results, or between motions that prove the lack of equilibrium."""
     if not matching.comparable:
         words = f"only {min(matching.shares):.0%} of the volume has a match in the other"
         return MotionComparison(None, None, words)
-    found = [result_of(case) for case in cases]
-    motions = [None if mechanics is None else mechanics.mechanism for mechanics in found]
-    what = "mechanism"
-    if all(case.status is Status.NO_EQUILIBRIUM for case in cases):
-        motions, what = [case.solution.certificate for case in cases], "motion without equilibrium"
-        if any(motion is None for motion in motions):
-            return MotionComparison(None, None, "no motion is given")
-    if motions[0] is None or motions[1] is None:
-        without = [letter for letter, motion in zip("AB", motions, strict=True) if motion is None]
-        words = f"{' and '.join(without)} {'has' if len(without) == 1 else 'have'} no mechanism that is a result"
-        return MotionComparison(None, None, words)
-    angle = angle_between(model.blocks, motions[0], motions[1], matching, length)
+    falls = all(_case(scene).status is Status.NO_EQUILIBRIUM for scene in (first, second))
+    what = "motion without equilibrium" if falls else "mechanism"
+    motions = {letter: _motion(scene, falls=falls) for letter, scene in (("A", first), ("B", second))}
+    without = [letter for letter, motion in motions.items() if motion is None]
+    if motions["A"] is None or motions["B"] is None:
+        verb = "has" if len(without) == 1 else "have"
+        return MotionComparison(None, None, f"{' and '.join(without)} {verb} no {what} that is a result")
+    angle = angle_between(first.model.blocks, motions["A"], motions["B"], matching, length)
     if angle is None:
         return MotionComparison(None, None, "a motion is zero")
     return MotionComparison(angle, math.cos(math.radians(angle)), what)
 
 
-def _reactions(
-    results: tuple[Results, Results], cases: tuple[CaseResult, CaseResult], matching: Matching, factors: Factors
-) -> tuple[tuple[ReactionChange, ...], float]:
-    """Supports whose force changes by more than rounding, the largest change first, and the size of the loads."""
-    own, its = (result_of(case) for case in cases)
-    if own is None or its is None:
-        return (), 0.0
-    first, second = results[0].model, results[1].model
-    a = _forces(results[0], cases[0], own)
+def _motion(scene: Scene, *, falls: bool) -> FloatArray | None:
+    """Mechanism of a result, or motion of a fall, (n_blocks, 6)."""
+    found = result_of(_case(scene))
+    return scene.certificate if falls else None if found is None else found.mechanism
+
+
+def angle_between(
+    blocks: Blocks, first: FloatArray, second: FloatArray, matching: Matching, length: float
+) -> float | None:
+    """Degrees between mechanisms (n_blocks, 6) of A and of B; None where one of them is zero.
+
+    length : of B's unit of length in that of A
+    """
+    rows = matching.bodies[: len(blocks)]
+    there = rows >= 0
+    other = np.where(there[:, None], second[rows] * np.repeat([length, 1.0], 3), 0.0)
+    own = np.where(there[:, None], first, 0.0)
+    owner = blocks.block_of_vertex
+    # the corners, drawn in by √3: as many points with the mass and, for a box, the inertia of the block
+    points = blocks.centroids[owner] + (blocks.vertices - blocks.centroids[owner]) / math.sqrt(3.0)
+    masses = blocks.masses if blocks.masses.any() else blocks.volumes
+    weights = np.sqrt(masses / np.bincount(owner))[owner]
+    u, v = (_unit(weights[:, None] * displacements_at(blocks, motion, owner, points)) for motion in (own, other))
+    if u is None or v is None:
+        return None
+    # between unit vectors; the arc cosine alone loses small angles to rounding
+    return math.degrees(2.0 * math.atan2(float(np.linalg.norm(u - v)), float(np.linalg.norm(u + v))))
+
+
+def _unit(motion: FloatArray) -> FloatArray | None:
+    """Of length 1, (n, 3); None for no motion, or one that is no number."""
+    largest = float(np.abs(motion).max(initial=0.0))
+    if largest == 0.0 or not math.isfinite(largest):
+        return None
+    return np.asarray(motion / largest / np.linalg.norm(motion / largest))
+
+
+def _modes(first: Scene, second: Scene, matching: Matching, length: float) -> ModeComparison:
+    """Modes of two mechanisms at the interfaces that both have."""
+    assert first.interfaces is not None  # asked for results only
+    assert second.interfaces is not None
+    rows = match_interfaces(first.contacts, second.contacts, matching, length)
+    both = np.flatnonzero(rows >= 0)
+    own, other = first.interfaces.modes[both], second.interfaces.modes[rows[both]]
+    changed = [
+        InterfaceChange(
+            "/".join(first.model.body_name(int(body)) for body in first.contacts.bodies[row]),
+            first.contacts.centroids[row],
+            (InterfaceMode(old).name.lower(), InterfaceMode(new).name.lower()),
+        )
+        for row, old, new in zip(both.tolist(), own.tolist(), other.tolist(), strict=True)
+        if old != new
+    ]
+    only = len(rows) - len(both), len(second.contacts) - len(np.unique(rows[both]))
+    return ModeComparison(len(both), only, tuple(changed))
+
+
+def _reactions(first: Scene, second: Scene, matching: Matching, factors: Factors) -> tuple[ReactionChange, ...]:
+    """Supports whose force changes by more than rounding, the largest change first."""
     names = {  # grounds are named by coordinates, blocks may have changed their order
-        second.body_name(int(other)): first.body_name(body) for body, other in enumerate(matching.bodies) if other >= 0
+        second.model.body_name(int(other)): first.model.body_name(body)
+        for body, other in enumerate(matching.bodies)
+        if other >= 0
     }
-    b = {names.get(name, name): factors.force * force for name, force in _forces(results[1], cases[1], its).items()}
-    load = float(np.linalg.norm(load_on_structure(first, cases[0].load_case, own.load_factor)[:3]))
-    none = np.zeros(3)
+    a = _forces(first)
+    b = {names.get(name, name): factors.force * force for name, force in _forces(second).items()}
+    none, least = np.zeros(3), NOISE * _load(first)
     changes = [ReactionChange(name, b.get(name, none) - a.get(name, none)) for name in dict.fromkeys([*a, *b])]
-    sizes = [float(np.linalg.norm(change.change)) for change in changes]
-    order = [row for row in np.argsort(sizes)[::-1].tolist() if sizes[row] > NOISE * load]
-    return tuple(changes[row] for row in order), load
+    notable = [change for change in changes if np.linalg.norm(change.change) > least]
+    return tuple(sorted(notable, key=lambda change: -float(np.linalg.norm(change.change))))
 
 
-def _forces(results: Results, case: CaseResult, mechanics: Mechanics) -> dict[str, FloatArray]:
+def _forces(scene: Scene) -> dict[str, FloatArray]:
     """Force of each support on the structure, (3,), by its name."""
-    reactions = reactions_of(results.model, results.contacts, case.load_case, mechanics)
+    assert scene.mechanics is not None  # asked for results only
+    reactions = reactions_of(scene.model, scene.contacts, _case(scene).load_case, scene.mechanics)
     return {reaction.support: reaction.wrench[:3] for reaction in reactions}
+
+
+def _load(scene: Scene) -> float:
+    """Size of the loads on the free blocks at the load factor; of the dead load where there is none."""
+    found = result_of(_case(scene))
+    load = load_on_structure(scene.model, _case(scene).load_case, 0.0 if found is None else found.load_factor)
+    return float(np.linalg.norm(load[:3]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import unified_diff
 from typing import Any
@@ -11,6 +12,7 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import Notice
+from mbla.model.solids.blocks import Blocks
 from mbla.results.diff.cases import CaseComparison, Figure, compare_cases, figure
 from mbla.results.diff.matching import SAME_PLACE, Factors, Matching, factors_between, match_models
 from mbla.results.outcome import notices_of
@@ -18,6 +20,7 @@ from mbla.results.record.json_record import contacts_json, model_json, notice_js
 from mbla.results.record.json_values import as_json
 from mbla.results.record.keys import RECORD
 from mbla.results.record.quantity import STORED_BY_PATH, UnitKind, unit_text
+from mbla.results.record.scene import scene_of
 from mbla.results.results import Results
 
 SAME_TOTAL = 1e-9
@@ -93,14 +96,15 @@ def comparison_json(comparison: Comparison, files: tuple[str, str]) -> dict[str,
 
 
 def compare_results(first: Results, second: Results, tolerance: float | None = None) -> Comparison:
-    """Everything that differs; figures of B are brought into the units of A.
+    """Everything that differs.
 
-    tolerance : relative, of answers; None for what the two results are good to (see ``compare_cases``)
+    tolerance : relative, of answers; None for the sum of what the two results are good to, at least 1e-6
     """
     factors = factors_between(first.model.units, second.model.units)
     matching = match_models(first.model, second.model, factors)
     own, others = ({case.load_case.name: case for case in results.cases} for results in (first, second))
     warnings = [[n for n in notices_of(results) if n.severity == "warning"] for results in (first, second)]
+    pairs = [(scene_of(first, own[name]), scene_of(second, others[name])) for name in own if name in others]
     return Comparison(
         decks=(first.deck.name, second.deck.name),
         created=(first.created, second.created),
@@ -109,11 +113,7 @@ def compare_results(first: Results, second: Results, tolerance: float | None = N
         settings=_differing(first.settings, second.settings),
         provenance=_differing(first.provenance, second.provenance),
         model=_models(first, second, factors, matching),
-        cases=tuple(
-            compare_cases((first, second), (own[name], others[name]), matching, factors, tolerance)
-            for name in own
-            if name in others
-        ),
+        cases=tuple(compare_cases(*pair, matching, factors, tolerance) for pair in pairs),
         only=(tuple(name for name in own if name not in others), tuple(name for name in others if name not in own)),
         warnings_gone=_surplus(warnings[0], warnings[1]),
         warnings_new=_surplus(warnings[1], warnings[0]),
@@ -124,13 +124,10 @@ def _deck_lines(first: Results, second: Results) -> list[str]:
     """Unified diff of the deck texts, the decks themselves first, then what they include by its name."""
     (main, *own), (other, *its) = first.deck.sources, second.deck.sources
     a, b = dict(own), dict(its)
-    pairs = [(main, other)]
-    pairs += [
-        ((name, a[name]) if name in a else ("-", ""), (name, b[name]) if name in b else ("-", "")) for name in a | b
-    ]
+    texts = [(*main, *other), *((name, a.get(name, ""), name, b.get(name, "")) for name in a | b)]
     return [
         line
-        for (name, text), (new_name, new_text) in pairs
+        for name, text, new_name, new_text in texts
         for line in unified_diff(
             text.splitlines(), new_text.splitlines(), f"A {name}", f"B {new_name}", n=1, lineterm=""
         )
@@ -145,15 +142,16 @@ def _differing(first: dict[str, str], second: dict[str, str]) -> dict[str, tuple
 def _surplus(notices: list[Notice], others: list[Notice]) -> tuple[Notice, ...]:
     """Warnings that the other has not: by identifier and load case, since messages hold figures and paths."""
     left = Counter((notice.identifier, notice.case) for notice in others)
-    alike = {(notice.identifier, notice.case, notice.message) for notice in others}
     found = []
-    for notice in sorted(notices, key=lambda n: (n.identifier, n.case, n.message) not in alike):
+    for notice in notices:
         key = (notice.identifier, notice.case)
-        if left[key] > 0:
-            left[key] -= 1
-        else:
+        left[key] -= 1
+        if left[key] < 0:
             found.append(notice)
     return tuple(found)
+
+
+# --- Models ---------------------------------------------------------------------------------------------------------
 
 
 def _models(first: Results, second: Results, factors: Factors, matching: Matching) -> ModelComparison:
@@ -163,23 +161,22 @@ def _models(first: Results, second: Results, factors: Factors, matching: Matchin
     other = rows[there]
     volumes = np.abs(b.volumes[other] * factors.length**3 - a.volumes[there]) > SAME_PLACE * a.volumes[there]
     masses = np.abs(b.masses[other] * factors.mass - a.masses[there]) > SAME_PLACE * a.masses[there]
-    units = first.model.units, second.model.units
-
-    def names(results: Results, blocks: Any) -> tuple[str, ...]:
-        return tuple(results.model.blocks.name(int(block)) for block in blocks)
-
     return ModelComparison(
         totals=_totals(first, second, factors),
-        units=(_units(units[0]), _units(units[1])),
+        units=(_units(first.model.units), _units(second.model.units)),
         matched_by=matching.by,
         matched_shares=matching.shares,
         comparable=matching.comparable,
-        moved=names(first, np.flatnonzero(matching.moved > SAME_PLACE)),
-        changed=names(first, there[volumes | masses]),
-        only=(names(first, np.flatnonzero(rows < 0)), names(second, np.setdiff1d(np.arange(len(b)), other))),
-        fixed_in_one=names(first, there[first.model.fixed[there] != second.model.fixed[other]]),
+        moved=_names(a, np.flatnonzero(matching.moved > SAME_PLACE)),
+        changed=_names(a, there[volumes | masses]),
+        only=(_names(a, np.flatnonzero(rows < 0)), _names(b, np.setdiff1d(np.arange(len(b)), other))),
+        fixed_in_one=_names(a, there[first.model.fixed[there] != second.model.fixed[other]]),
         joints=_joints(first, second, factors),
     )
+
+
+def _names(blocks: Blocks, rows: Iterable[Any]) -> tuple[str, ...]:
+    return tuple(blocks.name(int(row)) for row in rows)
 
 
 def _units(units: Units) -> str:
@@ -189,13 +186,13 @@ def _units(units: Units) -> str:
 
 def _totals(first: Results, second: Results, factors: Factors) -> tuple[Figure, ...]:
     """Counts and totals, in the units of A."""
-    values = [model_json(results.model) | contacts_json(results) for results in (first, second)]
+    a, b = (model_json(results.model) | contacts_json(results) for results in (first, second))
     kinds: dict[str, UnitKind] = {key.path: key.unit for key in RECORD}
     found = []
     for name in TOTALS:
         kind = kinds[f"model.{name}"]
         unit = None if kind == "1" else unit_text(kind, first.model.units)
-        found.append(figure(name, unit, (values[0][name], values[1][name] * factors.of(kind)), SAME_TOTAL))
+        found.append(figure(name, unit, (a[name], b[name] * factors.of(kind)), SAME_TOTAL))
     return tuple(found)
 
 

@@ -1,4 +1,4 @@
-"""Which block, ground, interface and contact point of one result is which of the other.
+"""Which block, ground and interface of one result is which of the other.
 
 Blocks are the same by name (group and index) where those lie at the same places; where the names are the same but in
 another order, or are others, by place; where the shape was changed but the names are the same, by name.
@@ -26,8 +26,30 @@ distance of neighbours."""
 ENOUGH = 0.9
 """Share of the volume of either model that must be matched for mechanisms to be comparable."""
 
-CANDIDATES = 32
-"""Contact points looked at near one place; where eight blocks meet there are 24 of interfaces."""
+
+@dataclass(frozen=True)
+class Factors:
+    """What numbers in the units of B are multiplied with to be in those of A."""
+
+    length: float
+    force: float
+    mass: float
+
+    def of(self, unit: UnitKind) -> float:
+        """What a quantity in such a unit is multiplied with."""
+        length, force = self.length, self.force
+        factors: dict[UnitKind, float] = {"length": length, "area": length**2, "volume": length**3, "force": force}
+        factors |= {"moment": force * length, "stress": force / length**2}
+        return factors.get(unit, 1.0)
+
+
+def factors_between(first: Units, second: Units) -> Factors:
+    """From the units of ``second`` to those of ``first``."""
+    return Factors(
+        METRES[second.length] / METRES[first.length],
+        NEWTONS[second.force] / NEWTONS[first.force],
+        KILOGRAMS[second.mass] / KILOGRAMS[first.mass],
+    )
 
 
 @dataclass(frozen=True)
@@ -54,17 +76,16 @@ class Matching:
 def match_models(first: Model, second: Model, factors: Factors) -> Matching:
     """Blocks and grounds of two models."""
     places = second.blocks.centroids * factors.length
-    sizes = first.blocks.sizes
-    by_name = _by_name(first, second)
-    found, by = by_name, "name"
-    if not _in_place(first, places, by_name):
-        by_place = _by_place(first.blocks.centroids, places, sizes)
-        complete = (by_name >= 0).all() and len(first.blocks) == len(second.blocks)
+    found, by = _by_name(first, second), "name"
+    if not _in_place(first, places, found):
+        by_place = _by_place(first.blocks.centroids, places, first.blocks.sizes)
+        complete = (found >= 0).all() and len(first.blocks) == len(second.blocks)
         if not complete or _in_place(first, places, by_place):
             found, by = by_place, "place"
     moved = np.full(len(found), np.nan)
     there = found >= 0
-    moved[there] = np.linalg.norm(places[found[there]] - first.blocks.centroids[there], axis=1) / sizes[there]
+    away = np.linalg.norm(places[found[there]] - first.blocks.centroids[there], axis=1)
+    moved[there] = away / first.blocks.sizes[there]
     volumes, others = first.blocks.volumes, second.blocks.volumes
     shares = float(volumes[there].sum() / volumes.sum()), float(others[found[there]].sum() / others.sum())
     return Matching(np.concatenate([found, _grounds(first, second, factors)]), by, moved, shares)
@@ -97,94 +118,33 @@ def _by_place(centroids: FloatArray, places: FloatArray, sizes: FloatArray) -> I
 def _grounds(first: Model, second: Model, factors: Factors) -> IntArray:
     """Planes that are one another, as body numbers of B; each is taken once."""
     scale = float(np.ptp(first.blocks.vertices, axis=0).max())
-    free = list(range(len(second.grounds)))
+    free = dict(enumerate(second.grounds))
     found = []
     for ground in first.grounds:
-        for other in free:
-            plane = second.grounds[other]
-            off = float((plane.point * factors.length - ground.point) @ ground.normal)
-            if np.abs(plane.normal - ground.normal).max() <= SAME_PLACE and abs(off) <= SAME_PLACE * scale:
-                found.append(len(second.blocks) + other)
-                free.remove(other)
-                break
-        else:
-            found.append(-1)
+        off = {row: (other.point * factors.length - ground.point) @ ground.normal for row, other in free.items()}
+        same = (
+            row
+            for row, other in free.items()
+            if np.abs(other.normal - ground.normal).max() <= SAME_PLACE and abs(off[row]) <= SAME_PLACE * scale
+        )
+        row = next(same, -1)
+        free.pop(row, None)
+        found.append(len(second.blocks) + row if row >= 0 else -1)
     return np.array(found, dtype=np.int64)
 
 
-def match_interfaces(
-    first: Contacts, second: Contacts, matching: Matching, sizes: FloatArray, length: float
-) -> IntArray:
-    """Interface of B for each of A, (n_interfaces,); -1 where there is none between the same bodies in that place."""
-    tolerance = _tolerances(first, sizes)
-    return _match(
-        first.centroids,
-        _pairs(matching.bodies[first.bodies]),
-        second.centroids * length,
-        _pairs(second.bodies),
-        tolerance,
-    )
+def match_interfaces(first: Contacts, second: Contacts, matching: Matching, length: float) -> IntArray:
+    """Interface of B for each of A, (n_interfaces,): between the same bodies, the nearest of several; -1 for none.
 
-
-def match_points(first: Contacts, second: Contacts, matching: Matching, sizes: FloatArray, length: float) -> IntArray:
-    """Contact point of B for each of A, (n_points,); -1 where there is none of the same bodies in that place."""
-    owner, other = first.interface_of_point, second.interface_of_point
-    return _match(
-        first.points,
-        _pairs(matching.bodies[first.bodies])[owner],
-        second.points * length,
-        _pairs(second.bodies)[other],
-        _tolerances(first, sizes)[owner],
-    )
-
-
-def _tolerances(contacts: Contacts, sizes: FloatArray) -> FloatArray:
-    """Distance within which places of an interface are one, by the smaller of its blocks; grounds have no size."""
-    of_bodies = np.concatenate([sizes, np.full(int(contacts.bodies.max(initial=-1)) + 1, np.inf)])
-    return np.asarray(SAME_PLACE * of_bodies[contacts.bodies].min(axis=1))
-
-
-def _pairs(bodies: IntArray) -> IntArray:
-    """Two bodies in ascending order, (n, 2): block numbers may have changed their order."""
-    return np.sort(bodies, axis=1)
-
-
-def _match(
-    points: FloatArray, pairs: IntArray, others: FloatArray, other_pairs: IntArray, tolerance: FloatArray
-) -> IntArray:
-    """Row of ``others`` at the place of each point and between the same bodies, the nearest; -1 where there is none."""
-    from scipy.spatial import cKDTree
-
-    if not len(points) or not len(others):
-        return np.full(len(points), -1, dtype=np.int64)
-    count = min(CANDIDATES, len(others))
-    distance, rows = cKDTree(others).query(points, k=np.arange(1, count + 1))
-    rows = np.asarray(rows)
-    same = (other_pairs[rows] == pairs[:, None, :]).all(axis=2) & (distance <= tolerance[:, None])
-    found = rows[np.arange(len(points)), same.argmax(axis=1)]
-    return np.where(same.any(axis=1), found, -1).astype(np.int64)
-
-
-@dataclass(frozen=True)
-class Factors:
-    """What numbers in the units of B are multiplied with to be in those of A."""
-
-    length: float
-    force: float
-    mass: float
-
-    def of(self, unit: UnitKind) -> float:
-        """What a quantity in such a unit is multiplied with."""
-        length, force = self.length, self.force
-        factors: dict[UnitKind, float] = {"length": length, "area": length**2, "volume": length**3, "force": force}
-        factors |= {"moment": force * length, "stress": force / length**2}
-        return factors.get(unit, 1.0)
-
-
-def factors_between(first: Units, second: Units) -> Factors:
-    """From the units of ``second`` to those of ``first``."""
-    return Factors(
-        METRES[second.length] / METRES[first.length],
-        NEWTONS[second.force] / NEWTONS[first.force],
-        KILOGRAMS[second.mass] / KILOGRAMS[first.mass],
-    )
+    length : of B's unit in that of A
+    """
+    rows: dict[tuple[int, ...], list[int]] = {}
+    for row, pair in enumerate(np.sort(second.bodies, axis=1).tolist()):
+        rows.setdefault(tuple(pair), []).append(row)
+    found = np.full(len(first), -1)
+    for row, pair in enumerate(np.sort(matching.bodies[first.bodies], axis=1).tolist()):
+        near = rows.get(tuple(pair))
+        if near:
+            away = np.linalg.norm(second.centroids[near] * length - first.centroids[row], axis=1)
+            found[row] = near[int(away.argmin())]
+    return found

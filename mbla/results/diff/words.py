@@ -138,27 +138,16 @@ def _modes(case: CaseComparison) -> list[str]:
     modes = case.modes
     if modes is None:
         return []
-    lines = []
-    compared, count = modes.compared["contact_points"], sum(change.count for change in modes.contact_points)
-    if count:
-        kinds = ", ".join("{} {} in A and {} in B".format(each.count, *each.modes) for each in modes.contact_points)
-        lines += sentence(f"{count} of {counted(compared, 'contact point')} in another mode: {kinds}")
-    elif not compared:
-        lines += sentence("modes of contact points not compared: none lie at the same place in both")
-    else:
-        lines += sentence(f"modes of {counted(compared, 'contact point')} compared: the same")
-    for letter, number_only in zip("AB", modes.only, strict=True):
-        if number_only:
-            lines += sentence(f"{counted(number_only, 'contact point')} of {letter} without match")
+    changed = len(modes.interfaces)
+    compared = counted(modes.compared, "interface")
+    lines = sentence(f"{changed} of {compared} in another mode" if changed else f"modes of {compared} the same in both")
+    for letter, alone in zip("AB", modes.only, strict=True):
+        lines += sentence(f"{counted(alone, 'interface')} of {letter} without match") if alone else []
     for change in modes.interfaces[:MOST_NAMED]:
-        size = float(abs(change.centroid).max())
-        place = f"{change.bodies} at {vector(change.centroid, size)}"
+        place = f"{change.bodies} at {vector(change.centroid, float(abs(change.centroid).max()))}"
         lines += sentence(f"interface {place}: {change.modes[0]} in A, {change.modes[1]} in B", "    ")
-    if len(modes.interfaces) > MOST_NAMED:
-        lines += sentence(
-            f"and {counted(len(modes.interfaces) - MOST_NAMED, 'more interface')}; --json has them all", "    "
-        )
-    return lines
+    more = f"and {counted(changed - MOST_NAMED, 'more interface')}; --json has them all"
+    return lines + (sentence(more, "    ") if changed > MOST_NAMED else [])
 
 
 def _warnings(comparison: Comparison) -> list[str]:

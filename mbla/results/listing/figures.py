@@ -217,30 +217,6 @@ def _distinct(names: Iterable[str]) -> list[str]:
 # --- The programs of a solution as a table, and what each was for ---------------------------------------------------
 
 
-PURPOSES = {
-    "associative": "associative",
-    "reverse": "reversed live load",
-    "published": "reduced dilatancy",
-    "gravity": "dead load alone",
-    "proximal": "step without dilatancy",
-    "exact step": "step of the exact law",
-    "convex step": "step with given friction",
-    "interior": "path inside the cones",
-    "load path": "load path to its peak",
-    "dilatancy": "step of the dilatancy",
-    "livesley": "corrected mechanism",
-    "range, lower": "range, lower end",
-    "range, upper": "range, upper end",
-    "lower": "search for a lower factor",
-    "lowest": "search for a lower factor",
-    "polyhedral, inscribed": "inscribed polyhedron",
-    "polyhedral, circumscribed": "circumscribed polyhedron",
-    "convex": "interface resultants",
-    "least normal force": "least normal force",
-    "greatest normal force": "greatest normal force",
-    "standing": "does it stand",
-}
-"""what a program is for, in words, by its kind"""
 MOST_PROGRAMS = 40
 """programs of a table; a long sequence is shown by its beginning and its end"""
 
@@ -254,7 +230,7 @@ def program_lines(solution: Solution) -> list[str]:
     rows = [
         [
             str(program.program),
-            PURPOSES.get(program.kind, program.kind),
+            program.kind,
             status_name(program.status),
             number(program.load_factor),
             small(program.change),
@@ -272,9 +248,6 @@ def program_lines(solution: Solution) -> list[str]:
     if any(program.kind == "reverse" for program in programs):
         lines += sentence("The program with the live load reversed shows whether the dead load alone is carried.")
     return lines
-
-
-# --- What each reduction left out of a load case, as a table: what is solved after each of them ---------------------
 
 
 # --- The load path in words -----------------------------------------------------------------------------------------

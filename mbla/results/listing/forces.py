@@ -18,7 +18,7 @@ from mbla.results.collapse.mechanics import (
     reactions_of,
 )
 from mbla.results.collapse.thrust import thrust_of
-from mbla.results.listing.text import MOST_ROWS, counted, number, sentence, table, vector
+from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, table, vector
 from mbla.results.outcome import UNIQUE, result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics
@@ -50,7 +50,7 @@ def group_reaction_lines(model: Model, contacts: Contacts, mechanics: Mechanics)
     shown = sorted(groups, key=lambda reaction: -float(np.linalg.norm(reaction.wrench[:3])))[:MOST_ROWS]
     head = ["supports carry", *(f"F{axis} [{model.units.force}]" for axis in "xyz")]
     rows = [[reaction.support, *_components(reaction.wrench, size)[:3]] for reaction in shown]
-    return ["", *table(head, rows), *_more(len(groups), len(rows))]
+    return long_table(head, rows, len(groups))
 
 
 def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
@@ -75,7 +75,7 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
         f"of it is carried; {counted(loaded, 'interface')} take part, the largest:"
     )
     head = ["interface", f"at [{model.units.length}]", f"normal [{force}]", f"shear [{force}]"]
-    return ["", *sentence(says), *table(head, rows, left=2), *_more(loaded, len(rows))]
+    return ["", *sentence(says), *long_table(head, rows, loaded, left=2)[1:]]
 
 
 def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
@@ -91,7 +91,7 @@ def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ra
     unique = int(np.sum(np.isfinite(widths) & (widths <= UNIQUE * np.abs(ranges).max(axis=1))))
     says = f"Normal forces that are possible at this load factor; {unique} of {len(contacts)} are unique. The widest:"
     head = ["interface", f"at [{model.units.length}]", f"least [{force}]", "greatest", "found"]
-    return ["", *sentence(says), *table(head, rows, left=2), *_more(len(contacts), len(rows))]
+    return ["", *sentence(says), *long_table(head, rows, len(contacts), left=2)[1:]]
 
 
 def _force(value: float) -> str:
@@ -104,10 +104,6 @@ def _interface(model: Model, contacts: Contacts, interface: int) -> list[str]:
     return [f"{model.body_name(a)}/{model.body_name(b)}", vector(contacts.centroids[interface], size)]
 
 
-def _more(total: int, shown: int) -> list[str]:
-    return sentence(f"and {total - shown} more; the result files hold them all") if total > shown else []
-
-
 # --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
 
 
@@ -116,23 +112,10 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
     resting = len(enough.bearing) + len(enough.left_out)
     if result_of(case) is None or not resting or not len(enough.moving):
         return []
-    what = (
-        f"Relevant to this result: the {counted(len(enough.moving), 'moving block')} and their "
-        f"{counted(len(enough.interfaces), 'interface')}."
-    )
-    out = len(enough.left_out)
-    if out == resting:
-        touches = "touches" if out == 1 else "touch"
-        fixed = f"Without the {counted(resting, 'stationary free block')}, which {touches} none of these,"
-    else:
-        fixed = f"With the {counted(resting, 'stationary free block')} fixed"
-        touch = "touches" if out == 1 else "touch"
-        fixed += f" ({out} of them {touch} no moving block and can be removed)," if out else ","
-    if case.solution.flow_rule == "associative":
-        return sentence(f"{what} {fixed} the load factor is the same.")
     return sentence(
-        f"{what} {fixed} forces and mechanism found here are a state of the smaller structure too, with the same load "
-        "factor; without normality it may have others."
+        f"Relevant to this result: {counted(len(enough.moving), 'moving block')} and "
+        f"{counted(len(enough.interfaces), 'interface')} on them. With the {counted(resting, 'stationary free block')} "
+        f"fixed ({len(enough.left_out)} touch no moving block and can be removed) it has the same load factor."
     )
 
 
@@ -140,19 +123,15 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
     """Whether the forces are unique, or why that is not known; the option that gives their ranges if not taken."""
     if result_of(case) is None or not len(contacts):
         return []
-    ranges = case.solution.force_ranges is None and case.solution.contact_model == "concave"
-    ask = " For their ranges: analysis.force_ranges: true." if ranges else ""
     if isinstance(freedom, str):
-        return sentence(f"How far the contact forces are unique was not determined, as {freedom}.{ask}")
-    whose = "" if case.solution.flow_rule == "associative" else " in this mechanism"
-    if freedom.degree == 0:
-        return sentence(f"The resultant of every interface is unique at this load factor{whose}.")
-    known = int(freedom.determined.sum())
-    return sentence(
-        f"The contact forces are not unique: degree of static indeterminacy at this load factor{whose}: at most "
-        f"{freedom.degree}. Statically determinate: the resultants of {known} of "
-        f"{counted(len(contacts), 'interface')}.{ask}"
-    )
+        told = f"How far the contact forces are unique was not determined, as {freedom}."
+    else:
+        told = (
+            f"Degree of static indeterminacy at this load factor, in this mechanism: at most {freedom.degree}; the "
+            f"resultants of {int(freedom.determined.sum())} of {counted(len(contacts), 'interface')} are unique."
+        )
+    can_ask = case.solution.force_ranges is None and case.solution.contact_model == "concave"
+    return sentence(told + " For ranges of forces: analysis.force_ranges: true." * can_ask)
 
 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
@@ -213,5 +192,4 @@ def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: 
     rows = [row for row in shares if float(row[1]) or float(row[2])]
     if len(rows) < 2:
         return []
-    more = sentence(f"and {counted(len(rows) - MOST_ROWS, 'more group')}") if len(rows) > MOST_ROWS else []
-    return table(["group", "live load [%]", "against its dead load [%]"], rows[:MOST_ROWS]) + more
+    return long_table(["group", "live load [%]", "against its dead load [%]"], rows[:MOST_ROWS], len(rows))[1:]

@@ -64,7 +64,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     summary = "" if told is None or mechanics is None else mechanism_summary(model, told.collapse, told.failure)
     sections = [Section("Verdict", _verdict_lines(model, case, summary, [] if told is None else told.sentences))]
     if told is not None:
-        sections.append(Section("Mechanism", spaced(mechanism_lines(model, contacts, told.failure))))
+        sections.append(Section("Mechanism", mechanism_lines(model, contacts, told.failure)))
     if mechanics is not None and told is not None:
         work = enough_lines(case, enough_of(model, contacts, told.collapse.parts))
         work += work_lines(model, contacts, load_case, mechanics, told.collapse.work)

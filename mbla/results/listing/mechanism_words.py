@@ -1,208 +1,33 @@
-"""The mechanism of a case in words: its parts, how they move, and the fall of a structure without equilibrium."""
+"""The mechanism of a case: one line, a sentence for each main part, and tables of parts, hinges, slides and cracks.
+
+The fall of a structure without equilibrium is told in the same words.
+"""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
-from mbla.arrays import IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, fall_of
-from mbla.results.collapse.cracks import Crack
+from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
-from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks
+from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
-from mbla.results.listing.failure_words import as_parts, crack_kind, failure_sentences, hinge_side
-from mbla.results.listing.places import TABLE_DIGITS, block_names, direction_words, point_words
-from mbla.results.listing.text import MOST_ROWS, counted, number, percent, sentence, table
+from mbla.results.listing.places import direction_words, extents_of, group_words, point_words, region_words, span_words
+from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, percent
 from mbla.results.results import CaseResult
 
-LONGEST = 40
-"""characters up to which the blocks of parts are named; beyond, their groups: the sentences say more"""
-
-
-def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
-    """A table of the parts that move, the heaviest first."""
-    shown = motions[:MOST_ROWS]
-    names = [f"{each.number}: {block_names(model, each.blocks)}" for each in shown]
-    if max(map(len, names), default=0) > LONGEST:
-        names = [f"{each.number}: {_groups(model, each)}" for each in shown]
-    rows = [
-        [
-            name,
-            motion_words(model, each),
-            str(len(each.blocks)),
-            number(each.weight),
-        ]
-        for name, each in zip(names, shown, strict=True)
-    ]
-    if not rows:
-        return []
-    head = ["part", "motion", "blocks", f"weight [{model.units.force}]"]
-    more = sentence(f"and {len(motions) - MOST_ROWS} lighter ones; the result files hold them all")
-    return [*table(head, rows, left=2), *(more if len(motions) > MOST_ROWS else [])]
-
-
-def _groups(model: Model, part: PartMotion) -> str:
-    """``junction``, ``wall and 2 more``: the groups of a part, that with most blocks first."""
-    counts = Counter(model.blocks.groups[block] for block in part.blocks.tolist()).most_common()
-    return str(counts[0][0]) + (f" and {len(counts) - 1} more" if len(counts) > 1 else "")
-
-
-def motion_words(model: Model, part: PartMotion) -> str:
-    """``turns about +y at (1, 0.5, 1)`` or ``moves along (0.8, 0, 0.6)``."""
-    if not part.turns:
-        return f"moves along {direction_words(part.direction, TABLE_DIGITS)}"
-    return f"turns about {direction_words(part.direction, TABLE_DIGITS)} at {point_words(model, part.axis_point)}"
-
-
-# --- Mechanisms in tables: the parts that move, hinge lines, sliding planes and cracks between them -----------------
-
-
-T = TypeVar("T", HingeLine, SlidingPlane, Crack)
-
-MANY = 40
-"""joints beyond which their number says less than what moves"""
-
-
-def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
-    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 parts``; parts as they are told and drawn.
-
-    Of a mechanism of many joints first what moves, then how many they are.
-    """
-    count = collapse.interfaces.count
-    moving = moving_blocks(model, collapse.parts)
-    words = [
-        (count(InterfaceMode.HINGE), "{}", "hinge"),
-        (count(InterfaceMode.SLIDE), "sliding at {}", "interface"),
-        (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
-        (count(InterfaceMode.OPEN), "{} open", "interface"),
-        (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
-    ]
-    found = (
-        ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
-        or "no interface opens, slides or crushes"
-    )
-    verb = "moves" if moving == 1 else "move"
-    blocks = f"{moving} of {counted(len(model.free), 'free block')} {verb}"
-    if failure.spreads:
-        return f"{blocks}, mainly as {as_parts(len(failure.main.motions))}; {found}"
-    if sum(n for n, _, _ in words) > MANY:
-        return f"{blocks}{_told_parts(failure)}; {found}"
-    return f"{found}; {blocks}{_told_parts(failure)}"
-
-
-def _told_parts(failure: Failure) -> str:
-    """How many parts; where small motions within them are left out, that the blocks move as so many."""
-    count = len(failure.motions)
-    if failure.merged:
-        return f" as {counted(count, 'rigid part')}"
-    return f" in {count} rigid parts" if count > 1 else ""
-
-
-def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:
-    """Parts, then a table each for hinge lines, sliding planes and cracks."""
-    return [
-        *part_lines(model, failure.motions),
-        *_hinge_table(model, contacts, failure.hinge_lines),
-        *_sliding_table(model, contacts, failure.sliding_planes),
-        *_crack_table(model, contacts, failure.cracks),
-    ]
-
-
-def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> list[str]:
-    outward = curvature_sides(model, contacts)
-    rows = [
-        [
-            _interfaces(model, contacts, line.interfaces),
-            _parts(line.clusters),
-            point_words(model, line.start),
-            number(float(f"{line.length:.4g}")),
-            direction_words(line.direction, TABLE_DIGITS),
-            hinge_side(contacts, outward, line).removesuffix(" side")
-            + (", slides" if line.slides else "")
-            + (", crushes" if line.crushes else ""),
-        ]
-        for line in _shown(lines)
-    ]
-    length = model.units.length
-    head = ["hinge lines", "parts", f"from [{length}]", f"length [{length}]", "about", "side"]
-    return _table(head, rows, len(lines), 6)
-
-
-def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPlane]) -> list[str]:
-    """What slides over what, the direction in the plane, the share of the power that shear forces take there."""
-    rows = [
-        [
-            _interfaces(model, contacts, plane.interfaces),
-            _parts(plane.clusters),
-            point_words(model, plane.centroid),
-            "twists" if plane.twists else direction_words(plane.direction, TABLE_DIGITS),
-            number(float(f"{plane.area:.4g}")),
-            percent(plane.shear_power_share),
-        ]
-        for plane in _shown(planes)
-    ]
-    length = model.units.length
-    head = ["sliding planes", "parts", f"at [{length}]", "along", f"area [{length}2]", "shear work [%]"]
-    return _table(head, rows, len(planes), 4)
-
-
-def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[str]:
-    rows = [
-        [
-            _interfaces(model, contacts, crack.interfaces),
-            _parts(crack.clusters),
-            point_words(model, crack.start),
-            point_words(model, crack.end),
-            crack_kind(contacts, crack).strip() or "one way",
-            number(float(f"{crack.area:.4g}")),
-        ]
-        for crack in _shown(cracks)
-    ]
-    length = model.units.length
-    head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
-    return _table(head, rows, len(cracks), 5)
-
-
-def _shown(found: Sequence[T]) -> list[T]:
-    """All by their first interfaces, or of too many those that move or work most, these first."""
-    if len(found) > MOST_ROWS:
-        return list(found[:MOST_ROWS])
-    return sorted(found, key=lambda each: int(each.interfaces[0]))
-
-
-def _table(head: list[str], rows: list[list[str]], total: int, left: int) -> list[str]:
-    if not rows:
-        return []
-    more = sentence(f"and {total - len(rows)} more that move less; the result files hold them all")
-    return ["", *table(head, rows, left=left), *(more if total > len(rows) else [])]
-
-
-def _parts(clusters: tuple[int, int]) -> str:
-    """``2/0``: that which moves, and against what; 0 is at rest."""
-    return f"{clusters[0]}/{clusters[1]}"
-
-
-def _interfaces(model: Model, contacts: Contacts, interfaces: IntArray) -> str:
-    """``arch[2]/[3]`` in one group, ``arch[2]/pier[0]``, with ``and 7 more`` behind the first of several."""
-    a, b = contacts.bodies[int(interfaces[0])].tolist()
-    more = f" and {len(interfaces) - 1} more" if len(interfaces) > 1 else ""
-    first, second = model.body_name(a), model.body_name(b)
-    if max(a, b) < len(model.blocks) and model.blocks.groups[a] == model.blocks.groups[b]:
-        second = f"[{model.blocks.group_indices[b]}]"
-    return f"{first}/{second}{more}"
-
-
-# --- How a structure without equilibrium falls, in the words of any other failure -----------------------------------
-
-
+MOST_PARTS = 4
+"""parts that have a sentence; the tables hold more, the result files all"""
+FAR_AXIS = 5.0
+"""distance of its axis over the size of a part from which it is said to move rather than to turn"""
 LIFTS = (
     "The motion is one of associative flow, in which joints dilate as they slide: it proves that nothing holds the "
     "structure, and need not be the way in which it falls."
@@ -220,19 +45,219 @@ class Told:
 
 
 def told_of(model: Model, contacts: Contacts, case: CaseResult) -> Told | None:
-    """From the mechanism, a result or not; None without any motion.
-
-    Without equilibrium the live load does not act yet, and says no way.
-    """
+    """From the mechanism, a result or not; without equilibrium from the motion that proves it; None without any."""
     load_case, mechanics, certificate = case.load_case, case.solution.mechanics, case.solution.certificate
     remark = []
     if mechanics is not None:
         collapse = collapse_of(model, contacts, load_case, mechanics)
     elif certificate is not None:
         collapse, mechanics = fall_of(model, contacts, certificate)
-        load_case = replace(load_case, live_load=np.zeros_like(load_case.live_load))
         remark = [LIFTS] if collapse.interfaces.slides.any() else []
     else:
         return None
     failure = failure_of(model, contacts, collapse, mechanics)
-    return Told(collapse, failure, failure_sentences(model, contacts, load_case, collapse, failure) + remark)
+    return Told(collapse, failure, failure_sentences(model, load_case, collapse, failure) + remark)
+
+
+def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
+    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 rigid parts``, as they are told and drawn."""
+    count = collapse.interfaces.count
+    words = [
+        (count(InterfaceMode.HINGE), "{}", "hinge"),
+        (count(InterfaceMode.SLIDE), "sliding at {}", "interface"),
+        (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
+        (count(InterfaceMode.OPEN), "{} open", "interface"),
+        (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
+    ]
+    found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
+    return f"{found or 'no interface opens, slides or crushes'}; {_moving(model, collapse, failure)}"
+
+
+def _moving(model: Model, collapse: Collapse, failure: Failure) -> str:
+    """``12 of 52 free blocks move as one rigid part``."""
+    moving = moving_blocks(model, collapse.parts)
+    parts = len(failure.main.motions)
+    how = "as one rigid part" if parts == 1 else f"in {parts} rigid parts"
+    verb = "moves" if moving == 1 else "move"
+    return f"{moving} of {counted(len(model.free), 'free block')} {verb}{' mainly' if failure.spreads else ''} {how}"
+
+
+def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, failure: Failure) -> list[str]:
+    """How much moves, then how each of the heaviest parts does."""
+    if not collapse.motions:
+        return ["No block moves."]
+    share = moving_share(model, collapse.parts)
+    text = f"The mechanism is {reach(share)}, {100 * share:.3g} % of the weight: {_moving(model, collapse, failure)}"
+    if failure.spreads:
+        text += (
+            f". Distributed mechanism: each block belongs to the part whose motion is nearest to its own, which "
+            f"reproduces {100 * failure.main.explained:.3g} % of the motion (of its square over the volume); the "
+            f"tables below have {len(failure.motions)} smaller parts, numbered by themselves"
+        )
+    elif failure.merged:
+        text += f", neglecting relative motion below {100 * failure.merged:g} % of the largest contact velocity"
+    motions = failure.main.motions
+    texts = [f"{text}.", *(_part_sentence(model, load_case, part) for part in motions[:MOST_PARTS])]
+    if len(motions) > MOST_PARTS:
+        texts.append(f"{counted(len(motions) - MOST_PARTS, 'lighter part')} in the table below.")
+    return texts + [_yield_words(model, line) for line in failure.yield_lines if failure.spreads]
+
+
+def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
+    """``Part 1, the upper right part (12 blocks of wall, 20.8 % of the weight..) turns about +y ..``."""
+    motion = motion_words(model, part)
+    if part.turns and part.velocity.any() and not _is_far(model, part):
+        motion += f", its centroid moving along {_way(part)}"
+    if len(part.blocks) == len(model.free):
+        return f"Everything that is free ({counted(len(part.blocks), 'block')}) {motion}."
+    total = float(model.weights[model.free].sum())
+    details = [group_words(model, part.blocks), span_words(model, part.blocks)]
+    details += [f"{100 * part.weight / total:.3g} % of the weight"] if total > 0 else []
+    if load_case.settlement is not None and np.isin(load_case.settlement.blocks, part.blocks).any():
+        details.append("with the support that gives way")
+    about = ", ".join(detail for detail in details if detail)
+    region = region_words(model, part.blocks)
+    return f"Part {part.number}{'' if region == 'part' else f', the {region}'} ({about}) {motion}."
+
+
+def motion_words(model: Model, part: PartMotion) -> str:
+    """``turns about +y at (1, 0.5, 1)`` or ``moves along (0.8, 0, 0.6)``."""
+    if not part.turns:
+        return f"moves along {direction_words(part.direction)}"
+    if _is_far(model, part):
+        return f"moves along {_way(part)}, turning slightly about {direction_words(part.direction)}"
+    return f"turns about {direction_words(part.direction)} at {point_words(model, part.axis_point)}"
+
+
+def _is_far(model: Model, part: PartMotion) -> bool:
+    """Whether the axis lies several sizes of the part away."""
+    low, high = extents_of(model, part.blocks)
+    return bool(np.linalg.norm(part.axis_point - part.centroid) > FAR_AXIS * np.linalg.norm(high - low))
+
+
+def _way(part: PartMotion) -> str:
+    return direction_words(part.velocity / np.linalg.norm(part.velocity))
+
+
+def _yield_words(model: Model, line: YieldLine) -> str:
+    """``Part 1 breaks off part 2 along (7.6, 0.3, 0) - (0.4, 0.3, 5.4), 40 degrees to the horizontal.``"""
+    points = " - ".join(point_words(model, np.round(point, 2)) for point in line.points)
+    other = f"part {line.parts[1]}" if line.parts[1] else "the stationary blocks"
+    return f"Part {line.parts[0]} breaks off {other} along {points}, {line.inclination:.0f} degrees to the horizontal."
+
+
+# --- Tables ---------------------------------------------------------------------------------------------------------
+
+
+T = TypeVar("T", HingeLine, SlidingPlane, Crack)
+
+
+def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:
+    """Parts, then a table each for hinge lines, sliding planes and cracks."""
+    return [
+        *part_lines(model, failure.motions),
+        *_hinge_table(model, contacts, failure.hinge_lines),
+        *_sliding_table(model, contacts, failure.sliding_planes),
+        *_crack_table(model, contacts, failure.cracks),
+    ]
+
+
+def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
+    """A table of the parts that move, the heaviest first."""
+    rows = [
+        [
+            f"{part.number}: {group_words(model, part.blocks)}",
+            motion_words(model, part),
+            str(len(part.blocks)),
+            number(part.weight),
+        ]
+        for part in motions[:MOST_ROWS]
+    ]
+    return long_table(["part", "motion", "blocks", f"weight [{model.units.force}]"], rows, len(motions), left=2)
+
+
+def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> list[str]:
+    outward = curvature_sides(model, contacts)
+    rows = [
+        [
+            *_joint(model, contacts, line.interfaces, line.clusters),
+            point_words(model, line.start),
+            f"{line.length:.4g}",
+            direction_words(line.direction),
+            hinge_side(contacts, outward, line) + ", slides" * line.slides + ", crushes" * line.crushes,
+        ]
+        for line in _shown(lines)
+    ]
+    length = model.units.length
+    head = ["hinge lines", "parts", f"from [{length}]", f"length [{length}]", "about", "side"]
+    return long_table(head, rows, len(lines), left=6)
+
+
+def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
+    """Where a hinge line lies on its first interface: intrados or extrados in an arch, else the axis it is off to.
+
+    outward : (n_interfaces, 3) direction out of the curve, as ``curvature_sides`` gives it
+    """
+    first = int(line.interfaces[0])
+    offset = (line.start + line.end) / 2 - contacts.centroids[first]
+    offset = offset - (offset @ line.direction) * line.direction
+    along = float(offset @ outward[first])
+    if abs(along) > 0.5 * np.linalg.norm(offset) * np.linalg.norm(outward[first]):
+        return "extrados" if along > 0 else "intrados"
+    axis = int(np.argmax(np.abs(offset)))
+    return f"{'+' if offset[axis] > 0 else '-'}{'xyz'[axis]}"
+
+
+def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPlane]) -> list[str]:
+    """What slides over what, the direction in the plane, the share of the power that shear forces take there."""
+    rows = [
+        [
+            *_joint(model, contacts, plane.interfaces, plane.clusters),
+            point_words(model, plane.centroid),
+            "twists" if plane.twists else direction_words(plane.direction),
+            f"{plane.area:.4g}",
+            percent(plane.shear_power_share),
+        ]
+        for plane in _shown(planes)
+    ]
+    length = model.units.length
+    head = ["sliding planes", "parts", f"at [{length}]", "along", f"area [{length}2]", "shear work [%]"]
+    return long_table(head, rows, len(planes), left=4)
+
+
+def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[str]:
+    rows = [
+        [
+            *_joint(model, contacts, crack.interfaces, crack.clusters),
+            point_words(model, crack.start),
+            point_words(model, crack.end),
+            "stepped" if _is_stepped(contacts.normals[crack.interfaces]) else "one way",
+            f"{crack.area:.4g}",
+        ]
+        for crack in _shown(cracks)
+    ]
+    length = model.units.length
+    head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
+    return long_table(head, rows, len(cracks), left=5)
+
+
+def _is_stepped(normals: FloatArray) -> bool:
+    """Whether joints have several directions at right angles or so, from their normals, (n, 3)."""
+    return bool(np.abs(normals @ normals[0]).min() < 0.5)
+
+
+def _shown(found: Sequence[T]) -> list[T]:
+    """All by their first interfaces, or of too many those that move or work most, these first."""
+    if len(found) > MOST_ROWS:
+        return list(found[:MOST_ROWS])
+    return sorted(found, key=lambda each: int(each.interfaces[0]))
+
+
+def _joint(model: Model, contacts: Contacts, interfaces: IntArray, parts: tuple[int, int]) -> list[str]:
+    """``arch[2]/pier[0] and 7 more``, and ``2/0``: the part that moves, and against which; 0 is at rest."""
+    a, b = contacts.bodies[int(interfaces[0])].tolist()
+    first, second = model.body_name(a), model.body_name(b)
+    if max(a, b) < len(model.blocks) and model.blocks.groups[a] == model.blocks.groups[b]:
+        second = f"[{model.blocks.group_indices[b]}]"
+    more = f" and {len(interfaces) - 1} more" if len(interfaces) > 1 else ""
+    return [f"{first}/{second}{more}", f"{parts[0]}/{parts[1]}"]

@@ -15,7 +15,18 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState
 from mbla.results.listing.places import label_words
-from mbla.results.listing.text import WIDTH, counted, entry, heading, number, sentence, small, table
+from mbla.results.listing.text import (
+    MOST_ROWS,
+    WIDTH,
+    counted,
+    entry,
+    heading,
+    long_table,
+    number,
+    sentence,
+    small,
+    table,
+)
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
@@ -210,8 +221,6 @@ def spaced(lines: list[str]) -> list[str]:
     return ["", *lines] if lines else []
 
 
-MOST_ROWS = 20
-"""rows of a table; the result files hold all of them"""
 MOST_NAMED = 5
 """blocks named in a line"""
 
@@ -285,8 +294,7 @@ def _pair_table(model: Model, title: str, measure: str, pairs: IntArray, relativ
     shown = pairs[:MOST_ROWS]
     rows = [_pair_row(model, pair, None if relative is None else float(relative[i])) for i, pair in enumerate(shown)]
     head = ["bodies", *([f"{measure} [{model.units.length}]", "over block size"] if measure else [])]
-    more = sentence(f"and {len(pairs) - MOST_ROWS} more") if len(pairs) > MOST_ROWS else []
-    return [*sentence(f"{title}:"), *table(head, rows), *more]
+    return [*sentence(f"{title}:"), *long_table(head, rows, len(pairs))[1:]]
 
 
 def _pair_row(model: Model, pair: IntArray, relative: float | None) -> list[str]:

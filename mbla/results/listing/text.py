@@ -135,6 +135,14 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> 
     return [Line(_row(line, widths, left), element) for line in lines]
 
 
+def long_table(head: Sequence[str], rows: Sequence[Sequence[str]], total: int, left: int = 1) -> list[str]:
+    """A table after an empty line, and below it how many of ``total`` rows are left out; nothing without rows."""
+    if not rows:
+        return []
+    more = sentence(f"and {total - len(rows)} more; the result files hold them all") if total > len(rows) else []
+    return ["", *table(head, rows, left), *more]
+
+
 def _row(cells: Sequence[str], widths: Sequence[int], left: int) -> str:
     shown = [shortened(cell, width) for cell, width in zip(cells, widths, strict=True)]
     aligned = [

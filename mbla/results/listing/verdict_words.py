@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from mbla.model.model import LoadCase, Model
@@ -92,12 +90,10 @@ def _with_extent(model: Model, case: CaseResult, known: str) -> str:
     if extent is None:
         return known
     least, greatest = (load_factor_words(model, case.load_case, end) for end in in_order(case.load_case, extent))
-    found = f"between {least} (least found) and {greatest} (greatest found)"
     if np.isinf(extent[1]):
-        settles = case.load_case.settlement is not None
-        found = f"from {greatest} (greatest found) down" if settles else f"from {least} (least found) up"
-        found += " without limit"
-    return f"{found}; the state shown here at {known}"
+        first = load_factor_words(model, case.load_case, extent[0])
+        return f"from {first} on without limit; the state shown here at {known}"
+    return f"between {least} (least found) and {greatest} (greatest found); the state shown here at {known}"
 
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
@@ -132,20 +128,15 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
 def _without_figures(case: CaseResult) -> str:
     if case.status is Status.NO_EQUILIBRIUM:
         return "no equilibrium: the structure cannot carry its dead load"
-    if case.status is Status.UNBOUNDED and case.load_case.settlement is not None:
-        return "no least reaction: the structure holds the support back however hard that pulls away from it"
-    if case.status is Status.UNBOUNDED and case.load_case.tilt is not None:
-        turned = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
-        decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
-        return turned if decided else f"{turned} by associative flow; undecided for {_flow(case)} flow"
-    if case.status is Status.UNBOUNDED and case.solution.flow_rule in DECIDED:
-        return "no collapse: no multiple of the live load brings the structure down"
     if case.status is Status.UNBOUNDED:
-        return f"no collapse by associative flow; undecided for {_flow(case)} flow"
-    if case.status is Status.NOT_VERIFIED and case.solution.certificate is not None:
-        return "NOT VERIFIED: the lack of equilibrium could not be confirmed"
-    if case.status is Status.NOT_VERIFIED and case.solution.lock is not None:
-        return "NOT VERIFIED: that no load brings the structure down could not be confirmed"
+        decided = case.solution.flow_rule in DECIDED or case.solution.lock is not None
+        words = "no collapse: no multiple of the live load brings the structure down"
+        if case.load_case.settlement is not None:
+            words = "no least reaction: the structure holds the support back however hard that pulls away from it"
+        elif case.load_case.tilt is not None:
+            words = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
+            decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
+        return words if decided else f"{words} by associative flow; undecided for {_flow(case)} flow"
     if case.status is Status.NOT_VERIFIED:
         return "NOT VERIFIED: no load factor"
     return f"NOT SOLVED ({_stopped(case)})"
@@ -187,39 +178,26 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     def value(load_factor: float) -> str:
         return load_factor_words(model, case.load_case, load_factor)
 
-    settles = case.load_case.settlement is not None  # the greater the factor, the less the reaction
-    what, lower = ("reaction", "higher") if settles else ("load factor", "lower")
     above = ""
     if associative:
         wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
         limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
         of = "the kinematic bound of " if wide else ""
-        above = f"; {of}the associative factor, {limit}, is an upper limit to all"
-        if settles:
-            above = f"; {limit}, {of}that of associative flow, is a lower limit to all"
-    if ends is None or np.isnan(ends).any():
-        known = "" if ends is None else f" (of the range for this mechanism only one end is verified: {_ends(ends)})"
-        return f"The {what} without normality need not be unique; its range is not known{known}{above}."
+        above = f"; {of}the associative load factor, {limit}, is an upper limit to all"
+    if ends is None:
+        return f"Without normality the load factor need not be unique; its range is not known{above}."
     if range_is_a_point(ends, rounding_of(model, case)):
         return (
-            f"For this mechanism every distribution of forces has the same {what}; without normality another "
+            f"For this mechanism every distribution of forces has the same load factor; without normality another "
             f"mechanism may have another{above}."
         )
-    return (
-        f"The {what} is not unique; admissible {what}s for this mechanism: {_range(value, ends, settles)}; other "
-        f"mechanisms may reach {lower}{above}."
+    least, greatest = (
+        "an end that is not verified" if np.isnan(end) else "any" if np.isinf(end) else value(end) for end in ends
     )
-
-
-def _range(value: Callable[[float], str], ends: tuple[float, float], settles: bool) -> str:
-    """From the least to the greatest load factor; of a support that gives way from the greatest reaction down."""
-    if np.isinf(ends[1]):
-        return f"{value(ends[0])} and {'less' if settles else 'more'}, without limit"
-    return f"{value(ends[0])} to {value(ends[1])}"
-
-
-def _ends(ends: tuple[float, float]) -> str:
-    return f"at least {number(ends[0])}" if np.isnan(ends[1]) else f"at most {number(ends[1])}"
+    return (
+        f"The load factor is not unique; admissible for this mechanism: from {least} to {greatest}; other mechanisms "
+        f"may reach lower{above}."
+    )
 
 
 def spread_words(model: Model, case: CaseResult) -> str:

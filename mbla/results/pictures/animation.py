@@ -1,8 +1,8 @@
 """Moving pictures of a mechanism, GIF or MP4, off and back (only importer of imageio-ffmpeg, an extra).
 
-Every frame moves the blocks by finite rotations that keep their shape, and parts together at their hinges
-(:mod:`mbla.results.collapse.finite_motion`). The motion swings as a cosine and ends where it began: the film repeats
-without a jump. The view, the room for words and the legend are those of the widest frame.
+Every frame moves the blocks by finite rotations that keep their shape (:mod:`mbla.results.collapse.motion`). The motion
+swings as a cosine and ends where it began: the film repeats without a jump. The view, the room for words and the legend
+are those of the widest frame.
 """
 
 from __future__ import annotations

@@ -11,10 +11,9 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Failure, failure_of, fall_of
-from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
-from mbla.results.collapse.motion import moved_contact_points, moved_points, moved_vertices
+from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_points, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.listing.mechanism_words import mechanism_summary
@@ -56,7 +55,7 @@ class Scene(RecordScene):
 
     def moved_to(self, scale: float) -> Scene:
         """The same moved by a multiple of the usual displacements."""
-        return replace(self, drawn=finite_motion(self.model, self.contacts, self.case, scale))
+        return replace(self, drawn=scale * drawn_motion(self.model, self.case))
 
     @property
     def is_result(self) -> bool:

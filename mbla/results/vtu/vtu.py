@@ -21,7 +21,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.collapse import kept
-from mbla.results.collapse.finite_motion import finite_motion
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import displacements_at, motion_scale, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
@@ -38,7 +37,7 @@ def write_blocks_vtu(path: Path, scene: Scene) -> None:
 def write_frame_vtu(path: Path, scene: Scene, time: float) -> None:
     """Blocks at a time from 0 (as built) to 1 (the motion as drawn); ``displacement`` is what they have moved."""
     blocks = scene.model.blocks
-    vertices = moved_vertices(blocks, finite_motion(scene.model, scene.contacts, scene.case, time))
+    vertices = moved_vertices(blocks, time * scene.motion)
     _write_blocks(path, scene, vertices, vertices - blocks.vertices, arrays_of(scene, "frames", "cells"))
 
 

@@ -30,9 +30,8 @@ def test_neighbours_touch_and_others_do_not(turn: np.ndarray) -> None:
     load_case = tower_results().cases[0].load_case
     state = State(tower_model(), contacts, load_case, tower_mechanics(), "concave", 3)
     contacts = moved(state, turn, np.array([7.0, -3.0, 2.0])).contacts
-    first, second = touching_pairs(contacts, np.arange(5))
-    assert list(zip(first.tolist(), second.tolist(), strict=True)) == [(0, 1), (1, 2)]
-    assert len(touching_pairs(contacts, np.array([0]))[0]) == 0
+    assert touching_pairs(contacts, np.arange(5)).tolist() == [[0, 1], [1, 2]]
+    assert len(touching_pairs(contacts, np.array([0]))) == 0
 
 
 # --- What falls as few parts, and the lines along which these break off ---------------------------------------------
@@ -148,12 +147,9 @@ def test_a_facade_says_what_falls_and_along_which_line(tmp_path: Path) -> None:
     results = run(
         Path("decks/regressions/facade_yield_line.yaml"), RunOptions(folder=tmp_path, overrides=("output.vtu=false",))
     )
-    words = "mainly as one rigid part; 107 hinges, "
-    where = "and breaks off along a broken line from (4.33, 0.3, 0) over (0.31, 0.31, 1.14) to (0.3, 1.2, 2.98)."
-    for text in (" ".join(" ".join(summary_lines(results)).split()), " ".join(listing(results).split())):
-        assert words in text
-        assert where in text
-        assert "round an axis" not in text
+    assert "move mainly as one rigid part" in " ".join(" ".join(summary_lines(results)).split())
+    told = "breaks off the stationary blocks along (4.33, 0.3, 0) - (0.31, 0.31, 1.14) - (0.3, 1.2, 2.98),"
+    assert told in " ".join(listing(results).split())
     mechanism = results_json(results)["cases"][0]["mechanism"]
     assert len(mechanism["main_parts"]) == 1
     assert mechanism["main_parts_explain"] > ENOUGH

@@ -16,7 +16,6 @@ from mbla.results.collapse.clusters import FEW, SHARES, clusters_of
 from mbla.results.collapse.collapse import NOTABLE, Failure, MovingJoints, collapse_of, failure_of, mechanism_class
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import rigid_parts
-from mbla.results.listing.failure_words import failure_sentences
 from mbla.results.record.json_record import results_json
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
@@ -54,14 +53,13 @@ load_cases:
 )
 
 
-def told(text: str, *overrides: str, case: int = 0) -> tuple[Model, Contacts, Failure, list[str]]:
+def told(text: str, *overrides: str, case: int = 0) -> tuple[Model, Contacts, Failure]:
     line = line_of(text, *overrides, case=case)
     solution, _, _ = verified(line)
     assert solution.mechanics is not None
     collapse = collapse_of(line.model, line.contacts, line.load_case, solution.mechanics)
     failure = failure_of(line.model, line.contacts, collapse, solution.mechanics)
-    sentences = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
-    return line.model, line.contacts, failure, sentences
+    return line.model, line.contacts, failure
 
 
 def stack(n: int) -> tuple[Model, Contacts]:
@@ -83,7 +81,7 @@ def clusters(n: int, speeds: Any) -> tuple[Any, float]:
 @pytest.mark.parametrize("overrides", [(), ("parameters.scale=1000", "parameters.dx=1e6"), ("parameters.scale=1e-3",)])
 def test_a_wall_that_tilts_over_has_one_hinge_line_along_its_foot(overrides: Any) -> None:
     """Five stones stand on the ground: one line of five interfaces as long as the wall, in any unit and place."""
-    model, _, failure, sentences = told(WALL, *overrides)
+    model, _, failure = told(WALL, *overrides)
     (line,) = failure.hinge_lines
     size = float(np.ptp(model.blocks.vertices[:, 0]))
     start = float(model.blocks.vertices[:, 0].min())
@@ -94,15 +92,11 @@ def test_a_wall_that_tilts_over_has_one_hinge_line_along_its_foot(overrides: Any
     assert line.start == pytest.approx([start + size, size / 10, 0], abs=1e-6 * size)
     assert line.end == pytest.approx([start, size / 10, 0], abs=1e-6 * size)
     assert failure.cracks == () == failure.sliding_planes
-    assert "on a hinge line of 5 interfaces" in " ".join(sentences)
-    assert "The whole structure" in sentences[1]
-    assert "moving with the load" in sentences[1]
-    assert sentences[-1] == "Nothing slides."
 
 
 def test_a_stepped_crack_runs_through_a_wall_pushed_in_its_plane() -> None:
     """What turns over the corner parts from the rest along head and bed joints that touch one another."""
-    _, contacts, failure, sentences = told(WALL, case=1)
+    _, contacts, failure = told(WALL, case=1)
     assert len(failure.motions) >= 1
     assert failure.motions[0].turns
     joined = {int(i) for crack in failure.cracks for i in crack.interfaces}
@@ -112,9 +106,6 @@ def test_a_stepped_crack_runs_through_a_wall_pushed_in_its_plane() -> None:
     assert first.area == pytest.approx(contacts.areas[first.interfaces].sum())
     assert len(joined) == sum(len(crack.interfaces) for crack in failure.cracks)
     assert tuple(first.start[[2, 0]]) < tuple(first.end[[2, 0]])
-    assert "turns about +y" in sentences[1]
-    assert "with the load" in sentences[1]
-    assert any("separates part" in text for text in sentences)
 
 
 def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
@@ -133,8 +124,6 @@ def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
     assert plane.power_share == pytest.approx(1.0, abs=1e-6) == plane.shear_power_share
     assert not plane.twists
     assert failure.hinge_lines == () == failure.cracks
-    text = failure_sentences(line.model, line.contacts, line.load_case, collapse, failure)
-    assert text[-1] == "It slides over table[0] along +x: 1 joint, 3 m2, at (1.5, 0.5, 1), 100.0 % of the work."
 
 
 def test_parts_that_plainly_differ_stay_apart() -> None:

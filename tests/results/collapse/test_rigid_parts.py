@@ -129,7 +129,7 @@ def test_many_parts_are_shortened_and_counted() -> None:
     parts = rigid_parts(model, contacts, motion)
     lines = part_lines(model, part_motions(model, parts, motion))
     assert len(part_motions(model, parts, motion)) == n - 1
-    assert "and 19 lighter ones" in lines[-1]
+    assert "and 19 more" in lines[-1]
     assert max(map(len, lines)) <= WIDTH
 
 

@@ -45,7 +45,7 @@ def test_without_a_motion_there_is_no_angle() -> None:
     solution = replace(results.cases[1].solution, certificate=None)
     without = replace(results, cases=(results.cases[0], replace(results.cases[1], solution=solution)))
     found = compare_results(results, without)
-    assert "mechanisms not compared: no motion is given" in text_of(found)
+    assert "mechanisms not compared: B has no motion without equilibrium that is a result" in text_of(found)
     mechanics = results.cases[0].solution.mechanics
     assert mechanics is not None
     still = replace(mechanics, mechanism=np.zeros((3, 6)))

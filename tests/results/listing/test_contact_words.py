@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport
-from mbla.results.listing.model_words import MOST_ROWS, contact_lines, finding_lines
+from mbla.results.listing.model_words import contact_lines, finding_lines
+from mbla.results.listing.text import MOST_ROWS
 from tests.results.synthetic import empty_report, tower_contacts, tower_model
 
 

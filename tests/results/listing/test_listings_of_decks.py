@@ -6,32 +6,26 @@ from pathlib import Path
 import pytest
 
 from mbla import run
-from mbla.results.listing.figures import PURPOSES
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
 
 DECKS = Path("decks")
 KINDS = {
-    "tutorials/wall": ("Part 1, the upper right corner", "The whole structure (52 blocks) turns about -x"),
+    "tutorials/wall": ("Part 1, the upper right part", "Everything that is free (52 blocks) turns about -x"),
     "benchmarks/closed_forms/spreading_arch": (
-        "on the extrados between parts 1 and 2",
-        "is a lower limit",
+        "2/1 (2, 1, 2.6) 1 -y extrados",
+        "is an upper limit to all",
     ),
-    "benchmarks/closed_forms/tilting_block": ("It slides over ground z = 0 along +x", "degrees of tilt"),
-    "benchmarks/closed_forms/overhang_too_far": (
-        "No equilibrium",
-        "over base[0], on a hinge from (0, 0, 0.2)",
-        "Nothing slides.",
-    ),
+    "benchmarks/closed_forms/tilting_block": ("moves along +x", "degrees of tilt"),
+    "benchmarks/closed_forms/overhang_too_far": ("No equilibrium",),
     "benchmarks/closed_forms/incline_too_steep": (
-        "moves along (-0.894, 0, 0.447), without turning.",
-        "It slides over",
+        "moves along (-0.89, 0, 0.45).",
         "need not be the way in which it falls",
     ),
     "benchmarks/closed_forms/groove_locked": ("No collapse", "Locked: these forces"),
-    "tutorials/travelling_load": ("any multiple", "on the extrados"),
-    "benchmarks/closed_forms/leaves": ("Part 1, thin[0]",),
+    "tutorials/travelling_load": ("any multiple", "extrados"),
+    "benchmarks/closed_forms/leaves": ("the part at the -y end (thin[0]",),
     "benchmarks/closed_forms/guided_blocks": ("was not determined, as blocks are guided",),
     "benchmarks/closed_forms/glued_lintel": ("turns about",),
     "benchmarks/closed_forms/torque_convex": ("twists",),
@@ -47,7 +41,6 @@ KINDS = {
 @pytest.mark.parametrize("deck", KINDS)
 def test_a_listing_of_every_kind(deck: str) -> None:
     results = run(DECKS / f"{deck}.yaml").records
-    assert {program.kind for case in results.cases for program in case.solution.programs} <= set(PURPOSES)
     for text in (listing(results), "\n".join(summary_lines(results))):
         lines = text.splitlines()
         assert max(map(len, lines)) <= WIDTH

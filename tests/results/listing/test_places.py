@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.model.solids.blocks import join_labels, labels_of, no_labels
-from mbla.results.listing.places import block_names, label_words
+from mbla.results.listing.places import group_words, label_words
 from tests.results.synthetic import cuboids, tower_model
 
 
@@ -16,17 +16,15 @@ from tests.results.synthetic import cuboids, tower_model
         ([0], "wall[0]"),
         ([0, 1, 2], "wall[0..2]"),
         ([2, 0, 1], "wall[0..2]"),
-        ([0, 2, 3], "wall[2..3], wall[0]"),
-        ([2, 6], "arch[0], wall[2]"),  # groups are not run together though blocks may follow each other
-        ([5, 6], "arch[0], wall[5]"),
-        ([0, 2, 4, 6, 7], "arch[0..1], wall[0] and 2 more"),
+        ([0, 2, 3], "3 blocks of wall"),
+        ([5, 6], "2 blocks of wall, arch"),  # groups are not run together though blocks may follow each other
     ],
 )
-def test_stretches(blocks: list[int], words: str) -> None:
+def test_blocks_by_their_groups(blocks: list[int], words: str) -> None:
     lower = np.array([[i, 0, 0] for i in range(9)], float)
     model = tower_model()
     model = type(model)(**{**vars(model), "blocks": cuboids(lower, lower + 1, ["wall"] * 6 + ["arch"] * 3)})
-    assert block_names(model, np.array(blocks)) == words
+    assert group_words(model, np.array(blocks)) == words
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------

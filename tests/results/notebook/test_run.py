@@ -28,7 +28,7 @@ def test_solved_case() -> None:
     assert np.isnan([case.angle, case.reaction]).all()
     assert case.mechanism is not None
     assert case.mechanism[1, 4] == 0.1
-    assert case.summary == "push_x: collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves"
+    assert case.summary == "push_x: collapses at 0.5 g, verified: 1 hinge; 1 of 2 free blocks moves as one rigid part"
     assert "0.5 g" in repr(case)
     assert case.certificate is None
 
