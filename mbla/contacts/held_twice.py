@@ -60,9 +60,16 @@ def counted_once(
     bodies = patches.overlays.bodies
     other = np.where(bodies[earlier, 0] == bodies[later, 1], bodies[earlier, 1], bodies[earlier, 0])
     moving = ~np.append(still, np.ones(len(model.grounds), dtype=bool))[other]
-    at_odds = np.flatnonzero(moving | (laws.rows[rows[later]] != laws.rows[rows[earlier]]))
-    if len(at_odds):
-        words = _at_odds(model, patches, laws, rows, later[at_odds], earlier[at_odds])
+    at_odds = moving | (laws.rows[rows[later]] != laws.rows[rows[earlier]])
+    if at_odds.any():
+        bodies, other = bodies[later[at_odds]], other[at_odds]
+        law, other_law = (laws.names[laws.rows[rows[each[at_odds][0]]]] for each in (later, earlier))
+        moves = f"{model.body_name(int(other[0]))} can move"
+        why = moves if law == other_law else f"by different joints, {other_law} and {law}"
+        words = (
+            f"{_in_words(model, bodies, other)}, {why}: leave one of them out, name the blocks that the ground carries "
+            "with blocks, or leave out one of the two interfaces by the joint open in contacts.overrides"
+        )
         raise ContactsRefused("supports-at-odds", words, ("supports",))
     cut = patches.polygons.copy()
     chosen, row = np.unique(later, return_inverse=True)
@@ -72,7 +79,8 @@ def counted_once(
     wide = ~np.isin(source, chosen) | (widths(parts) >= tolerance * (1 - _WHOLE))
     parts, source = parts[wide], source[wide]
     left = replace(patches.take(source), polygons=parts, widths=widths(parts))
-    return left, source, [_told(model, patches, later, earlier)]
+    words = f"{_in_words(model, bodies[later], other)}: it is counted once, on {model.body_name(int(other[0]))}"
+    return left, source, [Notice("notice", "supports-in-one-plane", words)]
 
 
 def _shared(patches: Patches, n_blocks: int, tolerance: float) -> tuple[IntArray, IntArray, Polygons]:
@@ -107,37 +115,8 @@ def _shared(patches: Patches, n_blocks: int, tolerance: float) -> tuple[IntArray
     return later[wide], earlier[wide], common[wide]
 
 
-def _names(model: Model, patches: Patches, later: int, earlier: int) -> tuple[str, str, str]:
-    """The block, the body that holds it first, and the ground."""
-    bodies = patches.overlays.bodies
-    ground, block = (int(body) for body in bodies[later])
-    (other,) = (int(body) for body in bodies[earlier] if body != block)
-    return model.body_name(block), model.body_name(other), model.body_name(ground)
-
-
-def _told(model: Model, patches: Patches, later: IntArray, earlier: IntArray) -> Notice:
-    block, other, ground = _names(model, patches, int(later[0]), int(earlier[0]))
-    more = f", and {len(later) - 1} more such pieces are held twice" if len(later) > 1 else ""
-    text = f"{_both(other, ground)} hold the same piece of a face of {block}: it is counted once, on {other}{more}"
-    return Notice("notice", "supports-in-one-plane", text)
-
-
-def _both(other: str, ground: str) -> str:
-    """Both by their names, told apart where these are alike."""
-    return f"{ground} and another {ground}" if other == ground else f"{other} and {ground}"
-
-
-def _at_odds(model: Model, patches: Patches, laws: Laws, rows: IntArray, later: IntArray, earlier: IntArray) -> str:
-    block, other, ground = _names(model, patches, int(later[0]), int(earlier[0]))
-    law, other_law = (laws.names[laws.rows[rows[pair[0]]]] for pair in (later, earlier))
-    why = f"{other} can move" if law == other_law else f"by different joints, {other_law} and {law}"
-    more = f" (and {len(later) - 1} more pieces)" if len(later) > 1 else ""
-    apart = (
-        ""
-        if int(patches.overlays.bodies[earlier[0], 0]) >= len(model.blocks)
-        else (", or leave out one of the two interfaces by the joint open in contacts.overrides")
-    )
-    return (
-        f"{_both(other, ground)} hold the same piece of a face of {block}{more}, {why}: leave one of them out, or name "
-        f"the blocks that the ground carries with blocks{apart}"
-    )
+def _in_words(model: Model, bodies: IntArray, other: IntArray) -> str:
+    """The first of such pieces; bodies (n, 2) of the ground and the block, and the other support of each, (n,)."""
+    ground, block = (model.body_name(int(body)) for body in bodies[0])
+    more = f" (and {len(other) - 1} more such pieces)" if len(other) > 1 else ""
+    return f"{model.body_name(int(other[0]))} and {ground} hold the same piece of a face of {block}{more}"

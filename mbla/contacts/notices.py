@@ -12,17 +12,14 @@ from mbla.contacts.corners import Corners
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.polygons import areas
-from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap, nearest_words
+from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap
 from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.model.solids.ragged import next_item
 
 # So many are named in a notice; the arrays of the report have all.
 _NAMED = 3
-# Relative difference of two thicknesses that are one; solids are intersected to about half the digits.
-WHOLE = 1e-6
 
 
 def report_notices(
@@ -86,33 +83,11 @@ def glue_words(report: ContactReport, sizes: IntArray) -> str:
 
 def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
     """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
-    pairs = zip(report.overlaps.tolist(), report.overlap_depths.tolist(), strict=True)
-    return tuple(_overlap_in_words(model, a, b, depth) for (a, b), depth in pairs)
-
-
-def _overlap_in_words(model: Model, a: int, b: int, depth: float) -> str:
-    for inner, outer in ((a, b), (b, a)):
-        if _wholly_inside(model, inner, outer, depth):
-            where = f"{model.body_name(inner)} lies wholly inside {model.body_name(outer)}"
-            return f"{where}: leave one of them out; a block has no hollows"
-    return (
-        f"{model.body_name(a)} and {model.body_name(b)} overlap by {_length(model, (a, b), depth)}: move them apart"
+    return tuple(
+        f"{_pair(model, pair)} overlap by {_length(model, pair.tolist(), depth)}: move them apart, leave one out"
         f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
+        for pair, depth in zip(report.overlaps, report.overlap_depths.tolist(), strict=True)
     )
-
-
-def _wholly_inside(model: Model, inner: int, outer: int, depth: float) -> bool:
-    """Whether what two blocks share is one of them: its thickness, 2 V / S, is then that of this block."""
-    blocks = model.blocks
-    if blocks.volumes[inner] > blocks.volumes[outer]:
-        return False
-    faces = slice(blocks.face_start[inner], blocks.face_start[inner + 1])
-    corners = blocks.vertices[blocks.loops[blocks.loop_start[faces.start] : blocks.loop_start[faces.stop]]]
-    start = blocks.loop_start[faces.start : faces.stop + 1] - blocks.loop_start[faces.start]
-    arms = corners - corners[0]
-    vectors = 0.5 * np.add.reduceat(np.cross(arms, arms[next_item(start)]), start[:-1], axis=0)
-    thickness = 2 * blocks.volumes[inner] / np.linalg.norm(vectors, axis=1).sum()
-    return bool(abs(depth * blocks.sizes[[inner, outer]].min() / thickness - 1) < WHOLE)
 
 
 def _overlaps(model: Model, report: ContactReport) -> list[Notice]:
@@ -171,11 +146,9 @@ def _isolated(model: Model, section: ContactsSection, report: ContactReport, joi
         return []
     verb = "touches nothing" if number == 1 else "touch nothing"
     text = f"{number} of {_count(len(model.blocks), 'block')} {verb}: {_names(model, report.isolated)}"
-    adrift = [part for part in report.unsupported if len(part) == 1]
-    text += (nearest_words(model, adrift[0]) if adrift else "") + joined
     if section.isolated == "allow":
-        return [Notice("notice", "isolated-blocks", text)]
-    return [Notice("warning", "isolated-blocks", f"{text}; exit status 4, unless contacts.isolated is allow")]
+        return [Notice("notice", "isolated-blocks", text + joined)]
+    return [Notice("warning", "isolated-blocks", f"{text}{joined}; exit status 4, unless contacts.isolated is allow")]
 
 
 def _unsupported(model: Model, report: ContactReport, joined: str) -> list[Notice]:
@@ -185,8 +158,7 @@ def _unsupported(model: Model, report: ContactReport, joined: str) -> list[Notic
     text = (
         f"{_count(len(parts), 'part')} of the structure not connected to a support; the "
         f"{'largest' if len(parts) > 1 else 'part'} has "
-        f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}"
-        f"{nearest_words(model, max(parts, key=len))}{joined}"
+        f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}{joined}"
     )
     return [Notice("warning", "unsupported-parts", text)]
 

@@ -14,7 +14,7 @@ from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.deck.units import Units
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.solids.blocks import Blocks, no_labels
-from mbla.model.solids.build import Labels, blocks_from_polyhedra, build_blocks, indices_in_groups
+from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
 from mbla.model.solids.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
 
 DECKS = Path(__file__).parents[2] / "decks"
@@ -104,25 +104,6 @@ def _half_bond(units: int, length: float) -> FloatArray:
 
 
 # Walls of Ferris and Tin-Loi by course, bottom to top, in units of 0.4 m; negative lengths are gaps.
-_COURSES: dict[int, dict[str, list[float]]] = {
-    1: {"A": [0.5, 1, 1, 1, 1, 0.5], "B": [1, 1, 1, 1, 1]},
-    3: {"E": [1, 1, 1, 1], "F": [0.5, 1, 1, 1, 0.5], "U": [0.5, 1, -1, 1, 0.5], "W": [1, 0.5, -1, 0.5, 1]},
-    5: {"E": [0.5, 1, 1, 0.5], "F": [1, 1, 1], "U": [1, -1, 1], "W": [0.5, 0.5, -1, 0.5, 0.5]},
-}
-_WALLS = {1: "ABABAB", 3: "EFEUWUWUEFE", 5: "EFEUWUWUEFEUWUWUEFE"}
-
-
-def perforated_wall(number: int) -> Polyhedra:
-    """Wall 1, 3 or 5 of Ferris and Tin-Loi on the plane z = 0, 0.2 m thick."""
-    least, greatest = [], []
-    for course, kind in enumerate(_WALLS[number]):
-        lengths = _COURSES[number][kind]
-        ends = np.concatenate([[0.0], np.cumsum(np.abs(lengths))]) * 0.4
-        for length, left, right in zip(lengths, ends[:-1], ends[1:], strict=True):
-            if length > 0:
-                least.append([left, 0.0, course * 0.175])
-                greatest.append([right, 0.2, (course + 1) * 0.175])
-    return cuboids(np.array(least), np.array(greatest))
 
 
 def moved(
@@ -164,29 +145,3 @@ def prism(outline: Sequence[Sequence[float]], bottom: float, top: float) -> Poly
 def profile(outline: Sequence[Sequence[float]]) -> Polyhedra:
     """Prism from y = 0 to 1 over a simple polygon in the plane of x and z."""
     return moved(prism(outline, -1.0, 0.0), turn=np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]))
-
-
-def exported(name: str) -> Path | None:
-    """A geometry file that a deck of the project carries."""
-    return next(iter(sorted(DECKS.rglob(name))), None)
-
-
-def read_obj(path: Path) -> Blocks:
-    """One block for each object of an OBJ file."""
-    points: list[list[float]] = []
-    objects: list[list[list[int]]] = []
-    for line in path.read_text().splitlines():
-        key, *words = line.split() or [""]
-        if key == "v":
-            points.append([float(word) for word in words])
-        elif key == "o":
-            objects.append([])
-        elif key == "f":
-            objects[-1].append([int(word.split("/")[0]) - 1 for word in words])
-    vertex_lists, face_lists = [], []
-    for faces in objects:
-        used = sorted({corner for face in faces for corner in face})
-        row = {corner: i for i, corner in enumerate(used)}
-        vertex_lists.append([points[corner] for corner in used])
-        face_lists.append([[row[corner] for corner in face] for face in faces])
-    return blocks_from_polyhedra(vertex_lists, face_lists)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray, starts
-from mbla.contacts.convex import clip_convex, convex_loops, signed_areas
+from mbla.contacts.convex import clip_convex, convex_loops
 
 
 def test_convexity_of_loops() -> None:
@@ -24,14 +24,6 @@ def test_convexity_of_loops() -> None:
     loops = [square, turned, flat_corner, notched, star, twice, twice[::-1]]
     start = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])])
     assert convex_loops(np.concatenate(loops), start).tolist() == [True, True, True, False, False, True, True]
-
-
-def test_areas_of_loops_have_the_sign_of_their_turn() -> None:
-    """A rectangle of 3 by 2, the same the other way round, and a triangle of half of it, away from the origin."""
-    rectangle = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]]) + np.array([10.0, -7.0])
-    loops = [rectangle, rectangle[::-1], rectangle[:3]]
-    start = np.array([0, 4, 8, 11])
-    assert signed_areas(np.concatenate(loops), start) == pytest.approx([6.0, -6.0, 3.0], rel=1e-12)
 
 
 def clip(first: FloatArray, second: FloatArray) -> FloatArray:
@@ -52,10 +44,6 @@ def shifted(x: float, y: float) -> FloatArray:
     return np.asarray(SQUARE + np.array([x, y]))
 
 
-def test_overlapping_squares() -> None:
-    assert area(clip(SQUARE, shifted(0.25, 0.5))) == pytest.approx(0.375, rel=1e-15)
-
-
 def test_orientation_of_either_does_not_matter() -> None:
     other = shifted(0.25, 0.5)
     for first in (SQUARE, SQUARE[::-1]):
@@ -67,14 +55,6 @@ def test_orientation_of_either_does_not_matter() -> None:
 def test_size_of_both_does_not_matter(scale: float) -> None:
     common = area(clip(scale * SQUARE, scale * shifted(0.25, 0.5)))
     assert common / scale**2 == pytest.approx(0.375, rel=1e-14)
-
-
-def test_polygons_apart_have_nothing_in_common() -> None:
-    assert len(clip(SQUARE, shifted(2.0, 0.0))) == 0
-
-
-def test_polygons_that_share_an_edge_have_no_area_in_common() -> None:
-    assert abs(area(clip(SQUARE, shifted(1.0, 0.0)))) == 0.0
 
 
 def test_squares_that_differ_by_rounding_are_not_lost() -> None:

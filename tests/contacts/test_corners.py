@@ -31,12 +31,6 @@ def test_collinear_and_double_corners_go() -> None:
     assert len(corners.points) == 4
 
 
-def test_a_corner_that_is_listed_three_times_is_left_once() -> None:
-    outline: Outline = [[0, 0], [1, 0], [1, 1], [1, 1], [1, 1], [0, 1]]
-    corners = needed_corners(polygons(outline), 1e-3)
-    assert corners.points.tolist() == [[0, 0], [1, 0], [1, 1], [0, 1]]
-
-
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_the_tip_of_a_thin_tongue_stays(mirrored: bool) -> None:
     """It lies far beyond the corner after it, though hardly off the line to that."""
@@ -121,22 +115,6 @@ def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_th
     outline: Outline = [[0, 0], [0.5, 0], [3, 0], [3, 3], [1, 3], tip, [2, 2], [2, 1], dent, [0, 1]]
     assert len(needed_corners(polygons(outline), 1e-3).points) == len(outline)
     assert len(needed_corners(polygons([*outline[:5], [1, 1.5], *outline[6:]]), 1e-3).points) == len(outline) - 2
-
-
-def test_corners_on_both_sides_of_a_hairline_neck() -> None:
-    """Seen where faces with a snapped outline meet at an edge: the corner of one square lies on the side of another."""
-    outline: Outline = [
-        [-0.2311389721, -0.09932687846],
-        [-0.4279989713, 0.56550091694],
-        [0.2368288241, 0.76236091614],
-        [0.4336888233, 0.09753312075],
-        [-0.23113897209, -0.09932687845],
-        [-0.03427897289, -0.76415467375],
-        [-0.0342789729, -0.76415467375],
-    ]
-    corners = needed_corners(polygons(outline), 1e-3)
-    assert shapely.Polygon(corners.points).is_valid
-    assert areas_and_centroids(corners)[0] == pytest.approx([shapely.Polygon(outline).area], rel=1e-9)
 
 
 def test_area_and_centroid_far_from_the_local_origin() -> None:

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from mbla.arrays import IntArray
-from mbla.contacts.facets import Facets, _face_areas, build_facets, facets_on_one_plane
+from mbla.contacts.facets import Facets, build_facets, facets_on_one_plane
 from mbla.contacts.polygons import Polygons, union_by_row
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
@@ -58,16 +58,6 @@ def test_the_middle_of_a_facet_does_not_hang_on_how_large_the_other_blocks_are(b
     assert facets.origins[top] == pytest.approx(np.array([[1.0, 0.5, 1.0]]))
 
 
-def test_corners_of_a_facet_of_two_faces_are_not_moved() -> None:
-    turn = any_rotation(5)
-    facets = build_facets(blocks_of(moved(cut_top(), turn=turn)))
-    top = top_of(facets, turn @ [0, 0, 1])
-    flat = shapely.get_coordinates(facets.polygons[top])
-    found = facets.origins[top] + flat @ facets.frames[top, 1:]
-    corners = np.array([[x, y, 1] for x in (0, 0.5, 2) for y in (0, 1)]) @ turn.T
-    assert np.linalg.norm(found[:, None] - corners, axis=2).min(axis=1).max() < 1e-13
-
-
 def test_what_uniting_faces_without_a_grid_loses_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
     def losing(polygons: Polygons, row: IntArray, n_rows: int, grid: float | None = None) -> Polygons:
         if grid is None:
@@ -99,15 +89,3 @@ def test_two_soles_on_one_plane_are_one_facet() -> None:
     assert facets.convex[facets.blocks == 1].all()
     alone = boxes(([0, 0, 0], [1, 1, 1]))
     assert len(build_facets(blocks_of(alone))) == 6
-
-
-def test_soles_on_one_plane_are_one_facet_of_any_block() -> None:
-    facets = build_facets(blocks_of(join_polyhedra([boxes(([5, 0, 0], [6, 1, 1])), bracket()])))
-    assert facets.facet_start.tolist() == [0, 6, 15]
-
-
-def test_a_face_without_area_still_has_a_weight() -> None:
-    line = np.array([[-1.0, -1.0, -1.0], [-2.0, -2.0, -2.0], [-3.0, -3.0, -3.0]])
-    square = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
-    areas = _face_areas(np.concatenate([line, square]), np.array([0, 3, 7]), np.array([[0.0, 0.0, 1.0]] * 2))
-    assert areas == pytest.approx([27e-12, 4.0])

@@ -75,12 +75,6 @@ def test_one_guide_of_two_blocks_that_are_glued_is_none_too_many() -> None:
     assert factor_of(tower("[b,c]", guide)) == pytest.approx(0.5, rel=1e-6)
 
 
-def test_one_guide_of_two_blocks_that_are_glued_is_none_too_many_where_they_stand_about_the_origin() -> None:
-    guide = ", {blocks: [b, c], turn: {axis: [0, 1, 0], about: [0.5, 0, 1]}, together: true}"
-    text = tower("[b,c]", guide).replace("min: [0, 0,", "min: [-0.5, -0.5,").replace("max: [1, 1,", "max: [0.5, 0.5,")
-    assert factor_of(text) == pytest.approx(0.5, rel=1e-6)
-
-
 def test_a_guided_block_glued_to_a_support_is_refused() -> None:
     guide = ", {blocks: a, fixed: [y, z, rx, ry, rz]}"
     assert "a[0] may move in some way, but glue holds it to a support" in message(tower("[a,ground]", guide))

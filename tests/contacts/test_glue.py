@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.glue import glue_blocks, held_model, solid_sizes, solids_of
+from mbla.contacts.glue import glue_blocks, held_model, solids_of
 from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.polyhedra import take_polyhedra
@@ -142,20 +142,6 @@ def test_blocks_that_are_glued_may_not_overlap_either() -> None:
     assert len(find_contacts(model, ContactsSection(joint="glued")).report.overlaps) == 1
 
 
-def test_sizes_of_solids() -> None:
-    assert solid_sizes(np.array([0, 1, 0, 2, 2, 2, 3])).tolist() == [2, 3]
-    assert solid_sizes(np.array([0, 1])).tolist() == []
-    assert solid_sizes(None).tolist() == []
-
-
-def test_a_fixed_block_beside_one_that_glue_holds() -> None:
-    model = model_of(blocks_of(TOWER, GROUPS), fixed=[0], grounds=(ground(),))
-    overrides = [ContactOverride(between=pair, joint="glued") for pair in (("ground", "a"), ("a", "b"))]
-    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
-    assert held_model(model, contacts).fixed.tolist() == [True, True, False, False, False]
-    assert not model.fixed[1]
-
-
 def test_grounds_keep_their_order_behind_the_solids() -> None:
     wall = ground(point=(0, 0, 0), normal=(1, 0, 0))
     model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(), wall))
@@ -166,14 +152,6 @@ def test_grounds_keep_their_order_behind_the_solids() -> None:
         *([0, 1], [1, 2], [2, 3], [4, 0]),
         *([5, block] for block in (0, 1, 2, 3, 3)),
     ]
-
-
-def test_without_glue_every_block_is_the_first_of_its_own_solid() -> None:
-    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(),))
-    solids = solids_of(model, find_contacts(model, ContactsSection(joint="dry")))
-    assert solids.first_blocks.tolist() == [0, 1, 2, 3, 4]
-    held, contacts = glued(("a", "b"), ("d", "e"))
-    assert solids_of(held, contacts).first_blocks.tolist() == [0, 2, 3]
 
 
 DECK = """

@@ -39,7 +39,7 @@ def test_a_ground_given_again_holds_nothing(count: int) -> None:
     contacts = found([BLOCK], (ground(),) * count)
     assert on(contacts) == [(1, 0, 4.0)]
     told = [notice.message for notice in contacts.report.notices if notice.identifier == "supports-in-one-plane"]
-    assert told[0].startswith("ground and another ground hold the same piece of a face of block[0]: it is counted once")
+    assert told[0].startswith("ground and ground hold the same piece of a face of block[0]")
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_a_wall_and_a_floor_hold_different_faces() -> None:
 @pytest.mark.parametrize("shapes", [[BLOCK], [BLOCK, HALF]])
 def test_different_joints_are_refused(shapes: list[tuple[list[float], list[float]]]) -> None:
     grounds = (ground(), ground(joint="lead"))
-    with pytest.raises(ContactsRefused, match=r"by different joints, dry and lead: leave one of them out, or name"):
+    with pytest.raises(ContactsRefused, match=r"by different joints, dry and lead: leave one of them out"):
         found(shapes, grounds)
 
 

@@ -16,7 +16,6 @@ from tests.contacts.structures import (
     any_rotation,
     blocks_of,
     boxes,
-    contacts_of,
     model_of,
     moved,
     prism,
@@ -51,12 +50,6 @@ def test_overlap_within_the_tolerance_is_none() -> None:
 def test_identical_blocks_overlap(scale: float) -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, 1, 1]))
     found = overlaps_of(moved(pair, scale=scale, turn=any_rotation()))
-    assert found.pairs.tolist() == [[0, 1]]
-    assert found.depths == pytest.approx([1 / 3], rel=1e-9)
-
-
-def test_a_block_inside_another_overlaps() -> None:
-    found = overlaps_of(boxes(([0, 0, 0], [10, 10, 10]), ([4, 4, 4], [5, 5, 5])))
     assert found.pairs.tolist() == [[0, 1]]
     assert found.depths == pytest.approx([1 / 3], rel=1e-9)
 
@@ -98,16 +91,6 @@ def test_a_turned_wall_has_no_overlaps() -> None:
     assert len(overlaps_of(moved(running_bond(6, 6), turn=any_rotation(5))).pairs) == 0
 
 
-def test_block_that_is_no_closed_solid_is_said_to_be_unchecked() -> None:
-    blocks = blocks_of(boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.5], [1, 1, 1.5])))
-    loops = blocks.loops.copy()
-    loops[:4] = loops[4:8]  # one face twice, its opposite missing
-    report = find_contacts(model_of(replace(blocks, loops=loops)), section()).report
-    assert report.unchecked.tolist() == [[0, 1]]
-    assert len(report.overlaps) == 0
-    assert "overlap-not-checked" in {notice.identifier for notice in report.notices}
-
-
 def test_of_blocks_with_a_plane_between_them_neither_need_be_a_closed_solid() -> None:
     """The boxes around them overlap, for they are turned."""
     for gap, unchecked in ((0.0, []), (-0.5, [[0, 1]])):
@@ -123,17 +106,6 @@ def test_of_blocks_with_a_plane_between_them_neither_need_be_a_closed_solid() ->
 def test_the_depth_far_from_the_origin(shift: float) -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.75], [1, 1, 1.75]))
     assert overlaps_of(moved(pair, shift=shift)).depths == pytest.approx([0.5 / 3], rel=1e-12)
-
-
-@pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
-def test_a_block_inside_another_is_called_that(turn: np.ndarray | None) -> None:
-    three = boxes(([0, 0, 0], [3, 3, 3]), ([1, 1, 1], [2, 2, 2.5]), ([2.5, 0, 0], [5, 3, 3]))
-    contacts = contacts_of(moved(three, turn=turn), fixed=[0])
-    words = [notice.message for notice in contacts.report.notices if notice.identifier == "blocks-overlap"]
-    assert words == [
-        "block[1] lies wholly inside block[0]: leave one of them out; a block has no hollows",
-        "block[0] and block[2] overlap by 0.375 m, 0.13 of the block size: move them apart",
-    ]
 
 
 def test_of_many_overlaps_the_first_are_told(monkeypatch: pytest.MonkeyPatch) -> None:

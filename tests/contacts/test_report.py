@@ -1,7 +1,5 @@
 """What the report says about a structure that has exactly one thing wrong with it.
 
-What lies nearest to a part that nothing holds, in words: distances of boxes, by hand.
-
 Round faces whose corners lie within the tolerance of their outline: the remark, and where it is not made.
 """
 
@@ -9,16 +7,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import pytest
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.report import isolated_blocks, joining_gap, nearest_words, unsupported_parts
-from mbla.model.model import Ground
+from mbla.contacts.report import joining_gap, unsupported_parts
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
@@ -77,13 +72,6 @@ def test_near_miss_of_the_ground() -> None:
     assert set(words(report)) == {"near-misses", "isolated-blocks", "ground-without-contact"}
 
 
-def test_neighbours_but_one_in_a_pile_of_tiles_are_no_near_misses() -> None:
-    """The tile between fills the gap of 0.05 of the block size."""
-    pile = boxes(*(([0, 0, 0.01 * i], [1, 1, 0.01 * (i + 1)]) for i in range(4)))
-    report = contacts_of(moved(pile, turn=any_rotation(2)), fixed=[0], tolerance=1e-2).report
-    assert len(report.near_misses) == 0
-
-
 @pytest.mark.parametrize("turn", [None, any_rotation(2)], ids=["along the axes", "turned"])
 def test_neighbours_but_one_of_tiles_like_an_l_are_no_near_misses(turn: np.ndarray | None) -> None:
     """The middle of what they share lies in the notch."""
@@ -123,8 +111,7 @@ def test_isolated_block() -> None:
     assert report.isolated.tolist() == [1]
     assert [part.tolist() for part in report.unsupported] == [[1]]
     assert words(report) == {
-        "isolated-blocks": "1 of 3 blocks touches nothing: block[1]; nearest to it is block[0], 4 m from block[1], by "
-        "the boxes around them; exit status 4, unless contacts.isolated is allow"
+        "isolated-blocks": "1 of 3 blocks touches nothing: block[1]; exit status 4, unless contacts.isolated is allow"
     }
 
 
@@ -134,26 +121,8 @@ def test_part_that_reaches_no_support() -> None:
     assert [part.tolist() for part in report.unsupported] == [[1, 3]]
     assert words(report) == {
         "unsupported-parts": "1 part of the structure not connected to a support; the part has 2 blocks: "
-        "block[1], block[3]; nearest to it is block[0], 4 m from block[1], by the boxes around them"
+        "block[1], block[3]"
     }
-
-
-def test_the_gap_below_a_part_without_support() -> None:
-    """The box of a tier 0.0128 m above the one it was meant to stand on; a block that meets an edge only; a ground."""
-    tiers = boxes(([0, 0, 0], [3, 1, 1]), ([0, 0, 1.0128], [1, 1, 2]), ([1, 0, 1.0128], [2, 1, 2]))
-    assert "nearest to it is block[0], 0.0128 m from block[1]" in words(contacts_of(tiers, fixed=[0]).report).get(
-        "unsupported-parts", ""
-    )
-    edge = boxes(([0, 0, 0], [1, 1, 1]), ([1, 0, 1], [2, 1, 2]))
-    assert (
-        "nearest to it is block[0], which block[1] meets or overlaps without a common surface"
-        in words(contacts_of(edge, fixed=[0]).report)["isolated-blocks"]
-    )
-    above = boxes(([0, 0, 0.02], [1, 1, 1]))
-    assert (
-        "nearest to it is ground, 0.02 m from block[0]"
-        in words(contacts_of(above, grounds=(ground(),)).report)["isolated-blocks"]
-    )
 
 
 def test_parts_are_not_connected_through_a_support_that_only_one_touches() -> None:
@@ -172,15 +141,6 @@ def test_block_on_both_sides_of_the_ground() -> None:
     row = boxes(([0, 0, 0], [1, 1, 1]), ([1, 0, -0.5], [2, 1, 0.5]))
     report = contacts_of(row, grounds=(ground(),)).report
     assert words(report)["block-crosses-ground"] == "1 block on both sides of ground: block[1]"
-
-
-def test_override_without_contact() -> None:
-    stack = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1], [1, 1, 2]))
-    model = model_of(blocks_of(stack, ["base", "top"]), fixed=[0])
-    report = find_contacts(model, section(overrides=[("top", "top", "mortar")])).report
-    assert words(report) == {
-        "override-without-contact": "no contact between top and top: the override with joint mortar has no effect"
-    }
 
 
 def test_fixed_bodies_among_themselves_are_not_reported() -> None:
@@ -250,86 +210,6 @@ def parts(fixed: list[bool], bodies: list[tuple[int, int]]) -> list[list[int]]:
 )
 def test_parts_without_support(fixed: list[bool], bodies: list[tuple[int, int]], left: list[list[int]]) -> None:
     assert parts(fixed, bodies) == left
-
-
-def test_isolated_blocks_ignore_the_ground() -> None:
-    assert isolated_blocks(3, np.array([[3, 1]])).tolist() == [0, 2]
-
-
-CUBE = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-Box = tuple[Sequence[float], Sequence[float]]
-
-
-def words_of_nearest(part: Sequence[int], *extremes: Box, grounds: tuple[Ground, ...] = ()) -> str:
-    names = [f"b{number}" for number in range(len(extremes))]
-    return nearest_words(model_of(blocks_of(boxes(*extremes), names), grounds=grounds), np.array(part))
-
-
-def at(*corner: float) -> Box:
-    return corner, [place + 1.0 for place in corner]
-
-
-@pytest.mark.parametrize(
-    ("corner", "gap"),
-    [
-        ((4.0, 0.0, 0.0), "3"),
-        ((-4.0, 0.5, 0.5), "3"),
-        ((4.0, 5.0, 0.0), "5"),
-        ((0.0, -4.0, 5.0), "5"),
-        ((3.0, -3.0, 2.0), "3"),
-        ((1.0 + 1e-6, 0.0, 0.0), "1e-06"),
-    ],
-)
-def test_distance_of_two_boxes(corner: tuple[float, ...], gap: str) -> None:
-    assert (
-        words_of_nearest([1], CUBE, at(*corner))
-        == f"; nearest to it is b0[0], {gap} m from b1[0], by the boxes around them"
-    )
-
-
-def test_boxes_that_meet_or_overlap() -> None:
-    met = "; nearest to it is b0[0], which b1[0] meets or overlaps without a common surface"
-    assert words_of_nearest([1], CUBE, at(1.0, 1.0, 1.0)) == met
-    assert words_of_nearest([1], CUBE, at(0.5, 0.5, 0.5)) == met
-    assert words_of_nearest([1], CUBE, at(1.0 + 0.9e-9, 0.0, 0.0)) == met
-    assert "by the boxes" in words_of_nearest([1], CUBE, at(1.0 + 1.1e-9, 0.0, 0.0))
-
-
-def test_the_nearest_of_many_and_of_the_part() -> None:
-    row = [at(3.0 * x, 0.0, 0.0) for x in range(4)]
-    assert words_of_nearest([2, 3], *row).startswith("; nearest to it is b1[0], 2 m from b2[0]")
-    assert words_of_nearest([0, 3], *row).startswith("; nearest to it is b1[0], 2 m from b0[0]")
-    assert words_of_nearest([1], *row[:2], at(4.5, 0.0, 0.0)).startswith("; nearest to it is b2[0], 0.5 m from b1[0]")
-
-
-def test_ground_is_as_far_as_the_lowest_corner() -> None:
-    apart = (at(0.0, 0.0, 0.25), at(5.0, 0.0, 0.5))
-    assert words_of_nearest([0, 1], *apart, grounds=(ground(),)) == (
-        "; nearest to it is ground, 0.25 m from b0[0], by the boxes around them"
-    )
-    assert words_of_nearest([1], *apart, grounds=(ground(),)).startswith("; nearest to it is ground, 0.5 m from b1[0]")
-    only_other = (ground(blocks=[1]),)
-    assert words_of_nearest([0, 1], *apart, grounds=only_other).startswith(
-        "; nearest to it is ground, 0.5 m from b1[0]"
-    )
-    assert words_of_nearest([0], *apart, grounds=only_other).startswith("; nearest to it is b1[0], 4 m from b0[0]")
-    sunk = (at(0.0, 0.0, -0.125),)
-    assert words_of_nearest([0], *sunk, grounds=(ground(),)).startswith("; nearest to it is ground, 0.125 m")
-    wall = (ground(point=(3, 0, 0), normal=(-1, 0, 0)),)
-    assert words_of_nearest([0], CUBE, grounds=wall).startswith("; nearest to it is ground, 2 m")
-
-
-def test_alone() -> None:
-    assert words_of_nearest([0], CUBE) == ""
-
-
-def test_of_many_blocks_only_the_nearest_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The two boxes of each side that are nearest to the box around the other side."""
-    monkeypatch.setattr(import_module("mbla.contacts.report"), "NEAREST_COMPARED", 2)
-    part = [at(-3.0 * x, 0.0, 0.0) for x in range(4)]
-    others = [at(4.0 + 3.0 * x, 0.0, 0.0) for x in range(4)]
-    assert words_of_nearest([0, 1, 2, 3], *part, *others).startswith("; nearest to it is b4[0], 3 m from b0[0]")
-    assert words_of_nearest([4, 5, 6, 7], *part, *others).startswith("; nearest to it is b0[0], 3 m from b4[0]")
 
 
 DRUMS = """\

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mbla.contacts import Contacts
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import any_rotation, boxes, contacts_of, ground, moved
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from tests.contacts.structures import any_rotation, boxes, contacts_of, ground, moved, profile
 
 HEIGHTS = (1e-2, 1e-3, 1e-5, 1e-7, 1e-9)
 
@@ -58,7 +58,7 @@ def test_flange_of_a_thick_block_keeps_its_neighbours_apart() -> None:
     """The third block is thick beside the joint, and only its flange of 1e-4 lies in it."""
     lower, upper = boxes(([0, 0, -1], [1, 1, 0])), boxes(([0, 0, 1e-4], [1, 1, 1]))
     outline = [(-0.5, -1), (0, -1), (0, 0), (0.4, 0), (0.4, 1e-4), (0, 1e-4), (0, 1), (-0.5, 1)]
-    contacts = contacts_of(join_polyhedra([lower, upper, prism(outline)]), fixed=[0])
+    contacts = contacts_of(join_polyhedra([lower, upper, profile(outline)]), fixed=[0])
     assert [0, 1] not in pairs(contacts)
     assert "thin-block-between" in said(contacts)
 
@@ -105,15 +105,6 @@ def test_a_thin_block_is_between_those_on_one_side_of_it_alone(others: int) -> N
     far_away = [boxes(([10 + 2 * i, 0, 5], [11 + 2 * i, 1, 6])) for i in range(others)]
     contacts = contacts_of(join_polyhedra([plates, *far_away]), grounds=(ground(),), tolerance=1e-2)
     assert pairs(contacts) == [[0, 1], [2 + others, 0]]
-
-
-def prism(outline: list[tuple[float, float]]) -> Polyhedra:
-    """A block from y = 0 to 1 over an outline in x and z, counter-clockwise."""
-    count = len(outline)
-    vertices = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in outline])
-    sides = [[i, i + count, (i + 1) % count + count, (i + 1) % count] for i in range(count)]
-    ends = [list(range(count)), list(range(2 * count - 1, count - 1, -1))]
-    return polyhedra_from_lists([vertices], [[*ends, *sides]])
 
 
 def test_the_pair_farthest_apart_is_told() -> None:
