@@ -43,12 +43,6 @@ def add_plot(commands: Any) -> None:
     command.add_argument(
         "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
     )
-    command.add_argument(
-        "--zoom",
-        choices=("auto", "off"),
-        default="auto",
-        help="enlarge what moves beside the whole, where that is a small part of it (default auto)",
-    )
     add_page_options(command)
 
 

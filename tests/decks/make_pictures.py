@@ -19,7 +19,6 @@ from PIL import Image
 
 from mbla.cli import main
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
     CASES,
@@ -31,6 +30,7 @@ from mbla.results.pictures.page import (
     VERMILION,
     WARNING,
     Page,
+    add_legend,
     add_words,
     open_page,
     rgb,

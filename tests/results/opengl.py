@@ -4,6 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.results.pictures.space import can_draw
+from mbla.results.pictures.renderer import can_draw
 
 needs_opengl = pytest.mark.skipif(not can_draw(), reason="this machine has no OpenGL")

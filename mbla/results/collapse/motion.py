@@ -103,15 +103,6 @@ def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: F
     return np.asarray((blocks.centroids + travel)[owners] + turned)
 
 
-def moved_contact_points(model: Model, contacts: Contacts, motion: FloatArray, side: int) -> FloatArray:
-    """Contact points after a finite motion as part of body a (side 0) or b (side 1), (n_points, 3) m."""
-    owners = contacts.bodies[contacts.interface_of_point, side]
-    block = owners < len(model.blocks)
-    moved = contacts.points.copy()
-    moved[block] = moved_points(model.blocks, motion, owners[block], contacts.points[block])
-    return moved
-
-
 def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
 

@@ -17,13 +17,10 @@ from typing import Any
 import numpy as np
 
 from mbla.errors import FileError, UsageError
+from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.camera import add_images, fill_sheet, focus_of, panels_of
-from mbla.results.pictures.space.drawings import mechanism_drawing
-from mbla.results.pictures.space.picture import frame_between, images_of, view_of_case
-from mbla.results.pictures.space.renderer import Renderer
 from mbla.results.results import CaseResult, Results
 
 FORMATS = ("gif", "mp4")
@@ -90,23 +87,11 @@ def displacements(steps: int = STEPS) -> Any:
 
 def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
     """Images (height, width, 3) of 0 to 255, from rest to the greatest displacement."""
-    width, height = options.pixels
-    drawing = mechanism_drawing(widest)
-    view = options.view or view_of_case(widest)
-    focus = focus_of(widest) if options.zoom else None
-    with open_frames(options) as page:
-        bottom, top = fill_sheet(page, widest, "mechanism", drawing)
-        panels = panels_of(drawing.extent, focus, view, width / height, frame_between(bottom, top))
-        artists: list[Any] = []
-        for share in displacements():
-            moved = widest.moved_to(share * options.scale)
-            frame = mechanism_drawing(moved, widest, focus if len(panels) > 1 else None)
-            with Renderer(frame.solid_from(view[1]), frame.marks, frame.loads) as renderer:
-                images = images_of(renderer, panels, frame, (width, height))
-            if not artists:
-                artists = add_images(page, images, panels, widest, drawing, (bottom, top))
-            for artist, image in zip(artists, images, strict=True):
-                artist.set_data(image)
+    drawing = drawing_of(widest, "mechanism")
+    extent = extent_of([widest], drawing)
+    for share in displacements():
+        with open_frames(options) as page:
+            draw_on(page, widest.moved_to(share * options.scale), drawing, "mechanism", extent)
             page.figure.canvas.draw()
             yield np.asarray(page.figure.canvas.buffer_rgba())[..., :3].copy()
 

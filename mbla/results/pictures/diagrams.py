@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from mbla.errors import UsageError
-from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import INK, Page, add_words, open_page
+from mbla.results.pictures.page import INK, Page, add_legend, add_words, open_page
 
 LEAST_ROOM = 0.2
 """share of the height that words and legend must leave"""

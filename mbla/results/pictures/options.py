@@ -44,7 +44,6 @@ class PictureOptions:
     view   : azimuth and elevation of the eye in degrees as in ``VIEWS``; None: what suits the structure
     scale  : displacements as drawn, as a multiple of the usual ones (the farthest corner moves by a tenth of the
              size of what can move); 1 where the user leaves it to the program
-    zoom   : beside the whole structure what moves, enlarged, where that is a small part of it (pictures in space)
     size   : width and height in hundredths of an inch: the pixels of a PNG at 100 dots per inch
     dpi    : dots per inch of a PNG
     format : of pictures that go to a folder, one of ``FORMATS``
@@ -55,7 +54,6 @@ class PictureOptions:
     case: str | None = None
     view: tuple[float, float] | None = None
     scale: float = 1.0
-    zoom: bool = True
     size: tuple[int, int] = (1600, 1000)
     dpi: int = DOTS_PER_INCH
     format: str = "png"
@@ -88,7 +86,6 @@ def picture_options(arguments: Any) -> PictureOptions:
         case=arguments.case,
         view=parse_view(arguments.view),
         scale=parse_scale(arguments.scale),
-        zoom=arguments.zoom == "auto",
     )
 
 

@@ -8,14 +8,12 @@ from functools import partial
 from pathlib import Path
 
 from mbla.errors import UsageError
+from mbla.results.pictures import drawing
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
-from mbla.results.pictures.plane.draw import draw_plane
-from mbla.results.pictures.plane.flat import flat_of
 from mbla.results.pictures.scene import Scene, scene_of
-from mbla.results.pictures.space.picture import draw_in_space
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, no_such_case, series_of, told_cases
 
@@ -121,11 +119,7 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
     if kind == "history":
         draw_history(path, scene, options)
         return
-    flat = flat_of(scene, options, kind)
-    if flat is not None:
-        draw_plane(path, scene, flat, kind, options)
-        return
-    draw_in_space(path, scene, kind, options)
+    drawing.draw_picture(path, scene, kind, options)
 
 
 def plot_case(

@@ -13,7 +13,7 @@ from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.collapse import Failure, failure_of, fall_of
 from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMotion
-from mbla.results.collapse.motion import drawn_motion, moved_contact_points, moved_points, moved_vertices
+from mbla.results.collapse.motion import drawn_motion, moved_vertices
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.listing.mechanism_words import mechanism_summary
@@ -26,8 +26,6 @@ from mbla.results.pictures.page import FIXED_BLOCK, REST
 from mbla.results.record.scene import Scene as RecordScene
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
-
-OUTSIDE_WORDS = "outside the joint (tension), drawn at its edge"
 
 
 @dataclass(frozen=True)
@@ -71,23 +69,6 @@ class Scene(RecordScene):
     def moved(self) -> FloatArray:
         """Vertices as moved, (n_vertices, 3) m."""
         return moved_vertices(self.model.blocks, self.motion)
-
-    @cached_property
-    def contact_sides(self) -> tuple[FloatArray, FloatArray]:
-        """Contact points as moved with body a and with body b, (n_points, 3) m each."""
-        sides = [moved_contact_points(self.model, self.contacts, self.motion, side) for side in (0, 1)]
-        return sides[0], sides[1]
-
-    def between(self, interfaces: IntArray, points: FloatArray) -> FloatArray:
-        """Points of interfaces, (n, 3) m, midway between where body a and where body b takes them."""
-        total = np.zeros_like(points)
-        for side in (0, 1):
-            owners = self.contacts.bodies[interfaces, side]
-            own = owners < len(self.model.blocks)
-            moved = points.copy()
-            moved[own] = moved_points(self.model.blocks, self.motion, owners[own], points[own])
-            total += moved / 2
-        return total
 
     @cached_property
     def failure(self) -> Failure | None:
@@ -161,11 +142,6 @@ class Scene(RecordScene):
         dimension = 3 if solution.size is None else solution.size.dimension
         found = force_freedom(self.model, self.contacts, solution.mechanics, dimension)
         return None if isinstance(found, str) else found
-
-    @cached_property
-    def thrust_lines(self) -> list[FloatArray]:
-        """Points of each line of thrust in their order, (n, 3) m each."""
-        return [self.thrust_points[row] for row in self.lines]
 
     @cached_property
     def slabs(self) -> list[FloatArray]:

@@ -13,11 +13,11 @@ from mbla.results.listing.text import counted
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.pictures import history, plot
+from mbla.results.pictures.camera import view_of_case
 from mbla.results.pictures.image import drawn_image
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.plane import flat
+from mbla.results.pictures.plane import flat_of
 from mbla.results.pictures.scene import scene_of
-from mbla.results.pictures.space import picture
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series
 
@@ -84,12 +84,8 @@ def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: V
     found = Figures((), view=view)
     for kind, caption in captions.items():
         scene, options, format = scene_of(results, case, OPTIONS, kind), OPTIONS, "svg"
-        if kind != "history" and flat.flat_of(scene, options, kind) is None:
-            try:
-                found = replace(found, view=found.view or picture.view_of_case(scene))
-            except UsageError as error:
-                found = replace(found, missing=str(error))
-                continue
+        if kind != "history" and flat_of(scene, options.view, kind) is None:
+            found = replace(found, view=found.view or view_of_case(scene))
             options, format = replace(OPTIONS, view=found.view), "png"
         words = _in_words(results, case, kind)
         write = partial(plot.draw_picture, scene=scene, kind=kind, options=options)

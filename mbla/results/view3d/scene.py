@@ -19,15 +19,17 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.overlaps import triangulate_blocks
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
-from mbla.results.collapse.motion import largest_displacements, moved_points
+from mbla.model.solids.plane import plane_axes
+from mbla.results.collapse.motion import largest_displacements
 from mbla.results.listing.text import number
 from mbla.results.pictures.geometry import SLAB_FACES, block_edges, box_of, front_axis
+from mbla.results.pictures.loads import live_marks
+from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, group_colours, rgb
 from mbla.results.pictures.scene import Scene, tint_of_part
 from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.view3d.marks import Mark, marks_of
 
 FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
@@ -54,9 +56,10 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     scene = picture_of(results, case, PictureOptions(), "mechanism")
     model, blocks, moves = scene.model, scene.model.blocks, bool(scene.motion.any())
     offset = offset_of(blocks.vertices, scene.size)
-    marks = marks_of(scene)
-    loads = [points for mark in marks if mark.colour == LIVE_LOAD for points in (mark.points, _moved(scene, mark))]
-    seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *loads])
+    loads = live_marks(scene, case.load_case, "live load", LIVE_LOAD)
+    marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *loads]
+    reach = [points for mark in loads for points in (mark.points, moved(mark, model, scene.motion))]
+    seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *reach])
     of_block = triangulate_blocks(blocks, np.arange(len(blocks)))
     triangles = np.concatenate([of_block[block] for block in range(len(blocks))])
     owners = np.repeat(np.arange(len(blocks)), [len(of_block[block]) for block in range(len(blocks))])
@@ -85,13 +88,6 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "forceWords": "" if scene.forces is None else _with_mark(scene, scene.force_words),
         "ground": ground or None,
     }
-
-
-def _moved(scene: Scene, mark: Mark) -> FloatArray:
-    """Points of a mark of which each follows one block or none, as moved, (n, 3) m."""
-    moved, own = mark.points.copy(), mark.bodies[:, 0] >= 0
-    moved[own] = moved_points(scene.model.blocks, scene.motion, mark.bodies[own, 0], mark.points[own])
-    return moved
 
 
 def triangle_normals(points: FloatArray, triangles: IntArray) -> FloatArray:
@@ -270,17 +266,33 @@ def _colouring(colouring: Colouring) -> dict[str, Any]:
     }
 
 
+HEAD, BREADTH = 0.22, 0.08
+"""of an arrow: length and half breadth of its head over its length"""
+
+
 def _mark(mark: Mark, offset: FloatArray) -> dict[str, Any]:
-    texts = {text: row for row, text in enumerate(dict.fromkeys(mark.texts))}
+    """Segments with the bodies that carry their points; an arrow has four barbs, which its tip's bodies carry."""
+    points, bodies, pairs, texts = mark.points, mark.bodies, mark.pairs, list(mark.texts)
+    if mark.arrows:
+        first, last = pairs.T
+        step = points[last] - points[first]
+        first_side, second_side = plane_axes(step / np.linalg.norm(step, axis=1, keepdims=True)).transpose(1, 0, 2)
+        lengths = np.linalg.norm(step, axis=1, keepdims=True)
+        for side in (first_side, -first_side, second_side, -second_side):
+            rows = len(points) + np.arange(len(last))
+            points = np.vstack([points, points[last] - HEAD * step + BREADTH * lengths * side])
+            bodies, pairs = np.vstack([bodies, bodies[last]]), np.vstack([pairs, np.column_stack([last, rows])])
+            texts += [mark.texts[row] for row in last.tolist()]
+    known = {text: row for row, text in enumerate(dict.fromkeys(texts))}
     return {
-        "name": mark.name,
+        "name": mark.name.partition(":")[0].partition(", section")[0],
         "colour": mark.colour,
-        "width": mark.width,
-        "points": packed(mark.points - offset),
-        "bodies": packed(mark.bodies),
-        "pairs": packed(mark.pairs),
-        "texts": [escape(text) for text in texts],
-        "textRows": packed(np.array([texts[text] for text in mark.texts], dtype=np.int64)),
+        "width": 8 if mark.name == "hinge" else 5,
+        "points": packed(points - offset),
+        "bodies": packed(bodies),
+        "pairs": packed(pairs),
+        "texts": [escape(text) for text in known],
+        "textRows": packed(np.array([known[text] for text in texts], dtype=np.int64)),
         "inside": mark.inside,
-        "dots": mark.dots,
+        "dots": mark.name == "hinge" or bool((pairs[:, 0] == pairs[:, 1]).all()),
     }

@@ -27,7 +27,7 @@ from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.pictures.geometry import SLAB_FACES, ground_slab
-from mbla.results.pictures.load_marks import lines_of_action
+from mbla.results.pictures.loads import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.series import without_vehicle
 from mbla.solution.verification.statics import contact_resultants

@@ -12,7 +12,6 @@ import numpy.typing as npt
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.results.pictures.key import add_legend
 from mbla.results.pictures.options import (
     KINDS,
     USUAL_KINDS,
@@ -24,7 +23,7 @@ from mbla.results.pictures.options import (
     parse_view,
     picture_options,
 )
-from mbla.results.pictures.page import COLUMNS, add_words, open_page
+from mbla.results.pictures.page import COLUMNS, add_legend, add_words, open_page
 
 UInt8Array = npt.NDArray[np.uint8]
 WIDTH, HEIGHT = PictureOptions().size
@@ -99,7 +98,7 @@ def test_other_formats_and_places_are_refused(tmp_path: Path) -> None:
 
 def arguments(**changes: object) -> Namespace:
     texts = {"kind": None, "case": None, "view": "auto", "scale": "auto", "size": "1600x1000", "dpi": 100}
-    return Namespace(**(texts | {"format": "png", "zoom": "auto", "output": None, "animate": None} | changes))
+    return Namespace(**(texts | {"format": "png", "output": None, "animate": None} | changes))
 
 
 @pytest.mark.parametrize(

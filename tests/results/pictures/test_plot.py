@@ -46,7 +46,7 @@ def test_without_opengl_the_machine_is_told_what_it_lacks(
     tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """vtk would end the process with a segmentation fault."""
-    monkeypatch.setattr("mbla.results.pictures.space.renderer.can_draw", lambda: False)
+    monkeypatch.setattr("mbla.results.pictures.renderer.can_draw", lambda: False)
     with pytest.raises(UsageError, match="libegl1"):
         plot_results(results, tmp_path, "tower", IN_SPACE)
     assert not list(tmp_path.glob("*.png"))
@@ -65,7 +65,7 @@ def test_usual_pictures_by_name(tmp_path: Path, results: Results) -> None:
 
 
 def test_plane_figures_need_no_opengl(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.results.pictures.space.can_draw", lambda: False)
+    monkeypatch.setattr("mbla.results.pictures.renderer.can_draw", lambda: False)
     options = PictureOptions(kinds=("mechanism",), size=(800, 500), dpi=200)
     (path,) = plot_results(results, tmp_path / "one.png", "tower", replace(options, case="push_x"))
     assert pixels(path).shape == (1000, 1600, 3)

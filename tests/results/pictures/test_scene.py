@@ -10,7 +10,6 @@ from mbla.model.model import Model
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks, front_axis, ground_slab
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
-from mbla.results.view3d.marks import hinge_axes, interface_sides
 from mbla.solution.solution import Standing, StandingResult, Status
 from tests.results.shapes import BRICK, TETRA, WEDGE, blocks_of
 from tests.results.synthetic import full_results, tower_contacts, tower_mechanics, tower_model, tower_results
@@ -63,7 +62,6 @@ def test_without_forces_there_are_no_lines_of_thrust() -> None:
     falls = scene_of(results, results.cases[1], PictureOptions(), "forces")
     assert falls.forces is None
     assert falls.thrust is None
-    assert falls.thrust_lines == []
 
 
 @pytest.fixture(scope="module")
@@ -97,15 +95,6 @@ def test_slab_lies_behind_the_ground(model: Model) -> None:
     assert slab[:, 2].min() == pytest.approx(-0.2)
     assert slab[:, 0].min() < 4 < 5 < slab[:, 0].max()
     assert ground_slab(model, tower_contacts(), 1, 10.0) is None
-
-
-def test_hinge_axis_joins_the_closed_corners() -> None:
-    chosen = np.array([False, True, True, False, False, False, False, True])
-    assert hinge_axes(tower_contacts(), chosen).tolist() == [[1, 2]]
-
-
-def test_sides_of_an_interface_close() -> None:
-    assert interface_sides(tower_contacts(), np.array([False, True])).tolist() == [[4, 5], [5, 6], [6, 7], [7, 4]]
 
 
 @pytest.mark.parametrize(

@@ -84,8 +84,8 @@ def test_pictures_in_space_have_one_view_that_is_looked_for_once(
         views.append(scene)
         return 12.0, 34.0
 
-    monkeypatch.setattr("mbla.results.pictures.plane.flat.flat_of", lambda scene, options, kind: None)
-    monkeypatch.setattr("mbla.results.pictures.space.picture.view_of_case", view_of)
+    monkeypatch.setattr("mbla.results.report.figures.flat_of", lambda scene, view, kind: None)
+    monkeypatch.setattr("mbla.results.report.figures.view_of_case", view_of)
     results = tower_results()
     assert case_figures(results, results.cases[0]).view == (12.0, 34.0)
     assert [(kind, options.view) for kind, options in asked] == [

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.model.model import Settlement
 from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import HINGE
@@ -51,11 +50,13 @@ def test_arrays_come_back_as_they_were() -> None:
     assert read(packed(np.array([70000, -1]))).tolist() == [70000, -1]
 
 
-def test_texts_of_marks_stand_once() -> None:
-    """Start, tip and barbs of a resultant say the same."""
-    mark = marks(scene(tower_results()))["resultants"]
-    assert len(mark["texts"]) == 2
-    assert read(mark["textRows"]).tolist() == 6 * [0] + 6 * [1]
+def test_an_arrow_has_barbs_at_its_tip_and_its_text_stands_once() -> None:
+    mark = marks(scene(tower_results()))["live load"]
+    assert len(mark["texts"]) == 1
+    assert read(mark["textRows"]).tolist() == 6 * [0]
+    assert read(mark["pairs"], 2).tolist() == [[0, 1], [1, 2], [1, 3], [1, 4], [1, 5]]
+    points = read(mark["points"], 3)
+    np.testing.assert_allclose(points[2:].mean(axis=0), points[1] - 0.22 * (points[1] - points[0]), atol=1e-6)
 
 
 def test_blocks_of_the_tower() -> None:
@@ -72,34 +73,17 @@ def test_blocks_of_the_tower() -> None:
     assert found["texts"][2].endswith("<br>at rest")
 
 
-def test_tower_turns_about_its_hinge() -> None:
-    """About the edge x = 1, z = 1: opens at x = 0; the brick's interface stays shut."""
+def test_marks_of_the_tower() -> None:
+    """What they are and where :mod:`tests.results.pictures.test_marks` shows."""
     found = marks(scene(tower_results()))
-    assert list(found) == ["hinge lines", "hinges", "opening", "resultants", "live load"]
-    assert found["hinges"]["colour"] == HINGE
-    assert sorted(read(found["hinges"]["points"], 3).tolist()) == [[1, 0, 1], [1, 1, 1]]
-    assert read(found["hinges"]["pairs"], 2).shape == (1, 2)
-    assert found["hinges"]["texts"][0] == "hinges: base[0] | tower[0]"
-    line = found["hinge lines"]
-    assert read(line["points"], 3).tolist() in ([[1, 0, 1], [1, 1, 1]], [[1, 1, 1], [1, 0, 1]])
-    assert line["width"] > found["hinges"]["width"]
-    assert line["texts"] == ["hinge line of part 1 on the stationary blocks: 1 interface, 1 m"]
-    opened = read(found["opening"]["points"], 3)
-    assert opened[:, 0].tolist() == [0, 0, 0, 0]
-    assert read(found["opening"]["bodies"], 2).tolist() == [[0, 0], [1, 1]] * 2  # as part of the base, of the tower
-
-
-def test_resultants_pass_through_their_points_in_proportion() -> None:
-    """10 N and a push of half of that at both: the tower's through its edge."""
-    results = tower_results()
-    mark = marks(scene(results))["resultants"]
-    ends = read(mark["points"], 3).reshape(2, 6, 3)[:, :2]
-    np.testing.assert_allclose(ends.mean(axis=1)[0], [1, 0.5, 1], atol=1e-6)
-    lines = ends[:, 1] - ends[:, 0]
-    np.testing.assert_allclose(np.linalg.norm(lines, axis=1), np.linalg.norm(lines[0]), rtol=1e-6)
-    np.testing.assert_allclose(lines[:, 0] / lines[:, 2], -0.5, rtol=1e-6)
-    assert "normal force 10 N, shear 5 N, eccentricity 1; force on base[0]" in mark["texts"][0]
-    assert (lines[:, 2] < 0).all()  # the tower presses down on its base, the brick on its own
+    assert list(found) == ["opening", "hinge", "resultant", "at the edge of the joint", "live load"]
+    assert found["hinge"]["colour"] == HINGE
+    assert read(found["hinge"]["points"], 3)[:, [0, 2]].tolist() == [[1, 1], [1, 1]]
+    assert found["hinge"]["texts"] == ["hinge: base[0] | tower[0]"]
+    assert found["hinge"]["width"] > found["opening"]["width"]
+    assert set(map(tuple, read(found["opening"]["bodies"], 2).tolist())) == {(0, 0), (1, 1)}
+    assert found["resultant"]["inside"]
+    assert "normal force 10 N, shear 5 N, eccentricity 1" in found["resultant"]["texts"][0]
 
 
 def test_case_without_equilibrium_shows_what_falls() -> None:
@@ -137,7 +121,7 @@ def test_locked_structure_shows_the_forces_that_lock_it() -> None:
     case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
     found = scene(replace(results, cases=(case,)))
     assert found["forceWords"].startswith("contact forces that balance the live load alone")
-    assert "resultants" in marks(found)
+    assert "resultant" in marks(found)
 
 
 def moved(blocks: Blocks, shift: float) -> Blocks:
@@ -163,7 +147,7 @@ def test_far_from_the_origin_coordinates_keep_their_digits() -> None:
     assert np.abs(np.array(found["offset"]) - shift).max() < 10
     vertices = read(found["vertices"], 3) + np.array(found["offset"])
     np.testing.assert_allclose(vertices, model.blocks.vertices, atol=1e-5)
-    hinges = read(marks(found)["hinges"]["points"], 3) + np.array(found["offset"])
+    hinges = read(marks(found)["hinge"]["points"], 3) + np.array(found["offset"])
     np.testing.assert_allclose(hinges[:, 0], shift + 1, atol=1e-5)
     assert scene(results)["offset"] == [0, 0, 0]
 
@@ -173,7 +157,7 @@ def test_names_are_no_markup() -> None:
     blocks = replace(results.model.blocks, groups=("base", "<b>&", "brick"))
     found = scene(replace(results, model=replace(results.model, blocks=blocks)))
     assert found["texts"][1].startswith("&lt;b&gt;&amp;[0]<br>")
-    assert "&lt;b&gt;&amp;[0]" in marks(found)["hinges"]["texts"][0]
+    assert "&lt;b&gt;&amp;[0]" in marks(found)["hinge"]["texts"][0]
 
 
 @pytest.mark.parametrize("azimuth", [-60.0, 30.0, 120.0])
@@ -190,42 +174,6 @@ def test_the_first_view_is_the_one_asked_for_and_bright(azimuth: float) -> None:
 def test_what_is_thin_is_seen_from_its_front_whatever_is_asked_for() -> None:
     wall = cuboids([[0, 0, 0]], [[5, 0.2, 2]], ("wall",))
     assert eye_of(wall.vertices, wall.vertices, (120.0, 25.0)) == eye_of(wall.vertices, wall.vertices)
-
-
-def loaded(**changes: Any) -> dict[str, Any]:
-    """Marks of the tower under another load case."""
-    results = tower_results()
-    case = replace(results.cases[0], load_case=replace(results.cases[0].load_case, **changes))
-    return marks(scene(replace(results, cases=(case,))))
-
-
-@pytest.mark.parametrize(("motion", "arrow"), [([0, 0, -2, 0, 0, 0], True), ([0, 0, 0, 0, 1, 0], False)])
-def test_the_arrow_of_a_settlement_leads_away_from_its_support_and_moves_with_it(
-    motion: list[float], arrow: bool
-) -> None:
-    """Down from under the brick; where it only turns there is no way to show."""
-    found = loaded(settlement=Settlement(np.array([2]), np.array([motion], float), False, "brick sinks", 1.0, 1.0))
-    assert ("settlement" in found) == arrow
-    if arrow:
-        start, tip = read(found["settlement"]["points"], 3)[:2]
-        assert start[:2] == pytest.approx([4.5, 0.5])
-        assert tip[2] < start[2] < 0.0
-        assert set(read(found["settlement"]["bodies"])) == {2}
-        assert found["settlement"]["texts"] == ["brick sinks"]
-
-
-def test_a_live_load_is_drawn_where_it_acts() -> None:
-    """A force moves with its block, an acceleration stands above the structure, a moment is a ring."""
-    live = np.zeros((3, 6))
-    live[2] = [-1.0, 0, 0, 0, 0, 0]
-    force = loaded(live_load=live, live_words=("push",))["live load"]
-    assert read(force["points"], 3)[1] == pytest.approx([5.0, 0.5, 0.25])
-    assert set(read(force["bodies"])) == {2}
-    above = loaded()["live load"]
-    assert read(above["points"], 3)[:2, 2].min() > 3.0
-    assert set(read(above["bodies"])) == {-1}
-    ring = loaded(live_load=live[:, ::-1], live_words=("twist",))["moment of the live load"]
-    assert read(ring["points"], 3)[:, 2] == pytest.approx(0.25, abs=1e-6)
 
 
 def test_of_many_parts_the_first_are_named_and_the_others_counted() -> None:

@@ -76,7 +76,7 @@ def test_colours_and_layers_can_be_chosen(visit: Visit) -> None:
     visit.page.select_option("select", "group")
     coloured = visit.still(PLOT, before, 2000)
     assert visit.page.locator(".mbla-view3d-legend").inner_text().split() == ["base", "tower", "brick"]
-    visit.page.get_by_label("resultants").check()
+    visit.page.get_by_label("resultant").check()
     assert visit.page.get_by_label("see through blocks").is_checked()
     visit.still(PLOT, coloured, 2000)
     assert visit.errors == []

@@ -32,8 +32,7 @@ from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.notebook import run
 from mbla.results.notebook.run import Run
-from mbla.results.pictures import animation
-from mbla.results.pictures.space import renderer
+from mbla.results.pictures import animation, renderer
 from mbla.results.series import Series
 from mbla.results.tables.tables import tables_of
 from mbla.solution.cone_solvers.choice import cone_solver

@@ -1,0 +1,155 @@
+"""Arrows and rings of loads: where they are, which way they lead, and what is one arrow for all blocks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbla.model.model import Settlement, TravelPosition
+from mbla.results.pictures.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
+from mbla.results.pictures.marks import Mark
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
+from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.results import Results
+from tests.results.pictures.rows_and_columns import row_of_blocks
+from tests.results.synthetic import G, tower_model, tower_results
+
+GRAVITY = ("gravity (0, 0, -9.81) m/s2",)
+
+
+def scene(results: Results | None = None, kind: str = "model") -> Scene:
+    results = results or tower_results()
+    return scene_of(results, results.cases[0], PictureOptions(), kind)
+
+
+def wrench(force: list[float], point: list[float], block: int) -> np.ndarray:
+    """A force at a point of one block of the tower model, about its centroid, (3, 6)."""
+    loads = np.zeros((3, 6))
+    loads[block, :3] = force
+    loads[block, 3:] = np.cross(np.array(point) - tower_model().blocks.centroids[block], force)
+    return loads
+
+
+def marks(loads: np.ndarray, *words: str, travel: TravelPosition | None = None) -> list[Mark]:
+    return marks_of_load(scene(), "load", LIVE_LOAD, loads, words, travel)
+
+
+def tips(mark: Mark) -> list[list[float]]:
+    return [point.tolist() for point in mark.points[mark.pairs[:, 1]]]
+
+
+def ways(mark: Mark) -> np.ndarray:
+    steps = mark.points[mark.pairs[:, 1]] - mark.points[mark.pairs[:, 0]]
+    return np.asarray(steps / np.linalg.norm(steps, axis=1, keepdims=True))
+
+
+@pytest.mark.parametrize(
+    ("force", "point", "tip"),
+    [
+        ([5, 0, 0], [0.0, 0.5, 2.7], [0.0, 0.5, 2.7]),
+        ([5, 0, 0], [0.8, 0.5, 2.7], [0.0, 0.5, 2.7]),
+        ([0, 0, -3], [0.2, 0.1, 3.0], [0.2, 0.1, 3.0]),
+        ([-1, 0, -1], [1.0, 0.5, 2.0], [1.0, 0.5, 2.0]),
+    ],
+    ids=["on its face", "inside", "on top", "slanted"],
+)
+def test_arrow_ends_where_the_force_enters_the_block(force: list[float], point: list[float], tip: list[float]) -> None:
+    (mark,) = marks(wrench(force, point, 1), "force on tower[0]")
+    assert mark.arrows
+    assert mark.bodies.tolist() == [[1, 1], [1, 1]]
+    assert tips(mark) == [pytest.approx(tip)]
+    assert ways(mark) == pytest.approx(np.array([force]) / np.linalg.norm(force))
+
+
+def test_loads_on_supports_are_not_drawn() -> None:
+    assert not marks(wrench([5, 0, 0], [0, 0, 0], 0), "force on base[0]")
+
+
+def test_acceleration_is_one_arrow_above_and_forces_beside_it_are_drawn_by_themselves() -> None:
+    shown = scene(row_of_blocks(3))
+    loads = np.zeros((3, 6))
+    loads[:, 2] = -G * shown.model.blocks.masses
+    loads[1, 0] = 3.0
+    above, force = marks_of_load(shown, "", LIVE_LOAD, loads, (*GRAVITY, "force"))
+    assert ways(above) == pytest.approx(np.array([[0, 0, -1]]))
+    assert tips(above)[0][2] > 2.0
+    assert above.bodies.tolist() == [[-1, -1], [-1, -1]]
+    assert force.bodies.tolist() == [[1, 1], [1, 1]]
+
+
+def test_masses_that_blocks_carry_along_make_no_moment() -> None:
+    results = tower_results()
+    blocks = results.model.blocks
+    blocks = replace(blocks, added_masses=np.array([0, 0.5, 0]), added_mass_points=blocks.centroids + 0.3)
+    loads = np.zeros((3, 6))
+    loads[:, 2] = -G * blocks.masses
+    loads[:, 3:] = np.cross(np.full((3, 3), 0.3), np.outer(blocks.added_masses, [0, 0, -G]))
+    heavy = scene(replace(results, model=replace(results.model, blocks=blocks)))
+    assert len(marks_of_load(heavy, "", LIVE_LOAD, loads, GRAVITY)) == 1
+
+
+def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
+    """As of a tilt about different points: no two blocks have the same force for their mass."""
+    loads = np.zeros((3, 6))
+    loads[1:, 0] = tower_model().blocks.masses[1:] * [1.0, 2.0]
+    (mark,) = marks(loads, "acceleration (1, 0, 0) g on 2 blocks times 0.1 to 0.2, by height")
+    assert mark.bodies[::2, 0].tolist() == [1, 2]
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_moment_is_a_ring_about_the_centroid_that_turns_its_way(sense: float) -> None:
+    loads = np.zeros((3, 6))
+    loads[2, 4] = 7.0 * sense
+    ring, tip = marks(loads, "moment on brick[0]")
+    arms = ring.points - tower_model().blocks.centroids[2]
+    assert np.ptp(np.linalg.norm(arms, axis=1)) < 1e-9
+    turns = np.cross(arms[ring.pairs[:, 0]], arms[ring.pairs[:, 1]])
+    assert (sense * turns[:, 1] > 0).all()
+    assert tip.arrows
+
+
+def test_a_vehicle_has_an_arrow_for_each_axle_on_its_path() -> None:
+    """Two on one block are two arrows, and what else acts on it has its own."""
+    points = np.array([[9.0, 0.5, 4.0], [0.8, 0.5, 4.0], [0.2, 0.5, 4.0]])
+    forces = np.array([[0, 0, -7.0], [0, 0, -5.0], [0, 0, -3.0]])
+    vehicle = TravelPosition("train", 1, 1, points, np.array([9.0, 0.8, 0.2]), forces, np.array([-1, 1, 1]))
+    loads = wrench([0, 0, -5], points[1], 1) + wrench([0, 0, -3], points[2], 1) + wrench([2, 0, 0], [0, 0.5, 2], 1)
+    (mark,) = marks(loads, "force", "position 1", travel=vehicle)
+    assert np.array(tips(mark))[:, 0].tolist() == pytest.approx([0, 0.8, 0.2])
+
+
+def test_many_forces_have_short_arrows() -> None:
+    few, many = (arrow_steps(np.tile([0, 0, -1.0], (count, 1)), 10.0) for count in (MANY, MANY + 1))
+    assert np.abs(many).max() < 0.5 * np.abs(few).max()
+
+
+def test_every_case_has_its_colour_and_its_words() -> None:
+    """Of the model; a picture of one case has its live load, and the dead load where it is what falls."""
+    found = {mark.name: mark.colour for mark in shown_loads(scene(), "model")}
+    assert found == {
+        "dead load: gravity (0, 0, -9.81) m/s2": DEAD_LOAD,
+        "live load push_x: acceleration (1, 0, 0) g on all blocks": CASES[0],
+        "live load fall: acceleration (1, 0, 0) g on all blocks": CASES[1],
+    }
+    results = tower_results()
+    fallen = scene_of(results, results.cases[1], PictureOptions(), "mechanism")
+    assert [mark.colour for mark in shown_loads(fallen, "mechanism")] == [DEAD_LOAD, LIVE_LOAD]
+    assert [mark.colour for mark in shown_loads(fallen, "forces")] == [LIVE_LOAD]
+
+
+@pytest.mark.parametrize(
+    ("motion", "kinds"), [([0, 0, -1, 0, 0, 0], [True]), ([0, 0, 0, 0, 1, 0], [False, True]), ([0] * 6, [])]
+)
+def test_a_support_that_gives_way_has_an_arrow_along_its_motion_or_a_ring(
+    motion: list[float], kinds: list[bool]
+) -> None:
+    given = Settlement(np.array([2]), np.array([motion], float), False, "settlement of brick[0]", 1.0, 1.0)
+    case = replace(tower_model().load_cases[0], settlement=given)
+    found = live_marks(scene(), case, "live load", LIVE_LOAD)
+    assert [mark.arrows for mark in found] == kinds
+    assert all(mark.name == "settlement of brick[0]" for mark in found)
+    if kinds == [True]:
+        assert found[0].points[:, 2].max() <= 0.0, "below the brick that sinks"
