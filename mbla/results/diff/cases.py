@@ -21,7 +21,7 @@ from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.diff.matching import Factors, Matching, match_interfaces
 from mbla.results.outcome import law_residual, result_of
-from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.columns import CASE_COLUMNS
 from mbla.results.record.quantity import unit_text
 from mbla.results.record.scene import Scene
 from mbla.results.results import CaseResult

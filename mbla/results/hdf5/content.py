@@ -17,7 +17,7 @@ from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.outcome import least_and_greatest
-from mbla.results.record.blocks import names_of, numbers_of
+from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (

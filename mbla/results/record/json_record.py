@@ -30,10 +30,10 @@ from mbla.results.outcome import (
     unproved_words,
 )
 from mbla.results.provenance import CaseNeeds
-from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.columns import CASE_COLUMNS, Column
 from mbla.results.record.json_values import as_json, number, numbers
 from mbla.results.record.mechanism_json import mechanism_json
-from mbla.results.record.scene import Column, Scene, scene_of
+from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, factor_of, position_of, series_of
 from mbla.solution.solution import Checks, Mechanics, Solution

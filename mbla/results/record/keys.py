@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mbla.deck.units import Units
-from mbla.results.record.cases import CASE_COLUMNS
+from mbla.results.record.columns import CASE_COLUMNS
 from mbla.results.record.quantity import STORED_BY_PATH, Quantity, UnitKind, rows_of, unit_text
 
 KINDS = {"float": "number?", "int": "integer", "bool": "boolean", "text": "string?"}

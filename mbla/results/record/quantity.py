@@ -125,11 +125,6 @@ class Quantity:
             yield place, "_".join([self.name, *parts]), halves[place[-1] // 3] if place else self.unit
 
 
-def text(name: str, words: str, dims: str = "") -> Quantity:
-    """Text that follows from what the file holds."""
-    return Quantity(name, "text", words, dims=tuple(dims.split()))
-
-
 def real(name: str, words: str, unit: UnitKind = "1", dims: str = "") -> Quantity:
     """Floating-point numbers that do."""
     return Quantity(name, "float", words, unit, tuple(dims.split()))
@@ -198,18 +193,19 @@ def _stored() -> Iterator[Quantity]:
     own = [row for row in rows if "ANSWER" in row["place"]]
     first = rows.index(own[0])
     for row in (row for row in rows[:first] if row not in own):
-        yield _quantity(row)
+        yield quantity_of(row)
     for answer, (group, whose) in ANSWERS.items():
         for row in own:
             part, words = row["part"].replace("ANSWER", answer), row["words"].replace("WHOSE", whose)
             told = PASSED if answer == "peak" and row["name"] in OF_MECHANISM else ""
-            yield _quantity(row | {"place": f"cases/*{group}", "part": part, "words": words}, told)
+            yield quantity_of(row | {"place": f"cases/*{group}", "part": part, "words": words}, told)
     for row in (row for row in rows[first:] if row not in own):
-        yield _quantity(row)
+        yield quantity_of(row)
 
 
-def _quantity(row: dict[str, str], told: str = "") -> Quantity:
-    kind, _, dimension = row["rule"].partition(" of ")
+def quantity_of(row: dict[str, str], told: str = "") -> Quantity:
+    """A quantity from a row of a table of the record."""
+    kind, _, dimension = row.get("rule", "").partition(" of ")
     return Quantity(
         name=row["name"],
         kind=row["kind"],  # type: ignore[arg-type]
@@ -220,8 +216,8 @@ def _quantity(row: dict[str, str], told: str = "") -> Quantity:
         index_of=dimension if kind == "index" else "",
         start_of=dimension if kind == "start" else "",
         open=kind == "open",
-        part=row["part"],
-        told=told or (TOLD[row["told"]] if row["told"] else ""),
+        part=row.get("part", ""),
+        told=told or TOLD.get(row.get("told", ""), ""),
         proved=PROVED.get(f"{row['place']}/{row['name']}", ()),
     )
 

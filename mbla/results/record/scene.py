@@ -1,11 +1,8 @@
-"""A model under one of its load cases, and what follows from forces and mechanism, each worked out once.
-
-A column is a quantity of blocks, interfaces, contact points or load cases with how it is read from a scene.
-"""
+"""A model under one of its load cases, and what follows from forces and mechanism, each worked out once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -22,8 +19,7 @@ from mbla.results.collapse.motion import contact_displacements, drawn_motion, ve
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
-from mbla.results.outcome import best_iterate, result_of
-from mbla.results.record.quantity import STORED_BY_PATH, Quantity, whole
+from mbla.results.outcome import associative_of, best_iterate, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 
@@ -45,14 +41,29 @@ class Scene:
     case: CaseResult | None
 
     @property
+    def result(self) -> Mechanics | None:
+        """Forces and velocities that are a result."""
+        return None if self.case is None else result_of(self.case)
+
+    @property
+    def best(self) -> Mechanics | None:
+        """The best that was reached where there is no result."""
+        return None if self.case is None else best_iterate(self.case)
+
+    @property
+    def associative(self) -> Mechanics | None:
+        """Those of associative flow, where they are a result."""
+        return None if self.case is None else associative_of(self.case)
+
+    @property
     def mechanics(self) -> Mechanics | None:
         """Forces and velocities: the result, else the best that was reached; None where there are none."""
-        return None if self.case is None else result_of(self.case) or best_iterate(self.case)
+        return self.result or self.best
 
     @property
     def figures(self) -> str:
         """What the forces are, one of ``FIGURES``."""
-        if self.case is not None and result_of(self.case) is not None:
+        if self.result is not None:
             return "result"
         if self.mechanics is not None:
             return "best_iterate"
@@ -140,49 +151,8 @@ def scene_of(results: Results, case: CaseResult) -> Scene:
 Values: TypeAlias = "np.typing.NDArray[Any]"
 
 
-FIGURES_TOLD = whole(
-    "figures",
-    "what forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none",
-)
-
-
-@dataclass(frozen=True)
-class Column:
-    """A quantity and its values in a scene.
-
-    of    : values of every item, (n_items, ...); None where there are none. Whole numbers may be masked
-    names : what tables say in the place of numbers, one for each
-    files : what it stands in: ``table``, and VTU files by their kind
-    """
-
-    quantity: Quantity
-    of: Callable[[Scene], Values | None]
-    names: Callable[[Scene], Sequence[str]] | None = None
-    files: tuple[str, ...] = ("table",)
-
-
-def column(
-    quantity: Quantity | str,
-    of: Callable[[Scene], Values | None],
-    files: str = "table",
-    names: Callable[[Scene], Sequence[str]] | None = None,
-) -> Column:
-    """A column; what the result file holds is named by its path there."""
-    return Column(STORED_BY_PATH[quantity] if isinstance(quantity, str) else quantity, of, names, tuple(files.split()))
-
-
 def as_text(values: Sequence[str]) -> Values:
     """Text as an array of objects."""
     array = np.empty(len(values), dtype=object)
     array[:] = list(values)
     return array
-
-
-def masked(values: Values) -> Values:
-    """Whole numbers, without the -1 that stand for none."""
-    return np.ma.masked_equal(values, -1)
-
-
-def figures(size: Callable[[Scene], int]) -> Callable[[Scene], Values]:
-    """Values of ``FIGURES_TOLD``."""
-    return lambda scene: np.full(size(scene), FIGURES.index(scene.figures))

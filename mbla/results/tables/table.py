@@ -11,8 +11,9 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
+from mbla.results.record.columns import Column
 from mbla.results.record.quantity import COMPONENTS, Kind, Quantity, UnitKind, unit_text
-from mbla.results.record.scene import Column, Scene, Values, as_text, scene_of
+from mbla.results.record.scene import Scene, Values, as_text, scene_of
 from mbla.results.results import CaseResult, Results
 
 if TYPE_CHECKING:

@@ -18,11 +18,9 @@ from mbla.errors import Notice, UsageError
 from mbla.results.collapse.mechanics import Reaction, reactions_of
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
-from mbla.results.record.blocks import BLOCK_COLUMNS
-from mbla.results.record.cases import CASE_COLUMNS
-from mbla.results.record.contacts import INTERFACE_COLUMNS, POINT_COLUMNS
+from mbla.results.record.columns import BLOCK_COLUMNS, CASE_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.record.quantity import STORED, Kind, Quantity, UnitKind, real
-from mbla.results.record.scene import FIGURES_TOLD, Scene, Values, as_text
+from mbla.results.record.scene import Scene, Values, as_text
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, chosen_cases, factor_of, position_of, series_of
 from mbla.results.tables.formats import table_csv, table_parquet
@@ -70,13 +68,15 @@ def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list
             yield [(scene, case, reaction) for reaction in found]
 
 
+FIGURES_TOLD = next(column.quantity.words for column in CASE_COLUMNS if column.quantity.name == "figures")
+
 REACTIONS = TableKind(
     "reactions",
     "each support of the structure at collapse, for each load case with forces",
     (
         each("case", "load case", lambda item: item[1].load_case.name),
         each("support", "ground, block, group or guide", lambda item: item[2].support),
-        each("figures", FIGURES_TOLD.words, lambda item: item[0].figures),
+        each("figures", FIGURES_TOLD, lambda item: item[0].figures),
         *described(
             real("reaction", "force on the structure, and its moment about the origin", "load", "component"),
             lambda items: np.array([reaction.wrench for *_, reaction in items]).reshape(-1, 6),

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from mbla.deck.units import Units
-from mbla.results.record.blocks import BLOCK_COLUMNS
-from mbla.results.record.contacts import INTERFACE_COLUMNS, POINT_COLUMNS
+from mbla.results.record.columns import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, Column
 from mbla.results.record.quantity import Quantity, flag, real, unit_text, whole
-from mbla.results.record.scene import Column, Scene
+from mbla.results.record.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 

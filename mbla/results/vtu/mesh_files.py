@@ -17,7 +17,7 @@ from mbla.model.model import Model
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.pictures.geometry import front_axis
-from mbla.results.record.blocks import names_of
+from mbla.results.record.columns import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.loads import has_loads, has_supports, write_loads_vtu, write_supports_vtu
