@@ -17,7 +17,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES
 from mbla.results.explanations import FIGURES, explanations, find_explanations, sections
 from mbla.results.findings import REMARKS_THAT_WARN, WITHOUT_REASON
-from mbla.results.listing.figures import residual_figures
+from mbla.results.listing.figures import residual_rows
 from mbla.solution.solution import Standing, Status
 from mbla.sweeps.command import FAILED_POINTS
 from tests.results.synthetic import tower_results
@@ -120,7 +120,7 @@ def test_exit_statuses() -> None:
 
 
 def test_residuals_of_the_listing() -> None:
-    for name, _, _ in residual_figures(tower_results().cases[0].checks):
+    for name, *_ in residual_rows(tower_results().cases[0]):
         assert len(find_explanations(name)) == 1, name
     for name in ("associative, static bound", "associative, kinematic bound", "relative gap", "range", "peak"):
         assert len(find_explanations(name)) == 1, name

@@ -30,7 +30,8 @@ from mbla.results.outcome import (
     result_of,
 )
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Checks, Mechanics, ModelSize, PathPoint, ProgramRecord, Solution, Status
+from mbla.solution.solution import Mechanics, ModelSize, PathPoint, ProgramRecord, Solution, Status
+from mbla.solution.verification.verify_points import tolerances
 
 
 def figures(model: Model, case: CaseResult) -> list[str]:
@@ -41,13 +42,12 @@ def figures(model: Model, case: CaseResult) -> list[str]:
         + _factors(model, case)
         + _bounds(case)
     )
-    for name, value, measure in residual_figures(case.checks):
-        if not np.isnan(value):
-            lines += entry(name, f"{small(value)}   {measure}")
     lines += _standing(model, case)
     if case.solution.size is not None:
         lines += entry("solved as", size_words(case.solution.size))
-    return lines + solver_lines(case.solution) + _verification(case)
+    rows = residual_rows(case)
+    table_of_residuals = table(["residual", "relative to", "value", "at most", ""], rows, left=2) if rows else []
+    return lines + solver_lines(case.solution) + _verification(case) + table_of_residuals
 
 
 def _factors(model: Model, case: CaseResult) -> list[str]:
@@ -103,8 +103,7 @@ def _bounds(case: CaseResult) -> list[str]:
     if np.isnan(checks.static_bound) and np.isnan(checks.kinematic_bound):
         return []
     lines = entry("associative, static bound", digits(checks.static_bound))
-    lines += entry("associative, kinematic bound", digits(checks.kinematic_bound))
-    return lines + entry("relative gap", small(checks.gap))
+    return lines + entry("associative, kinematic bound", digits(checks.kinematic_bound))
 
 
 def _beside(associative: Mechanics, own: Mechanics | None) -> str:
@@ -115,9 +114,22 @@ def _beside(associative: Mechanics, own: Mechanics | None) -> str:
     return f"{text}   (the one above differs by {difference:+.2f} %)" if difference else text
 
 
-def residual_figures(checks: Checks) -> tuple[tuple[str, float, str], ...]:
-    """Name, value and what each residual is relative to."""
-    return tuple((name.replace("_", " "), getattr(checks, name), measure) for name, measure in RESIDUALS.items())
+def residual_rows(case: CaseResult) -> list[list[str]]:
+    """Every residual that there is, what it is relative to, what it may be at most, and whether it is."""
+    checks, allowed = case.checks, tolerances(case.solution.flow_rule)
+    found = {name: (getattr(checks, name), measure) for name, measure in RESIDUALS.items()}
+    found["live_power"] = abs(checks.live_power - 1.0), "from 1"
+    found["gap"] = checks.gap, "of the associative load factor"
+    if case.solution.outer is not None:  # the distance of polyhedra, no error
+        allowed = {name: most for name, most in allowed.items() if name != "gap"}
+    rows = []
+    for name, (value, measure) in found.items():
+        if not np.isnan(value):
+            most = allowed.get(name, np.nan)
+            verdict = "" if np.isnan(most) else "passed" if value <= most else "NOT PASSED"
+            title = "relative gap" if name == "gap" else name.replace("_", " ")
+            rows.append([title, measure, small(value), number(most), verdict])
+    return rows
 
 
 def _standing(model: Model, case: CaseResult) -> list[str]:

@@ -1,9 +1,7 @@
 """Fixed-width text: sections, wrapped sentences, name-value lines and tables, none wider than a listing may be.
 
-A printed line is a :class:`Line`: text that knows the heading, sentence, entry or table it is a line of. The listing
-joins lines; the report asks for their elements. Neither can say what the other does not.
-
-Every line knows what it is a line of (:mod:`mbla.results.listing.text`): the report is made from the same lines.
+A printed line is a :class:`Line`: text that knows the :class:`Block` it is a line of. The listing joins lines, the
+report asks for their blocks: neither can say what the other does not.
 """
 
 from __future__ import annotations
@@ -11,69 +9,40 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
 
-@dataclass(frozen=True, eq=False)
-class Heading:
-    """Title of a section."""
+@dataclass(frozen=True)
+class Block:
+    """A part of a page.
 
-    text: str
+    kind   : ``title``, ``paragraph``, ``entries`` (names and values) or ``table``
+    text   : of a title or paragraph, caption of a table
+    rows   : cells, whole
+    left   : columns of a table that are words; the others are figures
+    detail : a paragraph belongs to what stands above it
+    """
 
-
-@dataclass(frozen=True, eq=False)
-class Sentence:
-    """Running text; ``detail`` where it belongs to what stands above it."""
-
-    text: str
+    kind: str
+    text: str = ""
+    rows: tuple[tuple[str, ...], ...] = ()
+    head: tuple[str, ...] = ()
+    left: int = 0
     detail: bool = False
 
 
-@dataclass(frozen=True, eq=False)
-class Entry:
-    """A name and its value."""
-
-    name: str
-    value: str
-
-
-@dataclass(frozen=True, eq=False)
-class Table:
-    """Names of columns and rows of cells, whole; the first ``left`` columns are words, the others figures."""
-
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    left: int
-
-
-Element: TypeAlias = Heading | Sentence | Entry | Table
-
-
 class Line(str):
-    """One line of text with the element that it is a line of."""
+    """One line of text with the block that it is a line of."""
 
-    __slots__ = ("element",)
-    element: Element
+    __slots__ = ("block",)
+    block: Block
 
-    def __new__(cls, text: str, element: Element) -> Line:
+    def __new__(cls, text: str, block: Block) -> Line:
         """Text as printed, and what it is a line of."""
         line = super().__new__(cls, text)
-        line.element = element
+        line.block = block
         return line
-
-
-def elements_of(lines: Iterable[str]) -> list[Element]:
-    """Elements of lines in their order, each once; a line of no element is a sentence, an empty one nothing."""
-    found: list[Element] = []
-    for line in lines:
-        if isinstance(line, Line):
-            if not found or found[-1] is not line.element:
-                found.append(line.element)
-        elif line.strip():
-            found.append(Sentence(line.strip()))
-    return found
 
 
 # --- Fixed-width text -----------------------------------------------------------------------------------------------
@@ -87,16 +56,16 @@ MOST_ROWS = 20
 
 def heading(text: str) -> list[str]:
     """A section title with a rule under it, and an empty line before it."""
-    element = Heading(text)
-    return ["", Line(text, element), Line("-" * min(len(text), WIDTH), element)]
+    block = Block("title", text)
+    return ["", Line(text, block), Line("-" * min(len(text), WIDTH), block)]
 
 
 def sentence(text: str, indent: str = INDENT) -> list[str]:
     """Text broken at WIDTH; line breaks and runs of spaces in it count as single spaces."""
     words = " ".join(text.split())
-    element = Sentence(words, detail=len(indent) > len(INDENT))
+    block = Block("paragraph", words, detail=len(indent) > len(INDENT))
     lines = textwrap.wrap(words, WIDTH, initial_indent=indent, subsequent_indent=indent + INDENT)
-    return [Line(line, element) for line in lines]
+    return [Line(line, block) for line in lines]
 
 
 def full_sentence(text: str) -> str:
@@ -117,8 +86,8 @@ def entry(name: str, value: str) -> list[str]:
         lines = textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
     else:
         lines = [label, *textwrap.wrap(value, WIDTH, initial_indent=" " * column, subsequent_indent=" " * column)]
-    element = Entry(name, value)
-    return [Line(line, element) for line in lines]
+    block = Block("entries", rows=((name.strip(), value),))
+    return [Line(line, block) for line in lines]
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
@@ -131,8 +100,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> 
     excess = len(INDENT) + sum(widths) + 2 * (len(widths) - 1) - WIDTH
     if excess > 0:
         widths[0] = max(8, widths[0] - excess)
-    element = Table(tuple(lines[0]), tuple(tuple(line) for line in lines[1:]), left)
-    return [Line(_row(line, widths, left), element) for line in lines]
+    block = Block("table", "", tuple(tuple(line) for line in lines[1:]), tuple(lines[0]), left)
+    return [Line(_row(line, widths, left), block) for line in lines]
 
 
 def long_table(head: Sequence[str], rows: Sequence[Sequence[str]], total: int, left: int = 1) -> list[str]:

@@ -1,24 +1,19 @@
-"""What a report says: notices by kind, verification, each case, and the table of verdicts."""
+"""What a report says: notices by kind, the sections of the listing for each case, and the table of verdicts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from mbla.errors import Notice
 from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
-from mbla.results.listing.figures import residual_figures, verification_verdict
 from mbla.results.listing.listing import case_sections
-from mbla.results.listing.text import Entry, Heading, Sentence, elements_of, number, small
-from mbla.results.listing.verdict_words import verdict
+from mbla.results.listing.text import Block, Line
 from mbla.results.outcome import case_notices, result_of
 from mbla.results.report.figures import Figures
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
-from mbla.solution.verification.verify_points import tolerances
 
 
 @dataclass(frozen=True)
@@ -42,104 +37,28 @@ def notice_kinds(notices: Sequence[Notice]) -> list[NoticeKind]:
     ]
 
 
-# --- Lines of the words as parts of a page --------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Block:
-    """A part of a page.
-
-    kind   : ``title``, ``paragraph``, ``entries`` (names and values) or ``table``
-    text   : of a title or paragraph, caption of a table
-    detail : a paragraph belongs to what stands above it
-    left   : columns of a table that are words; the others are figures
-    """
-
-    kind: str
-    text: str = ""
-    rows: tuple[tuple[str, ...], ...] = ()
-    head: tuple[str, ...] = ()
-    left: int = 0
-    detail: bool = False
-
-
 def blocks_of(lines: Iterable[str]) -> list[Block]:
-    """Blocks of lines in their order; nothing that the lines say is left out.
+    """Blocks of lines in their order, each once; nothing that the lines say is left out.
 
     A sentence that ends in a colon becomes the caption of the table below it, a detail below an entry joins its value.
     """
     blocks: list[Block] = []
-    for element in elements_of(lines):
-        last = blocks[-1] if blocks else Block("")
-        if isinstance(element, Entry) and last.kind == "entries":
-            blocks[-1] = replace(last, rows=(*last.rows, (element.name.strip(), element.value)))
-        elif isinstance(element, Entry):
-            blocks.append(Block("entries", rows=((element.name.strip(), element.value),)))
-        elif isinstance(element, Sentence) and element.detail and last.kind == "entries":
+    seen = None
+    for line in lines:
+        block = line.block if isinstance(line, Line) else Block("paragraph", line.strip())
+        if block is seen or not line.strip():
+            continue
+        seen, last = block, blocks[-1] if blocks else Block("")
+        if block.kind == last.kind == "entries":
+            blocks[-1] = replace(last, rows=(*last.rows, *block.rows))
+        elif block.detail and last.kind == "entries":
             name, value = last.rows[-1]
-            blocks[-1] = replace(last, rows=(*last.rows[:-1], (name, f"{value}\n{element.text}")))
-        elif isinstance(element, Sentence):
-            blocks.append(Block("paragraph", element.text, detail=element.detail))
-        elif isinstance(element, Heading):
-            blocks.append(Block("title", element.text))
+            blocks[-1] = replace(last, rows=(*last.rows[:-1], (name, f"{value}\n{block.text}")))
+        elif block.kind == "table" and last.kind == "paragraph" and last.text.endswith(":"):
+            blocks[-1] = replace(block, text=last.text[:-1])
         else:
-            captioned = last.kind == "paragraph" and last.text.endswith(":")
-            caption = blocks.pop().text[:-1] if captioned else ""
-            blocks.append(Block("table", caption, element.rows, element.head, element.left))
+            blocks.append(block)
     return blocks
-
-
-# --- The verification of a case as rows: every residual, what it may be at most, and whether it is ------------------
-
-
-PARTS = {"tension_violation": "part of the yield violation", "slip_residual": "part of the complementarity residual"}
-"""figures that are judged with another one"""
-PASSED, FAILED, NOT_JUDGED = "passed", "NOT PASSED", "not judged"
-
-
-@dataclass(frozen=True)
-class Check:
-    """One residual with its tolerance; ``verdict`` is PASSED, FAILED or NOT_JUDGED."""
-
-    name: str
-    value: str
-    measure: str
-    tolerance: str
-    verdict: str
-
-
-def checks_of(case: CaseResult) -> list[Check]:
-    """Rows of the residuals that there are; none where there are neither forces nor mechanism to check."""
-    checks = case.checks
-    allowed = tolerances(case.solution.flow_rule)
-    rows = [
-        _row(name, value, measure, name.replace(" ", "_"), allowed)
-        for name, value, measure in residual_figures(checks)
-        if not np.isnan(value)
-    ]
-    if not np.isnan(checks.live_power):
-        deviation = abs(checks.live_power - 1.0)
-        rows.append(_row("deviation of the live power", deviation, "from 1", "live_power", allowed))
-    if not np.isnan(checks.gap):
-        rows.append(_gap_row(case, allowed))
-    return rows
-
-
-def _row(name: str, value: float, measure: str, key: str, allowed: dict[str, float]) -> Check:
-    if key not in allowed:
-        return Check(name, small(value), measure, PARTS.get(key, "none"), NOT_JUDGED)
-    verdict = PASSED if value <= allowed[key] else FAILED
-    return Check(name, small(value), measure, number(allowed[key]), verdict)
-
-
-def _gap_row(case: CaseResult, allowed: dict[str, float]) -> Check:
-    """Distance of the bounds; of other flow rules it says how well the associative factor is known, nothing more."""
-    name, measure = "gap of the bounds", "of the associative load factor"
-    if case.solution.outer is not None:
-        return Check(name, small(case.checks.gap), measure, "distance of the polyhedra, no error", NOT_JUDGED)
-    if "gap" not in allowed:
-        return Check(name, small(case.checks.gap), measure, "none by this flow rule", NOT_JUDGED)
-    return _row(name, case.checks.gap, measure, "gap", allowed)
 
 
 # --- What a report says of one load case ----------------------------------------------------------------------------
@@ -160,7 +79,7 @@ class CaseContent:
 
     tone  : how it may look, see ``tone_of``
     alarm : what a reader must know before any figure; empty for a verified load factor
-    confirmed : what the verification came to, and how that may look, ``confirmed_tone``
+    words : verdict and failure; ``parts`` are the other sections of the listing
     view  : trusted HTML of the view to turn; empty without one
     """
 
@@ -169,14 +88,9 @@ class CaseContent:
     status: str
     tone: str
     alarm: str
-    verdict: str
     words: list[Block]
     parts: list[Part]
     figures: Figures
-    checks: list[Check]
-    confirmed: str
-    confirmed_tone: str
-    failures: tuple[str, ...]
     warnings: tuple[str, ...]
     view: str
 
@@ -185,25 +99,15 @@ def case_content(results: Results, case: CaseResult, number: int, figures: Figur
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
     told, *others = case_sections(results.model, results.contacts, case)
-    checked = {name for name, _, _ in residual_figures(case.checks)}
-    parts = [
-        Part(f"{key}-{each.title.lower().replace(' ', '-')}", each.title, _without(blocks_of(each.lines), checked))
-        for each in others
-    ]
     return CaseContent(
         id=key,
         name=case.load_case.name,
         status=status_words(case.status),
         tone=tone_of(case),
         alarm=alarm_of(case),
-        verdict=verdict(results.model.of_case(case.load_case), case),
         words=blocks_of(told.lines),
-        parts=parts,
+        parts=[Part(f"{key}-{o.title.lower().replace(' ', '-')}", o.title, blocks_of(o.lines)) for o in others],
         figures=figures,
-        checks=checks_of(case),
-        confirmed=verification_verdict(case),
-        confirmed_tone=_confirmed_tone(case),
-        failures=case.checks.failures,
         warnings=tuple(str(notice) for notice in case_notices(case)),
         view=view,
     )
@@ -214,13 +118,6 @@ def tone_of(case: CaseResult) -> str:
     if result_of(case) is None:
         return "open" if case.status is Status.UNBOUNDED and case.checks.verified else "bad"
     return "good" if case.status is Status.SOLVED else "fair"
-
-
-def _confirmed_tone(case: CaseResult) -> str:
-    """Green for a verified load factor only."""
-    if not case.checks.verified:
-        return "bad"
-    return "open" if result_of(case) is None else "good"
 
 
 def alarm_of(case: CaseResult) -> str:
@@ -234,16 +131,6 @@ def alarm_of(case: CaseResult) -> str:
     if case.solution.mechanics is None:
         return "there is no load factor."
     return "no load factor; figures, forces and mechanism below are the best that was reached, and no result."
-
-
-def _without(blocks: list[Block], names: set[str]) -> list[Block]:
-    """Entries that the table of checks shows with their tolerances are not said twice."""
-    kept = []
-    for each in blocks:
-        rows = tuple(row for row in each.rows if each.kind != "entries" or row[0] not in names)
-        if rows or not each.rows:
-            kept.append(replace(each, rows=rows))
-    return kept
 
 
 # --- The table at the head of a report: every load case with its status, answer and bounds --------------------------
@@ -260,19 +147,11 @@ class VerdictRow:
     figures: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class VerdictTable:
-    """Heads of the columns of figures, and rows."""
-
-    heads: tuple[str, ...]
-    rows: tuple[VerdictRow, ...]
-
-
-def verdict_table(results: Results) -> VerdictTable:
-    """The answers of every case, the associative ones with their bounds."""
+def verdict_table(results: Results) -> tuple[list[str], list[VerdictRow]]:
+    """Heads of the columns of figures, and a row for every case; the associative answers with their bounds."""
     heads, figures = answer_columns(results.model, results.cases)
     rows = []
     for place, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1):
         values = (*own, *bound_figures(case))
         rows.append(VerdictRow(f"case-{place}", case.load_case.name, status_words(case.status), tone_of(case), values))
-    return VerdictTable((*heads, "static bound", "kinematic bound"), tuple(rows))
+    return [*heads, "static bound", "kinematic bound"], rows

@@ -97,12 +97,14 @@ def _content(results: Results, shown: Results, told: Results, cases: list[CaseCo
     """Everything that the templates show but styles and policy; ``told`` are the load cases with sections."""
     model, contacts, deck = results.model, results.contacts, results.deck
     left_out = len(model.load_cases) - len(shown.cases)
+    heads, verdicts = verdict_table(told)
     return {
         "title": model.title or deck.name,
         "deck": deck,
         "created": results.created,
         "version": results.provenance.get("mbla", __version__),
-        "verdicts": verdict_table(told),
+        "heads": heads,
+        "verdicts": verdicts,
         "settles": any(case.load_case.settlement is not None for case in told.cases),
         "warnings_words": _warning_words(shown),
         "verdict_words": [_in_words(told, case) for case in told.cases],
