@@ -38,7 +38,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.results.collapse.clusters import FEW, MainParts, clusters_of, main_parts
+from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.cracks import Crack, YieldLine, cracks, yield_lines
 from mbla.results.collapse.interface_modes import InterfaceMotion, interface_motion
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_joints, hinge_lines, sliding_planes
@@ -126,70 +126,40 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
 
 
 @dataclass(frozen=True)
-class MovingJoints:
-    """Hinge lines and sliding planes between clusters: enough to name the class of a mechanism.
+class Failure:
+    """What pictures, report and words say of a mechanism.
 
-    clusters       : (n_blocks,) cluster of each block, 0 at rest
-    merged         : share of the largest contact speed up to which rigid parts were taken for one, 0 where none were
+    clusters       : (n_blocks,) part as told of each block, 0 at rest
+    motions        : of these parts, the heaviest first
+    explained      : share of the motion that they explain, 1 where they are the rigid parts themselves
     hinge_lines    : the one that moves most first
     sliding_planes : the one that dissipates most first
+    cracks         : the one that opens most first
+    yield_lines    : along which parts that stand for many break off, the longest first
     """
 
     clusters: IntArray
-    merged: float
+    motions: tuple[PartMotion, ...]
+    explained: float
     hinge_lines: tuple[HingeLine, ...]
     sliding_planes: tuple[SlidingPlane, ...]
-
-
-@dataclass(frozen=True)
-class Failure(MovingJoints):
-    """What pictures, report and words say of a mechanism.
-
-    motions     : of the clusters that move, the heaviest first
-    cracks      : the one that opens most first
-    main        : the few parts as which it moves to the eye; the clusters where these are few, or no few parts do
-    yield_lines : along which these break off, the longest first
-    """
-
-    motions: tuple[PartMotion, ...]
     cracks: tuple[Crack, ...]
-    main: MainParts
     yield_lines: tuple[YieldLine, ...]
-
-    @property
-    def spreads(self) -> bool:
-        """Whether the clusters are so many that main parts are told in their place."""
-        return len(self.motions) > len(self.main.motions)
-
-
-@kept
-def moving_joints(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> MovingJoints:
-    """From the exact rigid parts and interfaces of a mechanism."""
-    found = clusters_of(model, contacts, collapse.parts, mechanics.mechanism)
-    joints = cluster_joints(model, contacts, found.of_block, mechanics)
-    return MovingJoints(
-        clusters=found.of_block,
-        merged=found.merged,
-        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work, found.merged),
-        sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work, found.merged),
-    )
 
 
 @kept
 def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> Failure:
-    """All of it, from the exact rigid parts and interfaces of a mechanism."""
-    moving = moving_joints(model, contacts, collapse, mechanics)
-    joints = cluster_joints(model, contacts, moving.clusters, mechanics)
-    motions = part_motions(model, moving.clusters, mechanics.mechanism)
-    main = MainParts(moving.clusters, motions, 1.0)
-    if len(motions) > FEW:
-        main = main_parts(model, moving.clusters, motions, mechanics.mechanism)
+    """From the exact rigid parts and interfaces of a mechanism."""
+    found = clusters_of(model, collapse.parts, mechanics.mechanism)
+    joints = cluster_joints(model, contacts, found.of_block, mechanics)
     return Failure(
-        **vars(moving),
-        motions=motions,
+        clusters=found.of_block,
+        motions=found.motions,
+        explained=found.explained,
+        hinge_lines=hinge_lines(contacts, collapse.interfaces, joints, collapse.work, found.neglected),
+        sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work, found.neglected),
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
-        main=main,
-        yield_lines=yield_lines(contacts, main.of_block, len(model.grounds)),
+        yield_lines=yield_lines(contacts, found.of_block, len(model.grounds)),
     )
 
 
@@ -212,10 +182,10 @@ class MechanismClass(StrEnum):
     OPENING = "opening"
 
 
-def mechanism_class(joints: MovingJoints) -> MechanismClass:
+def mechanism_class(failure: Failure) -> MechanismClass:
     """The class of a mechanism."""
-    lines = [line for line in joints.hinge_lines if line.share >= NOTABLE]
-    planes = [plane for plane in joints.sliding_planes if plane.share >= NOTABLE]
+    lines = [line for line in failure.hinge_lines if line.share >= NOTABLE]
+    planes = [plane for plane in failure.sliding_planes if plane.share >= NOTABLE]
     slides = bool(planes) or any(_slides(line) for line in lines)
     if lines and slides:
         return MechanismClass.SLIDING_AND_HINGING

@@ -3,7 +3,7 @@
 Connected are interfaces that share a place; a chain may lead over joints that only slide or turn between those that
 open, as the bed joints of a stepped crack do.
 
-The interfaces on both sides of which there are different main parts lie along a line that steps from joint to joint. A
+The interfaces on both sides of which there are different parts lie along a line that steps from joint to joint. A
 broken line of as few pieces as lead through them is fitted by least squares, weighted by area: linear in the distance
 along the direction in which they spread most, with its corners at some of them.
 """
@@ -117,7 +117,7 @@ def _crack(
     )
 
 
-# --- Yield lines: where a main part breaks off, as the eye follows it over many joints ------------------------------
+# --- Yield lines: where a part breaks off, as the eye follows it over many joints ------------------------------
 
 
 LEAST = 6
@@ -131,7 +131,7 @@ CORNERS = 8
 
 @dataclass(frozen=True)
 class YieldLine:
-    """Where two main parts move apart.
+    """Where two parts move apart.
 
     parts       : the heavier one first; rest (0) second
     interfaces  : (n,) between them
@@ -157,7 +157,7 @@ class YieldLine:
 
 
 def yield_lines(contacts: Contacts, parts: IntArray, n_grounds: int) -> tuple[YieldLine, ...]:
-    """Between main parts, (n_blocks,), the longest first."""
+    """Between parts, (n_blocks,), the longest first."""
     of_body = np.append(parts, np.zeros(n_grounds, dtype=np.int64))
     pairs = np.sort(of_body[contacts.bodies], axis=1)
     found = []

@@ -76,10 +76,10 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
 def _moving(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``12 of 52 free blocks move as one rigid part``."""
     moving = moving_blocks(model, collapse.parts)
-    parts = len(failure.main.motions)
+    parts = len(failure.motions)
     how = "as one rigid part" if parts == 1 else f"in {parts} rigid parts"
-    verb = "moves" if moving == 1 else "move"
-    return f"{moving} of {counted(len(model.free), 'free block')} {verb}{' mainly' if failure.spreads else ''} {how}"
+    verb = ("moves" if moving == 1 else "move") + ("" if failure.explained == 1.0 else " mainly")
+    return f"{moving} of {counted(len(model.free), 'free block')} {verb} {how}"
 
 
 def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, failure: Failure) -> list[str]:
@@ -88,19 +88,15 @@ def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, fai
         return ["No block moves."]
     share = moving_share(model, collapse.parts)
     text = f"The mechanism is {reach(share)}, {100 * share:.3g} % of the weight: {_moving(model, collapse, failure)}"
-    if failure.spreads:
+    if failure.explained < 1.0:
         text += (
-            f". Distributed mechanism: each block belongs to the part whose motion is nearest to its own, which "
-            f"reproduces {100 * failure.main.explained:.3g} % of the motion (of its square over the volume); the "
-            f"tables below have {len(failure.motions)} smaller parts, numbered by themselves"
+            f". Distributed mechanism: its {len(collapse.motions)} rigid parts are told by the motions nearest to "
+            f"theirs, {100 * failure.explained:.3g} % of the motion (of its square over the volume)"
         )
-    elif failure.merged:
-        text += f", neglecting relative motion below {100 * failure.merged:g} % of the largest contact velocity"
-    motions = failure.main.motions
-    texts = [f"{text}.", *(_part_sentence(model, load_case, part) for part in motions[:MOST_PARTS])]
-    if len(motions) > MOST_PARTS:
-        texts.append(f"{counted(len(motions) - MOST_PARTS, 'lighter part')} in the table below.")
-    return texts + [_yield_words(model, line) for line in failure.yield_lines if failure.spreads]
+    texts = [f"{text}.", *(_part_sentence(model, load_case, part) for part in failure.motions[:MOST_PARTS])]
+    if len(failure.motions) > MOST_PARTS:
+        texts.append(f"{counted(len(failure.motions) - MOST_PARTS, 'lighter part')} in the table below.")
+    return texts + [_yield_words(model, line) for line in failure.yield_lines if failure.explained < 1.0]
 
 
 def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
@@ -165,15 +161,10 @@ def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[
 def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
     """A table of the parts that move, the heaviest first."""
     rows = [
-        [
-            f"{part.number}: {group_words(model, part.blocks)}",
-            motion_words(model, part),
-            str(len(part.blocks)),
-            number(part.weight),
-        ]
+        [f"{part.number}: {group_words(model, part.blocks)}", motion_words(model, part), number(part.weight)]
         for part in motions[:MOST_ROWS]
     ]
-    return long_table(["part", "motion", "blocks", f"weight [{model.units.force}]"], rows, len(motions), left=2)
+    return long_table(["part", "motion", f"weight [{model.units.force}]"], rows, len(motions), left=2)
 
 
 def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> list[str]:

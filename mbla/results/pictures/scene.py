@@ -81,12 +81,12 @@ class Scene(RecordScene):
     def clusters(self) -> IntArray:
         """Part of the listing that each block is in, 0 at rest, (n_blocks,); found alike without equilibrium."""
         if self.failure is not None:
-            return self.failure.main.of_block
+            return self.failure.clusters
         motion = self.case.solution.certificate
         if motion is None or self.mechanics is not None:
             return np.zeros(len(self.model.blocks), dtype=np.int64)
         exact = rigid_parts(self.model, self.contacts, motion)
-        return clusters_of(self.model, self.contacts, exact, motion).of_block
+        return clusters_of(self.model, exact, motion).of_block
 
     @cached_property
     def joint_motion(self) -> InterfaceMotion | None:

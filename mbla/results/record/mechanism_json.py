@@ -9,7 +9,7 @@ from typing import Any
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class, moving_joints
+from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.force_freedom import ForceFreedom, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
@@ -69,7 +69,7 @@ def mechanism_json(
         return moving_share(model, collapse().parts)
 
     return OnDemand(
-        {"class": lambda: mechanism_class(moving_joints(model, contacts, collapse(), mechanics)).value}
+        {"class": lambda: mechanism_class(failure()).value}
         | {mode.name.lower(): partial(lambda mode: int((mechanics.modes == mode).sum()), mode) for mode in POINT_MODES}
         | {
             "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},
@@ -79,13 +79,13 @@ def mechanism_json(
             "moving_weight_share": lambda: number(share()),
             "moving_parts": lambda: len(collapse().motions),
             "parts": lambda: parts(collapse().motions),
-            "clusters_merged": lambda: number(failure().merged),
+            "clusters_merged": lambda: number(1.0 - failure().explained),
             "clusters": lambda: parts(failure().motions),
             "hinge_lines": lambda: told("hinge_lines"),
             "sliding_planes": lambda: told("sliding_planes"),
             "cracks": lambda: told("cracks"),
-            "main_parts": lambda: parts(failure().main.motions),
-            "main_parts_explain": lambda: number(failure().main.explained),
+            "main_parts": lambda: parts(failure().motions),
+            "main_parts_explain": lambda: number(failure().explained),
             "yield_lines": lambda: told("yield_lines"),
             "force_freedom": lambda: _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
             "enough": lambda: _enough(model, contacts, collapse()),

@@ -62,7 +62,7 @@ def numbers(state: State, old: IntArray) -> dict[str, Any]:
         "modes": collapse.interfaces.modes,
         "parts": partition(collapse.parts, old),
         "clusters": partition(failure.clusters, old),
-        "merged": failure.merged,
+        "explained": failure.explained,
         "turns": {
             (frozenset(old[motion.blocks].tolist()), motion.turns) for motion in (*collapse.motions, *failure.motions)
         },

