@@ -9,18 +9,17 @@ named ``support``, others by the name that their element or mesh was given.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from itertools import chain
+from collections import Counter
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray, starts
+from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, parse_json
-from mbla.model.geometry.welding import own_vertices
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import polyhedra_from_lists
 from mbla.model.wording import counted, was
 
 SUPPORT = "support"
@@ -36,19 +35,20 @@ BETWEEN_BLOCKS = frozenset({"edge", "edgedata", "adjacency", "interface", "inter
 class _Found:
     """Surfaces found so far with their names, meshes without faces, and solids that cannot be read."""
 
-    surfaces: list[Polyhedra] = field(default_factory=list)
+    points: list[FloatArray] = field(default_factory=list)
+    faces: list[list[list[int]]] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
     empty: list[str] = field(default_factory=list)
-    others: dict[str, int] = field(default_factory=dict)
+    others: Counter[str] = field(default_factory=Counter)
 
 
 @dataclass(frozen=True)
 class _Context:
-    """What the objects around a mesh say about it."""
+    """What the objects around a mesh say about it; matrix (4, 4)."""
 
     name: str = ""
     support: bool = False
-    matrix: FloatArray | None = None
+    matrix: FloatArray = field(default_factory=lambda: np.eye(4))
 
 
 def read_compas_json(path: Path) -> Geometry:
@@ -59,37 +59,30 @@ def read_compas_json(path: Path) -> Geometry:
     GeometryFileError
         for files that are no JSON, hold no mesh, or a mesh that is malformed
     """
+    found = _Found()
     try:
-        document = parse_json(path.read_bytes())
-        found = _Found()
-        _collect(document, _Context(), found)
+        _collect(parse_json(path.read_bytes()), _Context(), found)
     except RecursionError as error:
         raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
     except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError) as error:
         reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
         raise malformed("COMPAS JSON", reason) from error
-    if found.others and not found.surfaces:
-        kinds = ", ".join(sorted(found.others))
+    kinds = ", ".join(sorted(found.others))
+    if kinds and not found.names:
         words = f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)"
         raise GeometryFileError("geometry-without-blocks", words)
-    names = tuple(found.names) if any(found.names) else ()
-    return Geometry(join_polyhedra(found.surfaces), _notices(found), names)
-
-
-def _notices(found: _Found) -> tuple[Notice, ...]:
     notices = [*empty_objects(found.empty)]
-    if found.others:
-        total = sum(found.others.values())
-        words = f"{counted(total, 'object')} of type {', '.join(sorted(found.others))} {was(total)} left out: no meshes"
+    if total := found.others.total():
+        words = f"{counted(total, 'object')} of type {kinds} {was(total)} left out: no meshes"
         notices.append(Notice("warning", "mesh-cells-left-out", words))
-    supports = found.names.count(SUPPORT)
-    if supports:
+    if supports := found.names.count(SUPPORT):
         words = (
             f"{counted(supports, 'block')} {was(supports)} marked as support in the file; a deck fixes them with "
             f"supports: [{{blocks: {{group: ..., member: {SUPPORT}}}}}]"
         )
         notices.append(Notice("notice", "mesh-supports-marked", words))
-    return tuple(notices)
+    surfaces = polyhedra_from_lists(found.points, found.faces)
+    return Geometry(surfaces, tuple(notices), tuple(found.names) if any(found.names) else ())
 
 
 def _collect(value: Any, context: _Context, found: _Found) -> None:
@@ -97,26 +90,26 @@ def _collect(value: Any, context: _Context, found: _Found) -> None:
     if isinstance(value, list):
         for each in value:
             _collect(each, context, found)
-    elif isinstance(value, dict):
-        _collect_object(value, context, found)
-
-
-def _collect_object(entry: dict[str, Any], context: _Context, found: _Found) -> None:
-    content: Any = entry
-    if isinstance(entry.get("dtype"), str):
-        content = entry.get("data", entry.get("value"))
+    if not isinstance(value, dict):
+        return
+    content: Any = value
+    if isinstance(value.get("dtype"), str):
+        content = value.get("data", value.get("value"))
     if not isinstance(content, dict):
         return
-    here = _context(entry, content, context)
-    kind = str(entry.get("dtype", "")).rpartition("/")[2]
+    here = _context(value, content, context)
+    kind = str(value.get("dtype", "")).rpartition("/")[2]
     if isinstance(content.get("vertex"), dict) and isinstance(content.get("face"), dict):
-        _add(_mesh(content), here, found)
+        default = content.get("default_vertex_attributes") or content.get("dva") or {}
+        points = {str(key): default | vertex for key, vertex in content["vertex"].items()}
+        _add(points, content["face"], here, found)
     elif isinstance(content.get("vertices"), list) and isinstance(content.get("faces"), list):
-        _add(_polyhedron(content), here, found)
+        points = {str(row): dict(zip("xyz", each, strict=True)) for row, each in enumerate(content["vertices"])}
+        _add(points, {str(row): face for row, face in enumerate(content["faces"])}, here, found)
     elif kind in ("Mesh", "Polyhedron"):
         found.empty.append(here.name)
     elif kind in OTHER_SHAPES:
-        found.others[kind] = found.others.get(kind, 0) + 1
+        found.others[kind] += 1
     elif isinstance(content.get("elements"), (dict, list)) and isinstance(content.get("tree"), dict):
         _collect_model(content, here, found)
     else:
@@ -129,79 +122,53 @@ def _context(entry: dict[str, Any], content: dict[str, Any], above: _Context) ->
     """What an object adds to what is known of a mesh in it: the innermost name holds."""
     attributes = content.get("attributes")
     attributes = attributes if isinstance(attributes, dict) else {}
-    names = (entry.get("name"), content.get("name"), attributes.get("name"))
-    given = [name for name in names if isinstance(name, str) and name and name not in CLASS_NAMES]
-    support = content.get("is_support") is True or attributes.get("is_support") is True
-    matrix = _matrix(content.get("transformation"))
-    if matrix is None or above.matrix is None:
-        matrix = above.matrix if matrix is None else matrix
-    else:
-        matrix = above.matrix @ matrix
-    return _Context(given[0] if given else above.name, above.support or support, matrix)
+    names = (entry.get("name"), content.get("name"), attributes.get("name"), above.name)
+    name = next((name for name in names if isinstance(name, str) and name and name not in CLASS_NAMES), "")
+    support = above.support or content.get("is_support") is True or attributes.get("is_support") is True
+    return _Context(name, support, above.matrix @ _matrix(content))
 
 
-def _matrix(value: Any) -> FloatArray | None:
-    """(4, 4) of a transformation; None where there is none."""
+def _matrix(content: dict[str, Any]) -> FloatArray:
+    """(4, 4) of the transformation of an object, that of nothing where it has none."""
+    value = content.get("transformation")
     if not isinstance(value, dict):
-        return None
-    content: Any = value.get("data", value.get("value", value))
-    matrix = np.array(content["matrix"], dtype=np.float64)
+        return np.eye(4)
+    matrix = np.array(value.get("data", value.get("value", value))["matrix"], dtype=np.float64)
     if matrix.shape != (4, 4):
         raise ValueError("a transformation has not four by four numbers")
     return matrix
 
 
 def _collect_model(content: dict[str, Any], context: _Context, found: _Found) -> None:
-    """Elements of a model, each placed by the elements above it in the tree."""
+    """Elements of a model in their order, each placed by the elements above it in the tree."""
     elements = content["elements"]
     if isinstance(elements, list):  # earlier files list them, each with its identifier
         elements = {each.get("guid", str(row)): each for row, each in enumerate(elements)}
-    parents: dict[str, str] = {}
-    waiting = [(content["tree"].get("root") or {}, "")]
+    placed: dict[str, FloatArray] = {}
+    waiting = [(content["tree"].get("root") or {}, context.matrix)]
     while waiting:
         node, above = waiting.pop()
-        element = node.get("element")
-        if element and above:
-            parents[element] = above
-        waiting += [(child, element or above) for child in node.get("children") or []]
+        if element := node.get("element"):
+            placed[element] = above
+            above = above @ _matrix(elements[element].get("data") or elements[element].get("value") or {})
+        waiting += [(child, above) for child in node.get("children") or []]
     for identifier, entry in elements.items():
-        matrix = context.matrix
-        for above in reversed(_ancestors(identifier, parents)):
-            own = _matrix((elements[above].get("data") or elements[above].get("value") or {}).get("transformation"))
-            matrix = own if matrix is None else matrix if own is None else matrix @ own
-        _collect(entry, _Context(context.name, context.support, matrix), found)
+        _collect(entry, replace(context, matrix=placed.get(identifier, context.matrix)), found)
 
 
-def _ancestors(identifier: str, parents: dict[str, str]) -> list[str]:
-    """Elements above one, from the nearest on."""
-    found: list[str] = []
-    while identifier in parents and parents[identifier] not in found:
-        identifier = parents[identifier]
-        found.append(identifier)
-    return found
-
-
-def _add(surface: Polyhedra, context: _Context, found: _Found) -> None:
-    if not len(surface):
+def _add(points: dict[str, dict[str, Any]], faces: dict[str, list[Any]], context: _Context, found: _Found) -> None:
+    """A mesh of vertices by key, which are any texts, and faces of their keys."""
+    rows = {key: row for row, key in enumerate(points)}
+    places = [[_coordinate(vertex.get(axis), axis, key) for axis in "xyz"] for key, vertex in points.items()]
+    loops = [[_row(corner, rows, key) for corner in face] for key, face in faces.items() if face]
+    if not loops:
         found.empty.append(context.name)
         return
-    if context.matrix is not None:
-        vertices = surface.vertices @ context.matrix[:3, :3].T + context.matrix[:3, 3]
-        surface = Polyhedra(vertices, surface.vertex_start, surface.loops, surface.loop_start, surface.face_start)
-    found.surfaces.append(surface)
+    if min(len(loop) for loop in loops) < 3:
+        raise ValueError("a face has fewer than three corners")
+    found.points.append(np.array(places) @ context.matrix[:3, :3].T + context.matrix[:3, 3])
+    found.faces.append(loops)
     found.names.append(SUPPORT if context.support else context.name)
-
-
-def _mesh(content: dict[str, Any]) -> Polyhedra:
-    """Faces over vertices by key; keys are any texts. A vertex without a coordinate has the mesh's default."""
-    keys = {str(key): row for row, key in enumerate(content["vertex"])}
-    default = content.get("default_vertex_attributes") or content.get("dva") or {}
-    points = [
-        [_coordinate(vertex.get(axis, default.get(axis)), axis, key) for axis in "xyz"]
-        for key, vertex in content["vertex"].items()
-    ]
-    faces = [[_row(corner, keys, key) for corner in face] for key, face in content["face"].items() if face]
-    return _surface(points, faces)
 
 
 def _coordinate(value: Any, axis: str, key: str) -> float:
@@ -214,18 +181,3 @@ def _row(corner: Any, rows: dict[str, int], face: str) -> int:
     if str(corner) not in rows:
         raise ValueError(f"face {face[:40]} names vertex {str(corner)[:40]}, which does not exist")
     return rows[str(corner)]
-
-
-def _polyhedron(content: dict[str, Any]) -> Polyhedra:
-    """Lists of vertices and faces, as a mesh."""
-    vertices = {str(row): dict(zip("xyz", point, strict=True)) for row, point in enumerate(content["vertices"])}
-    return _mesh({"vertex": vertices, "face": {str(row): face for row, face in enumerate(content["faces"])}})
-
-
-def _surface(points: list[list[float]], faces: list[list[int]]) -> Polyhedra:
-    counts = np.array([len(face) for face in faces], dtype=np.int64)
-    if counts.size and counts.min() < 3:
-        raise ValueError("a face has fewer than three corners")
-    corners = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(counts.sum()))
-    coordinates = np.array(points, dtype=np.float64).reshape(-1, 3)
-    return own_vertices(coordinates, corners, starts(counts), np.zeros(len(faces), dtype=np.int64))

@@ -7,6 +7,7 @@ they are referenced; layers that are off or frozen are left out. Arcs become cho
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -46,8 +47,8 @@ class _Drawing:
 
     outlines: list[tuple[str, FloatArray]] = field(default_factory=list)
     lines: dict[str, list[FloatArray]] = field(default_factory=dict)
-    left_out: dict[str, int] = field(default_factory=dict)
-    hidden: dict[str, int] = field(default_factory=dict)
+    left_out: Counter[str] = field(default_factory=Counter)
+    hidden: Counter[str] = field(default_factory=Counter)
 
 
 def read_dxf(path: Path) -> Geometry:
@@ -63,38 +64,27 @@ def read_dxf(path: Path) -> Geometry:
     drawing = _Drawing()
     try:
         document = ezdxf.readfile(path)  # type: ignore[attr-defined]
-        _collect(document, drawing)
+        off = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
+        for layer, entity in _entities(document.modelspace(), None, 0, [0]):
+            if layer.lower() in off:
+                drawing.hidden[layer] += 1
+            else:
+                _add(drawing, layer, entity)
     except (GeometryFileError, MemoryError):
         raise
     except Exception as error:  # damaged files let all kinds of exceptions through, some when an entity is looked at
         if isinstance(error, OSError) and error.strerror:
             raise
-        reason = " ".join(str(error).split())
-        raise malformed("DXF", reason) from error
-    notices = _close_networks(drawing)
+        raise malformed("DXF", " ".join(str(error).split())) from error
+    notices = [*_left_out(drawing), *_close_networks(drawing)]
     if not drawing.outlines:
-        remarks = "; ".join(notice.message for notice in (*notices, *_left_out(drawing)))
+        remarks = "; ".join(notice.message for notice in notices)
         raise GeometryFileError("geometry-without-blocks", f"has no closed outline{f': {remarks}' if remarks else ''}")
-    names = tuple(layer for layer, _ in drawing.outlines)
-    outlines = [_counter_clockwise(outline) for _, outline in drawing.outlines]
-    polyhedra = prisms(outlines, np.tile([0.0, 1.0], (len(outlines), 1)))
-    unit = UNITS.get(document.header.get("$INSUNITS", 0))
-    return Geometry(polyhedra, (*_left_out(drawing), *notices), names, unit=unit, planar=True)
-
-
-def _counter_clockwise(outline: FloatArray) -> FloatArray:
-    """The outline, (n, 2), in this sense; a field that no line crosses twice has one."""
-    return outline if signed_areas(outline[None])[0] > 0 else outline[::-1]
-
-
-def _collect(document: Any, drawing: _Drawing) -> None:
-    """Curves of the drawing's model space, in its order."""
-    hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
-    for layer, entity in _entities(document.modelspace(), None, 0, [0]):
-        if layer.lower() in hidden:
-            drawing.hidden[layer] = drawing.hidden.get(layer, 0) + 1
-        else:
-            _add(drawing, layer, entity)
+    areas = [signed_areas(outline[None])[0] for _, outline in drawing.outlines]
+    outlines = [each if area > 0 else each[::-1] for (_, each), area in zip(drawing.outlines, areas, strict=True)]
+    polyhedra = prisms(outlines, np.tile([0.0, 1.0], (len(outlines), 1)))  # counter-clockwise
+    unit, names = UNITS.get(document.header.get("$INSUNITS", 0)), tuple(layer for layer, _ in drawing.outlines)
+    return Geometry(polyhedra, tuple(notices), names, unit=unit, planar=True)
 
 
 def _entities(space: Any, inserted_on: str | None, depth: int, inserted: list[int]) -> Iterator[tuple[str, Any]]:
@@ -124,7 +114,7 @@ def _add(drawing: _Drawing, layer: str, entity: Any) -> None:
     solid = kind == "POLYLINE" and (entity.is_poly_face_mesh or entity.is_polygon_mesh)
     if kind not in CURVES or solid:
         if kind not in SILENT:
-            drawing.left_out[kind] = drawing.left_out.get(kind, 0) + 1
+            drawing.left_out[kind] += 1
         return
     closed, points = _flattened(entity, f"a {kind} on layer {layer}")
     if not closed and kind in ("POLYLINE", "LWPOLYLINE") and entity.is_closed:

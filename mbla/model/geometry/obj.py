@@ -6,9 +6,9 @@ rules of their own.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -39,21 +39,19 @@ LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf"
 class _Content:
     """The file as read: vertices, faces as rows of them, and the row of the object and group name at each face.
 
-    What precedes the first object or group is row 0.
-
-    beginnings   : number of vertices before each object
-    last_element : number of vertices before the last face, line or point
+    names      : of objects (``o``) and groups (``g``); what precedes the first of them is row 0
+    labels     : (n_faces) rows of names of objects and groups
+    beginnings : number of vertices before each object, the first of which is what precedes the first
+    after      : vertices since the last face, line or point begin here
     """
 
-    vertices: list[tuple[float, float, float]] = field(default_factory=list)
+    vertices: list[tuple[float, ...]] = field(default_factory=list)
     faces: list[list[int]] = field(default_factory=list)
-    objects: list[int] = field(default_factory=list)
-    groups: list[int] = field(default_factory=list)
-    object_names: list[str] = field(default_factory=lambda: [""])
-    group_names: list[str] = field(default_factory=lambda: [""])
-    left_out: dict[str, int] = field(default_factory=dict)
-    beginnings: list[int] = field(default_factory=list)
-    last_element: int = 0
+    names: dict[str, list[str]] = field(default_factory=lambda: {"o": [""], "g": [""]})
+    labels: dict[str, list[int]] = field(default_factory=lambda: {"o": [], "g": []})
+    left_out: Counter[str] = field(default_factory=Counter)
+    beginnings: list[int] = field(default_factory=lambda: [0])
+    after: int = 0
 
 
 def read_obj(path: Path) -> Geometry:
@@ -64,48 +62,6 @@ def read_obj(path: Path) -> Geometry:
     GeometryFileError
         for malformed lines, with their number
     """
-    content = _read(path)
-    notices = tuple(
-        Notice("warning", "mesh-cells-left-out", f"{counted(count, noun)} {was(count)} left out: no block")
-        for noun, count in content.left_out.items()
-    )
-    used = np.array([corner for face in content.faces for corner in face], dtype=np.int64)
-    if not content.left_out:
-        notices += unused_points(len(content.vertices), used)
-        notices += _empty_objects(content)
-        _refuse_cut(content)
-    by_object = len(content.object_names) > 1
-    rows = content.objects if by_object else content.groups
-    names = content.object_names if by_object else content.group_names
-    points = np.array(content.vertices, dtype=np.float64).reshape(-1, 3)
-    polyhedra, present = surfaces_by_label(points, content.faces, rows)
-    return Geometry(polyhedra, notices, tuple(names[row] for row in present) if len(names) > 1 else ())
-
-
-def _empty_objects(content: _Content) -> tuple[Notice, ...]:
-    """Objects with vertices of their own and without a face."""
-    bounds = pairwise([*content.beginnings, len(content.vertices)])
-    with_faces = set(content.objects)
-    return empty_objects(
-        [
-            content.object_names[row]
-            for row, (begin, end) in enumerate(bounds, start=1)
-            if end > begin and row not in with_faces
-        ]
-    )
-
-
-def _refuse_cut(content: _Content) -> None:
-    """Vertices come before the faces that use them: a file that ends with vertices lacks faces."""
-    corners = {corner for face in content.faces for corner in face}
-    after = [row for row in range(content.last_element, len(content.vertices)) if row not in corners]
-    if content.faces and after:
-        raise malformed(
-            "OBJ", f"it ends with {counted(len(after), 'vertex')} that no face uses, it seems to be cut off"
-        )
-
-
-def _read(path: Path) -> _Content:
     content = _Content()
     for number, line in _lines(path):
         keyword, _, rest = line.partition(" ")
@@ -113,7 +69,33 @@ def _read(path: Path) -> _Content:
             _read_line(content, keyword, rest)
         except (ValueError, IndexError) as error:
             raise GeometryFileError("geometry-file", f"line {number} cannot be read: {error}") from error
-    return content
+    notices = tuple(
+        Notice("warning", "mesh-cells-left-out", f"{counted(count, noun)} {was(count)} left out: no block")
+        for noun, count in content.left_out.items()
+    )
+    if not content.left_out:
+        notices += _unused(content)
+    by = "o" if len(content.names["o"]) > 1 else "g"
+    points = np.array(content.vertices, dtype=np.float64).reshape(-1, 3)
+    polyhedra, present = surfaces_by_label(points, content.faces, content.labels[by])
+    names = content.names[by]
+    return Geometry(polyhedra, notices, tuple(names[row] for row in present) if len(names) > 1 else ())
+
+
+def _unused(content: _Content) -> tuple[Notice, ...]:
+    """Vertices without faces and objects with vertices of their own and without a face.
+
+    Vertices come before the faces that use them: a file that ends with vertices lacks faces, and is refused.
+    """
+    used = np.array([corner for face in content.faces for corner in face], dtype=np.int64)
+    after = np.setdiff1d(np.arange(content.after, len(content.vertices)), used)
+    if content.faces and len(after):
+        words = f"it ends with {counted(len(after), 'vertex')} that no face uses, it seems to be cut off"
+        raise malformed("OBJ", words)
+    counts, with_faces = np.diff([*content.beginnings, len(content.vertices)]), set(content.labels["o"])
+    bare = [row for row, count in enumerate(counts) if row and count and row not in with_faces]
+    empty = empty_objects([content.names["o"][row] for row in bare])
+    return unused_points(len(content.vertices), used) + empty
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:
@@ -124,20 +106,16 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
     GeometryFileError
         for a line that is too long
     """
-    text = path.read_text(encoding="utf-8", errors="replace")
-    number = length = 0
-    parts: list[str] = []
-    for number, raw in enumerate(text.splitlines(), start=1):
+    joined, length = "", 0
+    for number, raw in enumerate([*path.read_text(encoding="utf-8", errors="replace").splitlines(), ""], start=1):
         length += len(raw)
         refuse_long_line(number, length)
         part = raw.split("#", 1)[0].strip().replace("\t", " ")
-        parts.append(part.removesuffix("\\"))
+        joined += part.removesuffix("\\") + " "
         if not part.endswith("\\"):
-            if line := " ".join(parts).strip():
+            if line := joined.strip():
                 yield number, line
-            parts, length = [], 0
-    if line := " ".join(parts).strip():  # the file ends amid a line that goes on
-        yield number, line
+            joined, length = "", 0
 
 
 def _read_line(content: _Content, keyword: str, rest: str) -> None:
@@ -145,23 +123,21 @@ def _read_line(content: _Content, keyword: str, rest: str) -> None:
         fields = rest.split()
         if len(fields) < 3:
             raise ValueError("a vertex has three coordinates")
-        content.vertices.append((float(fields[0]), float(fields[1]), float(fields[2])))
+        content.vertices.append(tuple(float(each) for each in fields[:3]))
     elif keyword == "f":
         corners = [_vertex(token, len(content.vertices)) for token in rest.split()]
         if len(corners) < 3:
             raise ValueError("a face has at least three corners")
         content.faces.append(corners)
-        content.objects.append(len(content.object_names) - 1)
-        content.groups.append(len(content.group_names) - 1)
-        content.last_element = len(content.vertices)
-    elif keyword == "o":
-        content.object_names.append(rest.strip())
-        content.beginnings.append(len(content.vertices))
-    elif keyword == "g":
-        content.group_names.append(rest.strip())
+        content.after = len(content.vertices)
+        for each, names in content.names.items():
+            content.labels[each].append(len(names) - 1)
+    elif keyword in content.names:
+        content.names[keyword].append(rest.strip())
+        if keyword == "o":
+            content.beginnings.append(len(content.vertices))
     elif keyword in LEFT_OUT:
-        noun = LEFT_OUT[keyword]
-        content.left_out[noun] = content.left_out.get(noun, 0) + 1
+        content.left_out[LEFT_OUT[keyword]] += 1
     elif keyword not in SILENT:
         raise ValueError(f"{keyword[:40]!r} is no keyword of OBJ")
 

@@ -121,7 +121,7 @@ def test_solids_without_faces(tmp_path: Path) -> None:
         ({"face": {"0": [0, 10, 999]}}, "face 0 names vertex 999, which does not exist"),
         ({"face": {"0": [0, 10]}}, "a face has fewer than three corners"),
         ({"vertex": {"0": {"x": "a"}}}, "vertex 0 has no number as x"),
-        ({"vertex": {"0": 3}}, "no attribute"),
+        ({"vertex": {"0": 3}}, "unsupported operand"),
     ],
 )
 def test_malformed(tmp_path: Path, change: dict[str, Any], message: str) -> None:
