@@ -133,7 +133,8 @@ def _matrix(content: dict[str, Any]) -> FloatArray:
     value = content.get("transformation")
     if not isinstance(value, dict):
         return np.eye(4)
-    matrix = np.array(value.get("data", value.get("value", value))["matrix"], dtype=np.float64)
+    data: Any = value.get("data", value.get("value", value))
+    matrix = np.array(data["matrix"], dtype=np.float64)
     if matrix.shape != (4, 4):
         raise ValueError("a transformation has not four by four numbers")
     return matrix

@@ -9,7 +9,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.results.collapse.motion import drawn_motion, vertex_displacements
 from mbla.results.pictures.geometry import front_axis
-from mbla.results.pictures.scene import Scene
+from mbla.results.record.scene import Scene
 
 USUAL = (-60.0, 25.0)
 """azimuth and elevation where nothing speaks for another view"""
@@ -79,7 +79,7 @@ def fitted(points: FloatArray, view: tuple[float, float], aspect: float, room: R
 
 
 def view_of_case(scene: Scene) -> tuple[float, float]:
-    """Azimuth and elevation in degrees, the same for every kind of picture of a case.
+    """Azimuth and elevation in degrees, the same for every kind of picture of a case, and in ParaView.
 
     What is thin is seen from the front, the rest from the side towards which it moves, the front before the back.
     """

@@ -31,11 +31,6 @@ def edges_of_blocks(blocks: Blocks, edges: IntArray, chosen: BoolArray) -> IntAr
     return edges[chosen[blocks.block_of_vertex[edges[:, 0]]]]
 
 
-def box_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Least and greatest coordinates, (3,) each."""
-    return points.min(axis=0), points.max(axis=0)
-
-
 def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> FloatArray | None:
     """Corners of a slab behind a ground plane, as wide as what stands on it and a little more, (8, 3) m.
 
@@ -46,7 +41,8 @@ def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> F
         return None
     plane = model.grounds[ground]
     frame = np.linalg.svd(plane.normal[None])[2]  # rows: normal (either sign), then two directions in the plane
-    low, high = box_of((contacts.points[touching] - plane.point) @ frame.T)
+    places = (contacts.points[touching] - plane.point) @ frame.T
+    low, high = places.min(axis=0), places.max(axis=0)
     low[1:] -= 0.04 * size
     high[1:] += 0.04 * size
     low[0], high[0] = sorted((0.0, -float(np.sign(frame[0] @ plane.normal)) * 0.02 * size))

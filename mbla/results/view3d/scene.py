@@ -22,7 +22,8 @@ from mbla.model.model import Model
 from mbla.model.solids.plane import plane_axes
 from mbla.results.collapse.motion import largest_displacements
 from mbla.results.listing.text import number
-from mbla.results.pictures.geometry import SLAB_FACES, block_edges, box_of, front_axis
+from mbla.results.pictures.camera import axes_of, view_of_case
+from mbla.results.pictures.geometry import SLAB_FACES, block_edges
 from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
 from mbla.results.pictures.options import PictureOptions
@@ -35,13 +36,8 @@ FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
 MARGIN = 0.04
 """of the largest extent, around what is drawn"""
-LIGHT = np.array([0.83, -0.07, 0.95])
-"""direction the light comes from: towards the eye along its first axis, to the right, up; see ``light_from``"""
-DARKEST = 0.55
-"""share of its colour that a face turned away from the light keeps"""
 SLAB = SLAB_FACES[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 """triangles of a box"""
-SHADES = 32
 NO_VALUE = "#C8C8C8"
 STRONGEST = {"displacement": "#1A5E9B", "eccentricity": "#B2182B"}
 MOST_NAMES = 12
@@ -60,24 +56,23 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *loads]
     reach = [points for mark in loads for points in (mark.points, moved(mark, model, scene.motion))]
     seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *reach])
+    margin = MARGIN * float(np.ptp(seen, axis=0).max())
     of_block = triangulate_blocks(blocks, np.arange(len(blocks)))
     triangles = np.concatenate([of_block[block] for block in range(len(blocks))])
     owners = np.repeat(np.arange(len(blocks)), [len(of_block[block]) for block in range(len(blocks))])
-    eye = eye_of(blocks.vertices, scene.moved, view)
+    eye = axes_of(*(view or view_of_case(scene)))[0]
     slabs = np.concatenate([SLAB + 8 * row for row in range(len(scene.slabs))]) if scene.slabs else None
     ground = slabs is not None and {"points": packed(np.concatenate(scene.slabs) - offset), "triangles": packed(slabs)}
     return {
         "unit": model.units.length,
         "offset": offset.tolist(),
-        **_box(seen - offset),
-        "eye": eye,
+        "low": (seen.min(axis=0) - margin - offset).tolist(),
+        "high": (seen.max(axis=0) + margin - offset).tolist(),
+        "eye": eye.tolist(),
         "vertices": packed(blocks.vertices - offset),
         "vertexStart": packed(blocks.vertex_start),
         "triangles": packed(triangles),
         "blockOfTriangle": packed(owners),
-        "shades": packed(shades(triangle_normals(blocks.vertices, triangles), light_from(eye)), "u1"),
-        "shadeCount": SHADES,
-        "darkest": DARKEST,
         "edges": packed(block_edges(blocks)),
         "centroids": packed(blocks.centroids - offset),
         "motion": packed(scene.motion) if moves else None,
@@ -90,47 +85,12 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     }
 
 
-def triangle_normals(points: FloatArray, triangles: IntArray) -> FloatArray:
-    """Unit normals, (n, 3); zero for triangles without area."""
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    return np.asarray(normals / np.where(lengths > 0, lengths, 1.0)[:, None])
-
-
 def offset_of(vertices: FloatArray, size: float) -> FloatArray:
     """Centre of the model to the digit of its size where it lies far from the origin, else zero, (3,) m."""
     if np.abs(vertices).max() <= FAR * size:
         return np.zeros(3)
     digit = 10.0 ** np.floor(np.log10(size))
     return np.asarray(np.rint(vertices.mean(axis=0) / digit) * digit)
-
-
-def light_from(eye: list[float]) -> FloatArray:
-    """Unit direction of the light, (3,): from above and behind the viewer, so that the side first seen is bright."""
-    ahead = np.array([eye[0], eye[1], 0.0])
-    ahead /= float(np.linalg.norm(ahead)) or 1.0
-    light = LIGHT[0] * ahead + LIGHT[1] * np.cross([0.0, 0.0, 1.0], ahead) + LIGHT[2] * np.array([0.0, 0.0, 1.0])
-    return np.asarray(light / np.linalg.norm(light))
-
-
-def shades(normals: FloatArray, light: FloatArray) -> IntArray:
-    """Brightness of faces in steps from 0 to SHADES - 1, (n,)."""
-    return np.asarray(np.rint((normals @ light + 1) / 2 * (SHADES - 1)).astype(np.int64))
-
-
-def eye_of(vertices: FloatArray, moved: FloatArray, view: tuple[float, float] | None = None) -> list[float]:
-    """Direction from which the structure is seen first: nearly the front of what is thin, else slanted, or as given.
-
-    vertices, moved : (n_vertices, 3) m, at rest and as drawn
-    view            : azimuth and elevation in degrees
-    """
-    axis = front_axis(np.ptp(vertices, axis=0), np.abs(moved - vertices).max(axis=0))
-    if axis is None and view is not None:
-        azimuth, elevation = np.deg2rad(view)
-        level = np.cos(elevation)
-        return [float(level * np.cos(azimuth)), float(level * np.sin(azimuth)), float(np.sin(elevation))]
-    return {0: [1.6, -0.35, 0.4], 1: [0.35, -1.6, 0.4], None: [0.9, -1.6, 0.85]}[axis]
 
 
 def motion_words(scene: Scene) -> str:
@@ -249,12 +209,6 @@ def packed(values: FloatArray | IntArray, kind: str | None = None) -> dict[str, 
     kind = kind or ("f4" if values.dtype.kind == "f" else "i4")
     data = np.ascontiguousarray(values.ravel(), dtype=np.dtype(kind).newbyteorder("<"))
     return {"dtype": kind, "bdata": base64.b64encode(data.tobytes()).decode("ascii")}
-
-
-def _box(points: FloatArray) -> dict[str, Any]:
-    low, high = box_of(points)
-    margin = MARGIN * float((high - low).max())
-    return {"low": (low - margin).tolist(), "high": (high + margin).tolist()}
 
 
 def _colouring(colouring: Colouring) -> dict[str, Any]:

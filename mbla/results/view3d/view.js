@@ -24,7 +24,7 @@ window.mblaDrawView3d = function (host, data) {
   }
   const vertices = unpacked(data.vertices), vertexStart = unpacked(data.vertexStart);
   const triangles = unpacked(data.triangles), blockOfTriangle = unpacked(data.blockOfTriangle);
-  const shades = unpacked(data.shades), edges = unpacked(data.edges), centroids = unpacked(data.centroids);
+  const edges = unpacked(data.edges), centroids = unpacked(data.centroids);
   const motion = data.motion && unpacked(data.motion);
   const blockCount = vertexStart.length - 1;
   const blockOfVertex = new Int32Array(vertices.length / 3);
@@ -111,23 +111,14 @@ window.mblaDrawView3d = function (host, data) {
   }
 
   function faceColours(colouring) {
-    const rows = unpacked(colouring.rows), made = new Map();
-    const found = new Array(shades.length);
-    for (let t = 0; t < shades.length; t++) {
-      const row = rows[blockOfTriangle[t]], key = row * 256 + shades[t];
-      if (!made.has(key)) {
-        const light = data.darkest + ((1 - data.darkest) * shades[t]) / (data.shadeCount - 1);
-        const colour = colouring.colours[row];
-        made.set(key, [1, 3, 5].map((i) => (light * parseInt(colour.slice(i, i + 2), 16)) / 255).concat(1));
-      }
-      found[t] = made.get(key);
-    }
-    return found;
+    const rows = unpacked(colouring.rows);
+    return Array.from(blockOfTriangle, (block) => colouring.colours[rows[block]]);
   }
 
   // --- traces ------------------------------------------------------------------------------------------------------
 
-  const flat = { ambient: 1, diffuse: 0, specular: 0, fresnel: 0, vertexnormalsepsilon: 0, facenormalsepsilon: 0 };
+  const lamp = { x: 1e5 * data.eye[0], y: 1e5 * data.eye[1], z: 1e5 };  // above and behind the viewer
+  const light = { ambient: 0.6, diffuse: 0.6, specular: 0, fresnel: 0, vertexnormalsepsilon: 0, facenormalsepsilon: 0 };
   const traces = [], updates = [];
   function add(trace, update) {
     traces.push({ showlegend: false, hoverinfo: "skip", ...trace });
@@ -140,7 +131,7 @@ window.mblaDrawView3d = function (host, data) {
   }
   function mesh(points, indices, more) {
     const [x, y, z] = columns(points), corner = (n) => indices.filter((_, row) => row % 3 === n);
-    return { type: "mesh3d", x, y, z, i: corner(0), j: corner(1), k: corner(2), flatshading: true, lighting: flat, ...more };
+    return { type: "mesh3d", x, y, z, i: corner(0), j: corner(1), k: corner(2), flatshading: true, lighting: light, lightposition: lamp, ...more };
   }
 
   const hovertext = Array.from(blockOfVertex, (block) => data.texts[block]);

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from mbla.model.model import Model
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
-from mbla.results.pictures.geometry import front_axis
+from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.record.columns import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
@@ -111,8 +110,6 @@ def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) ->
 TEMPLATE = Path(__file__).with_name("standard_views.py")
 PLACE = "RESULT: dict[str, Any] = {}\n"
 """line of the template that this result replaces"""
-LOOK_FROM = {0: [1.0, 0.0, 0.0], 1: [0.0, -1.0, 0.0], None: [0.9, -1.6, 0.85]}
-"""where to look from, by the axis along which to look"""
 
 
 def views_script(results: Results, stem: str, supports: str, cases: Mapping[str, Mapping[str, Any]]) -> str:
@@ -149,7 +146,7 @@ def case_record(results: Results, scene: Scene, files: Mapping[str, str]) -> dic
         "parts": int(scene.parts.max(initial=0)),
         "slides": scene.interfaces is not None and bool(scene.interfaces.slides.any()),
         "thrust_lines": len(scene.lines),
-        "look_from": look_from(scene.model, scene),
+        "look_from": axes_of(*view_of_case(scene))[0].tolist(),
     }
 
 
@@ -166,9 +163,3 @@ def _words(results: Results, scene: Scene) -> list[str]:
     elif scene.mechanics is not None and scene.figures != "result":
         lines.append("Forces and motion are NO RESULT: the best that was reached.")
     return lines
-
-
-def look_from(model: Model, scene: Scene) -> list[float]:
-    """Direction towards the viewer: along the thin axis of what is thin and moves across it, else slanted."""
-    travel = np.abs(scene.displacements).max(axis=0, initial=0.0)
-    return LOOK_FROM[front_axis(np.ptp(model.blocks.vertices, axis=0), travel)]
