@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, starts
+from mbla.arrays import BoolArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
-from mbla.model.solids.ragged import next_item
 from mbla.process.stopwatch import timed
 from mbla.program.assemble import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
@@ -78,10 +77,6 @@ def takes_stress_blocks(analysis: AnalysisSection) -> bool:
     return by_flow and by_solver and not analysis.force_ranges
 
 
-STRAIGHT = 1e-9
-"""1 - cosine of the angle between edges that are parts of one: 4.5e-5 radians"""
-
-
 def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection) -> tuple[Notice, ...]:
     """Warnings about joint laws in use that the contact model represents on the unsafe side."""
     crushable = crushable_interfaces(model, contacts)
@@ -90,33 +85,8 @@ def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection)
     names = ", ".join(contacts.joint_names[joint] for joint in np.unique(contacts.joints[crushable]))
     text = (
         f"joint law {names}: with this flow rule, scheme or solver compressive strength limits each contact point to "
-        "its share of the area"
-    )
-    if not (crushable & _corners_alone(contacts)).any():
-        text += (
-            "; an interface bears moments that exceed those of stress blocks by at most (fc + ft) b h^2/(8 n^2), with "
-            "the tensile strength ft, its length h in n parts and its greatest breadth b (four times that where it is "
-            "no parallelogram)"
-        )
-        return (Notice("notice", "crushing-at-points", text),)
-    text += (
-        ", which overstates an interface under eccentric load: it bears N (1 + 2 e/b) <= fc A, a stress block only "
-        "N <= fc A (1 - 2 e/b), with eccentricity e and width b; scheme: auto crushes as stress blocks do, more points "
-        "(contacts.points) bring the difference down"
+        "its share of the area, which overstates an interface under eccentric load: with its corners alone it bears "
+        "N (1 + 2 e/b) <= fc A, a stress block only N <= fc A (1 - 2 e/b), with eccentricity e and width b; "
+        "scheme: auto crushes as stress blocks do, more points (contacts.points) bring the difference down"
     )
     return (Notice("warning", "eccentric-crushing-overstated", text),)
-
-
-def _corners_alone(contacts: Contacts) -> BoolArray:
-    """Interfaces with an edge that has contact points at its ends only, (n_interfaces,)."""
-    place = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
-    rows = np.flatnonzero(place < contacts.outline[contacts.interface_of_point])
-    owner = contacts.interface_of_point[rows]
-    following = next_item(starts(contacts.outline))
-    step = contacts.points[rows[following]] - contacts.points[rows]
-    step /= np.linalg.norm(step, axis=1)[:, None]
-    turns = np.empty(len(rows), dtype=bool)  # at the end of each edge
-    turns[:] = np.einsum("ij,ij->i", step, step[following]) < 1 - STRAIGHT
-    begins = np.empty_like(turns)
-    begins[following] = turns
-    return np.asarray(np.bincount(owner, turns & begins, minlength=len(contacts)) > 0)

@@ -28,9 +28,6 @@ def frictions() -> Iterator[Scene]:
                 yield Scene(f"arch, {name}", "friction", ARCH, overrides, HINGES, long=mu not in ("10", "1.0e15"))
 
 
-DILATANT = WALL.replace('friction: "=mu"', 'friction_angle: 33, dilatancy: "=psi"').replace(
-    "parameters: {", "parameters: {psi: 0, "
-)
 DILATANT_BLOCK = BLOCK.replace('friction: "=mu"', 'friction_angle: 20, dilatancy: "=psi"').replace(
     "parameters: {", "parameters: {psi: 0, "
 )

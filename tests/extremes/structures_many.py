@@ -158,18 +158,6 @@ STACK = deck(
 TOP = STACK.replace("acceleration: [1, 0, 0]", "acceleration: [1, 0, 0], on: {group: stack, drum: -1}")
 """Only the top block is pushed: it slides at mu or the stack rocks, b/2 n = factor (n - 1/2) h."""
 
-HANGING = deck(
-    """\
-  - box: {group: chain, material: stone, min: [0, 0, -0.1], max: [0.1, 0.1, 0],
-          repeat: {count: "=n", translate: [0, 0, -0.1]}}
-  - box: {group: ceiling, material: stone, min: [0, 0, 0], max: [0.1, 0.1, 0.1]}
-""",
-    'n: 200, w: "=2000*9.81*0.1*0.1*0.1"',
-    joint='friction: 0.5, cohesion: "=10*n*w/0.01", tensile_strength: "=2*n*w/0.01"',
-    supports="[{blocks: ceiling}]",
-    load_cases="{pull: {live: [{acceleration: [0, 0, -1], on: chain}]}}",
-)
-"""Blocks that hang from a ceiling by joints that bear twice the weight of all: the load factor is 1."""
 
 WALL = deck(
     """\
@@ -194,7 +182,6 @@ def _chains() -> list[Scene]:
         scenes += under_both_rules(
             f"row of {n} blocks, the first shoves all", family, SHOVED, 0.5 * n, overrides=(size,), long=long
         )
-        scenes += under_both_rules(f"hanging chain of {n} blocks", family, HANGING, 1.0, overrides=(size,), long=long)
     for n, long in ((100, False), (1000, True)):
         size = f"parameters.n={n}"
         scenes += under_both_rules(

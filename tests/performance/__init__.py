@@ -1,1 +1,1 @@
-"""Recorded benchmarks, run by hand: ``python -m tests.performance.bench_stages`` and its like."""
+"""Recorded benchmarks, run by hand: ``python -m tests.performance.bench_line`` and its like."""

@@ -23,7 +23,6 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-STARTED = time.perf_counter()
 STARTED_PROCESSOR = time.process_time()
 
 PARTS = ("assemble", "programs", "repair", "standing", "verify")

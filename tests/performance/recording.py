@@ -1,4 +1,4 @@
-"""How the benchmarks measure and record: shortest of a few runs, one row each, with date, versions and machine."""
+"""How the benchmarks record: a row for each measurement, with date, versions and machine."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import os
 import platform
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
@@ -16,28 +15,15 @@ from pathlib import Path
 
 RESULTS = Path(__file__).parent / "results"
 PROJECT = Path(__file__).parents[2]
-REPEATS = 3
 LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
 Row = dict[str, str]
 
 CASES = {
     "line": ("structure", "flow_rule"),
     "rivals": ("structure", "rival"),
-    "stages": ("case", "stage"),
     "sweep": ("sweep", "way", "points"),
 }
 """columns that tell the cases of a benchmark apart"""
-
-
-def best_time(run: Callable[[], object], repeats: int = REPEATS) -> tuple[float, float]:
-    """Shortest of a few runs by the clock and by the processor, s; they differ where the machine is busy."""
-    clock, processor = [], []
-    for _ in range(repeats):
-        start = time.perf_counter(), time.process_time()
-        run()
-        clock.append(time.perf_counter() - start[0])
-        processor.append(time.process_time() - start[1])
-    return min(clock), min(processor)
 
 
 def record(benchmark: str, row: Mapping[str, object]) -> None:

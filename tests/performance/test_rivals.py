@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 from mbla.program import assemble
-from tests.performance.bench_rivals import RIVALS, in_child, row_of
-from tests.performance.recording import Row
+from tests.performance.bench_rivals import RIVALS
 from tests.performance.rivals import coupled_blocks, cvxpy_models, linear_programs
 from tests.performance.rivals.linear_programs import friction_sides
 from tests.performance.rivals.statement import Statement, statement_of
 from tests.performance.rivals.structure import Structure, compared, structure_of
-from tests.performance.tables import rivals_table
 
 EIGHT_SIDES = np.cos(np.pi / 8)
 
@@ -112,37 +110,3 @@ def test_own_answers() -> None:
     answer = RIVALS["mbla"].solve(wall)
     assert answer.status == "solved"
     assert answer.bounds == pytest.approx((0.65, 0.65), rel=1e-6)
-
-
-def test_a_row_has_error_and_ratio() -> None:
-    mine, theirs = {"processor": 2.0, "load_factor": 1.0}, {"processor": 6.0, "load_factor": 1.1}
-    row = row_of("wall", "linprog", theirs, mine, {"static": 0.9, "kinematic": 1.1})
-    assert [row[name] for name in ("error", "bracket", "ratio")] == pytest.approx([0.1, 0.2, 3.0])
-    alone = row_of("wall", "linprog", {"load_factor": None}, mine, {})
-    assert (alone["error"], alone["ratio"]) == (None, None)
-
-
-def test_what_takes_longer_than_its_limit_or_fails_is_told() -> None:
-    assert in_child("wall, planar, 20 x 20", "mbla", 0) == {"status": "stopped after 0 s"}
-    assert in_child("no wall", "mbla", 60)["status"] == "failed: KeyError: 'no wall'"
-
-
-def test_the_table_has_ratios_errors_and_answers() -> None:
-    def row(rival: str, **figures: str) -> Row:
-        empty = {"structure": "wall", "rival": rival, "status": "", "processor": "", "ratio": "", "error": ""}
-        return empty | figures
-
-    rows = [
-        row("mbla", status="solved", processor="9", ratio="1", error="1e-10"),
-        row("mbla", status="solved", processor="0.25", ratio="1", error="1e-10"),
-        row("cvxpy", status="optimal_inaccurate", processor="0.5", ratio="2", error="-0.0009"),
-        row("linprog", status="stopped after 300 s"),
-        row("compas_cra, rbe_solve", status="stands", processor="3", ratio="12"),
-    ]
-    header, _, line = rivals_table(rows)
-    cells = dict(zip(header.split(" | "), line.split(" | "), strict=True))
-    assert cells["mbla, s"] == "0.25"
-    assert cells["standing, s"] == cells["cvxpy, scaled"] == "–"
-    assert cells["cvxpy"] == "2 (-9e-04, optimal_inaccurate)"
-    assert cells["linprog"] == "stopped after 300 s"
-    assert cells["compas_cra, rbe_solve"] == "12 (stands)"

@@ -15,7 +15,7 @@ from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
 from tests.line import BLOCK, WALL, line_of
-from tests.program.associative_static import associative_static_form, polygon_sides
+from tests.program.associative_static import associative_static_form
 from tests.solution.planar import planar_program
 
 
@@ -86,35 +86,3 @@ def test_verdicts_are_the_same(verdict_of: Callable[[Program], tuple[Status, flo
     steep = "load_cases.push.dead=[{gravity: [9.81, 0, -9.81]}]"
     helped = line_of(WALL, steep, "load_cases.push.live=[{acceleration: [0, 1, 0]}]").program
     assert verdict_of(helped)[0] is Status.NO_EQUILIBRIUM
-
-
-def test_a_slope_too_steep_has_a_certificate() -> None:
-    steep = line_of(WALL, "load_cases.push.dead=[{gravity: [9.81, 0, -9.81]}]").program
-    result = solve_associative(steep, SolverSettings(1e-8), ignored)
-    assert result.status is Status.NO_EQUILIBRIUM
-    assert result.certificate is not None
-    assert steep.dead_load @ result.certificate > 0
-
-
-def test_sides_of_polygons() -> None:
-    square = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
-    np.testing.assert_allclose(polygon_sides(square), [[1, 1], [-1, 1], [-1, -1], [1, -1]])
-    np.testing.assert_allclose(polygon_sides(np.array([[2.0], [-4.0]])), [[0.5], [-0.25]])
-    hull = friction_polygon(7, circumscribed=True)
-    np.testing.assert_allclose(np.linalg.norm(polygon_sides(hull), axis=1), 1.0)
-
-
-def test_shear_where_a_joint_carries_none_is_no_unknown() -> None:
-    program = line_of(BLOCK, "parameters.mu=0").program
-    form = associative_static_form(program)
-    assert form.cone_program.n_cones == 0
-    assert form.cone_program.matrix.shape[1] == program.n_points + 1
-
-
-@pytest.mark.parametrize("facets", [None, friction_polygon(4, circumscribed=False)], ids=["cones", "polygon"])
-def test_cohesion_without_friction_stores_no_zeros(facets: FloatArray | None) -> None:
-    """Zeros that are stored fill the factors of the solver."""
-    form = associative_static_form(line_of(SMOOTH).program, facets)
-    assert form.cone_program.n_cones + form.cone_program.n_half_lines > 0
-    assert form.cone_program.matrix.data.all()
-    assert form.cone_program.matrix.has_canonical_format

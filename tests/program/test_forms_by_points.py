@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.kinematic import friction_polygon, kinematic_form
+from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.resultants.assemble import assemble_convex, convex_form
 from mbla.program.resultants.static import convex_proximal_form
 from mbla.program.static import PointMotion, fixed_mechanism_form, gravity_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from tests.line import BLOCK, WALL, line_of
-from tests.program.associative_static import associative_static_form
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])
@@ -77,41 +76,6 @@ def test_all_points_in_one_program(components: int) -> None:
             forces[point] = random_forces(program, draw)[point]
             allowed = within(program, forces)
             assert (least_room(gravity_form(program).cone_program, forces.ravel()) >= 0) == allowed
-            form = associative_static_form(program)
-            sheared = (program.limits.friction > 0) | (program.limits.cohesion > 0)
-            if sheared[point]:
-                x = np.append(forces.ravel()[form.columns], 0.3)
-                assert (least_room(form.cone_program, x) >= 0) == allowed
-                np.testing.assert_allclose(slack(form.cone_program, x)[:12], balance(program, forces, 0.3))
-
-
-@BOTH
-def test_associative_form_in_forces(components: int) -> None:
-    for program, given in each_point(components):
-        sheared = bool(program.limits.friction[0] > 0 or program.limits.cohesion[0] > 0)
-        forces = given if sheared else given * np.eye(components)[0]
-        form = associative_static_form(program)
-        x = np.append(forces.ravel()[form.columns], 0.7)
-        assert np.array_equal(form.contact_forces(x), forces)
-        assert (least_room(form.cone_program, x) >= 0) == within(program, forces)
-        np.testing.assert_allclose(slack(form.cone_program, x)[:12], balance(program, forces, 0.7))
-        assert form.cone_program.cost @ x == -0.7
-
-
-@pytest.mark.parametrize(("circumscribed", "most"), [(False, 1.0), (True, 1.0 / np.cos(np.pi / 8))])
-def test_a_polygon_instead_of_the_circle(circumscribed: bool, most: float) -> None:
-    """Shear is bounded by the polygon turned about by half a turn: all of the circle or more, or no more than it."""
-    facets = friction_polygon(8, circumscribed)
-    for program, forces in each_point(3):
-        if not program.limits.friction[0] > 0:
-            continue
-        form = associative_static_form(program, facets)
-        assert form.cone_program.n_cones == 0
-        allowed = least_room(form.cone_program, np.append(forces.ravel(), 0.0)) >= 0
-        in_circle = within(program, forces)
-        far = within(program, forces / np.array([1.0, most, most]))
-        near = within(program, forces / np.array([1.0, np.cos(np.pi / 8), np.cos(np.pi / 8)]))
-        assert (in_circle <= allowed <= far) if circumscribed else (near <= allowed <= in_circle)
 
 
 def random_motion(program: Program, draw: np.random.Generator) -> PointMotion:
@@ -157,20 +121,6 @@ def _held(motion: PointMotion) -> bool:
 
 
 @BOTH
-def test_every_force_of_a_given_mechanism_is_there(components: int) -> None:
-    """As many unknowns as the law leaves free: the normal force at rest, and shear where it can be borne."""
-    draw = np.random.default_rng(7)
-    for program, _ in each_point(components):
-        law, motion = program.limits, random_motion(program, draw)
-        form = fixed_mechanism_form(program, motion)
-        normal = -law.tension[0] if motion.opens[0] else law.compression[0] if motion.crushes[0] else 1.0
-        sheared = not motion.slides[0] and law.cohesion[0] + law.friction[0] * normal > 0
-        assert form.expand.shape == (components, int(not _held(motion)) + (components - 1) * sheared)
-        kept = form.expand.shape[1]
-        assert kept == 0 or np.linalg.matrix_rank(form.expand.toarray()) == kept
-
-
-@BOTH
 @pytest.mark.parametrize("reduce_dry", [True, False])
 def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -> None:
     """With the least multipliers that allow the velocities the cost is dissipation less the power of the dead load."""
@@ -208,7 +158,6 @@ def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> N
     for number, form in enumerate(
         (
             kinematic_form(program, program.limits).cone_program,
-            associative_static_form(program).cone_program,
             gravity_form(program).cone_program,
             fixed_mechanism_form(program, still).cone_program,
             convex_form(convex).cone_program,
@@ -229,18 +178,3 @@ def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_m
         quadratic = convex_form(many, stabilised=1.0).cone_program.quadratic
         assert quadratic is not None
         assert quadratic == pytest.approx(np.full(len(quadratic), weight))
-
-
-@BOTH
-def test_every_sliding_point_has_friction_at_its_normal_force(components: int) -> None:
-    """Under a mechanism in which all points slide, the first and the last alike."""
-    program = mixed_program(components, 3)
-    n = program.n_points
-    nothing, draw = np.zeros(n, dtype=bool), np.random.default_rng(4)
-    directions = draw.normal(size=(n, components - 1))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    form = fixed_mechanism_form(program, PointMotion(nothing, nothing, ~nothing, directions))
-    x = draw.uniform(1.0, 2.0, form.cone_program.matrix.shape[1])
-    forces = form.forces(x)
-    strength = program.limits.cohesion + program.limits.friction * forces[:, 0]
-    assert forces[:, 1:] == pytest.approx(strength[:, None] * directions)

@@ -9,7 +9,15 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.assemble import _arms, assemble, equilibrium_matrix, lever_arms, yield_limits
+from mbla.program.assemble import (
+    LIGHT,
+    _arms,
+    assemble,
+    equilibrium_matrix,
+    lever_arms,
+    own_units,
+    yield_limits,
+)
 from mbla.program.program import Program, Reduction, Scaling
 from mbla.program.yield_conditions import YieldLimits
 from tests.line import BLOCK, Line, line_of
@@ -123,16 +131,6 @@ def test_a_couple_has_a_size_too(stack: Line) -> None:
     assert weightless.scaling.live == pytest.approx(np.sqrt(2.0))
 
 
-def test_a_program_in_other_units_is_the_same(stack: Line) -> None:
-    heavier = replace(
-        stack.load_case, dead_load=7.0 * stack.load_case.dead_load, live_load=3.0 * stack.load_case.live_load
-    )
-    program = assemble(stack.model, stack.contacts, heavier)
-    assert program.dead_load == pytest.approx(stack.program.dead_load)
-    assert program.live_load == pytest.approx(stack.program.live_load)
-    assert program.scaling.live == pytest.approx(7.0 / 3.0 * stack.program.scaling.live)
-
-
 def test_mechanisms_and_back(stack: Line) -> None:
     program = stack.program
     scaled = np.random.default_rng(2).normal(size=12)
@@ -230,3 +228,46 @@ def test_what_is_the_same_whatever_the_live_load() -> None:
     assert inner is not None
     assert not inner.full.live_load.any()
     assert full.without_live_load().reduction is None
+
+
+# Programs from model, contacts and loads: equilibrium, units of force, and units of light blocks.
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ("units.length=mm", "parameters.b=1000", "parameters.h=2000", "materials.stone.density=2e-6"),
+        ("materials.stone.density=2e-3",),
+        ("units.force=kip",),
+        ("units.mass=lb", "materials.stone.density=5"),
+    ],
+)
+def test_the_program_does_not_know_units(overrides: tuple[str, ...]) -> None:
+    text = BLOCK.replace('max: ["=b", 1, "=h"]', 'max: ["=b", "=b", "=h"]')
+    here, there = line_of(text).program, line_of(text, *overrides).program
+    assert there.equilibrium_matrix.toarray() == pytest.approx(here.equilibrium_matrix.toarray(), abs=1e-12)
+    assert there.dead_load == pytest.approx(here.dead_load)
+    assert there.live_load == pytest.approx(here.live_load)
+
+
+FIXED = -1
+
+
+@pytest.mark.parametrize(
+    ("loads", "bodies", "units"),
+    [
+        ([1, 1e-12], [(FIXED, 0), (0, 1)], [1, 1e-12]),
+        ([1, 1e-12], [(FIXED, 0), (1, 0), (0, 1)], [1, 1e-12]),
+        ([1, 2 * LIGHT], [(FIXED, 0), (0, 1)], [1, 1]),
+        ([1e-12, 1], [(FIXED, 0), (0, 1)], [1, 1]),  # light below heavy
+        ([1, 1e-12, 1], [(FIXED, 0), (0, 1), (1, 2)], [1, 1, 1]),
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (1, 2)], [1, 1e-10, 1e-10]),  # a pile has the unit of its largest load
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (0, 2)], [1, 1e-12, 1e-10]),
+        ([1, 1e-12, 1e-10], [(FIXED, 0), (0, 1), (1, 2), (FIXED, 2)], [1, 1, 1]),
+        ([1, 1e-12], [(FIXED, 0), (FIXED, 1)], [1, 1e-12]),
+        ([1, 0], [(FIXED, 0), (0, 1)], [1, 1]),  # without a load there is nothing to measure by
+        ([1, 1], [(FIXED, 0), (0, 1)], [1, 1]),
+    ],
+)
+def test_units(loads: list[float], bodies: list[tuple[int, int]], units: list[float]) -> None:
+    assert own_units(np.array(loads, dtype=np.float64), np.array(bodies)).tolist() == units

@@ -39,10 +39,6 @@ def test_excess_over_each_limit(x: FloatArray, limits: YieldLimits, excess: floa
     assert yield_violation(x, limits)[0] == pytest.approx(excess)
 
 
-def test_every_condition_is_registered_under_its_own_name() -> None:
-    assert [condition.name for condition in CONDITIONS] == ["coulomb", "tension", "crushing"]
-
-
 def test_dry_joints_need_no_row_for_tension_because_the_cone_ends_at_zero() -> None:
     assert not TensionCutOff.applies(limits_of(mu=0.5))[0]
     assert TensionCutOff.applies(limits_of(mu=0.5, c=1.0))[0]

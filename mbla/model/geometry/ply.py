@@ -128,7 +128,7 @@ def _row_of_text(element: _Element, fields: list[bytes]) -> Row:
             count, at = int(fields[at]), at + 1
         values = [read(each) for each in fields[at : at + max(count, 0)]]
         at += count
-        row.append(values if lengths else values[0])
+        row.append(np.array(values, kind).tolist() if lengths else values[0])  # OverflowError beyond the type
     if at != len(fields):
         raise ValueError(f"it has {len(fields)} numbers in the place of {at}")
     return row

@@ -41,8 +41,6 @@ class Scene:
     points    : (n_points, 3); frames : (n_points, 3, 3); areas : (n_points,)
     bodies    : (n_points, 2) row of each free block, −1 for what does not move
     interfaces: (n_points,) number of the interface
-    refined   : (n_points,) points of interfaces with more points than corners, where that can no longer be seen from
-                their outlines; None where it can
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
     """
 
@@ -55,13 +53,10 @@ class Scene:
     bodies: IntArray
     interfaces: IntArray
     allowed: sp.csr_array | None = None
-    refined: BoolArray | None = None
 
     @property
     def refined_points(self) -> BoolArray:
         """Points of interfaces whose outline goes straight on at some of them, (n_points,)."""
-        if self.refined is not None:
-            return self.refined
         straight = self.interfaces[np.abs(turns(self)) <= STRAIGHT_ON]
         return np.asarray(np.isin(self.interfaces, straight))
 
@@ -110,7 +105,6 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
-        refined=None if scene.refined is None else scene.refined[points],
         allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
     )
 

@@ -61,6 +61,13 @@ def test_what_cannot_be_read(
     assert str(caught.value) == f"is not a well-formed PLY file: {message}"
 
 
+def test_a_corner_of_an_immense_number(tmp_path: Path) -> None:
+    with pytest.raises(GeometryFileError, match="a line of its face cannot be read"):
+        tetrahedron(
+            tmp_path / "x.ply", header(True, PLACE, (CORNERS,)), text(faces="3 {} {} 9999999999999999999999999{}")
+        )
+
+
 def test_faces_before_vertices(tmp_path: Path) -> None:
     lines = header(True, PLACE, [CORNERS])
     points, faces = text().splitlines(keepends=True)[:4], text().splitlines(keepends=True)[4:]

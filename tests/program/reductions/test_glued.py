@@ -69,12 +69,3 @@ def test_blocks_held_by_glue_have_no_unknowns() -> None:
     program = assemble(solids.model, solids.contacts, solids.load_case(line.load_case))
     step = glued_step(solids, size_of([program]))
     assert (step.found, step.before.unknowns, step.after.unknowns) == (1, 18, 12)
-
-
-def test_a_pair_is_a_body_too() -> None:
-    """One pier glued to the lintel, the other not: two blocks in one body."""
-    pair = "{between: [{group: pier, index: 0}, lintel], joint: glued}"
-    deck = text("dry", "dry").replace("lintel], joint: dry}", f"lintel], joint: dry}}, {pair}")
-    _, case = case_of(deck, "analysis.flow_rule=associative")
-    (step,) = (step for step in case.solution.reductions if step.name == "glued")
-    assert (step.found, step.before.unknowns, step.after.unknowns) == (2, 18, 12)

@@ -78,22 +78,6 @@ def test_reduced_and_unreduced_programs_agree(tmp_path: Path, support: str, push
     assert reduced == pytest.approx(plain, rel=1e-7)
 
 
-def test_guides_out_of_the_plane_change_nothing_in_it(tmp_path: Path) -> None:
-    free, _ = answer(tmp_path, "{blocks: bed}", "[1, 0, 0]")
-    held, dimension = answer(tmp_path, "{blocks: wall, fixed: [y, rx, rz]}", "[1, 0, 0]")
-    assert dimension == 2
-    assert held == pytest.approx(free, rel=1e-9)
-
-
-def test_more_is_held_the_more_is_carried(tmp_path: Path) -> None:
-    factors = [
-        answer(tmp_path, f"{{blocks: {{group: wall, index: 15}}, fixed: [{fixed}]}}", "[0, 1, 0]")[0]
-        for fixed in ("x", "x, rx", "x, rx, ry", "x, y, rx, ry")
-    ]
-    assert np.all(np.diff(factors) >= -1e-7)
-    assert factors[0] < factors[-1] * (1 - 1e-3)
-
-
 def test_guides_across_the_mirror_plane_are_not_mirrored(tmp_path: Path) -> None:
     """A wall pushed out of its plane is symmetric about its middle; a rail on one end of it is not."""
     for support, planes in (("{blocks: bed}", 1), ("{blocks: {group: wall, index: 0}, fixed: [rx]}", 0)):

@@ -67,16 +67,6 @@ def test_each_part_has_its_own_unit_of_force(ratio: float) -> None:
         assert assess_dead_load(part, SolverSettings(tolerance=1e-8)).standing.verdict is Standing.YES
 
 
-@pytest.mark.parametrize("ratio", [1e-6, 1e6])
-def test_motions_of_a_part_go_to_the_model_and_back(ratio: float) -> None:
-    line = line_of(BESIDE, f"materials.other.density={2000 * ratio}")
-    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
-    rng = np.random.default_rng(5)
-    for part in reduced.parts:
-        u = rng.normal(size=len(part.dead_load))
-        assert part.velocities(part.mechanism(u)) == pytest.approx(u, rel=1e-9)
-
-
 def test_parts_know_their_loads_and_strengths() -> None:
     """Two boxes apart, one of them pushed: a part has the strengths of the joints in its own unit of force."""
     text = BLOCK.replace(
@@ -160,13 +150,6 @@ def test_what_is_solved_together() -> None:
     step = {step.name: step for step in found.steps}["unloaded"]
     assert step.found == n_all - n_wall
     assert (step.before.unknowns, step.after.unknowns) == (6 * n_all, 6 * n_wall)
-
-
-def test_two_loaded_parts_and_one_without() -> None:
-    live = "load_cases.push.live=[{acceleration: [1, 0, 0], on: [wall, far]}]"
-    steps = {step.name: step for step in reduced(line_of(UNLOADED, live)).steps}
-    assert steps["parts"].found == 2
-    assert steps["parts"].after.largest < steps["parts"].before.largest == steps["unloaded"].after.unknowns
 
 
 @pytest.mark.parametrize("switch", ["true", "false"])

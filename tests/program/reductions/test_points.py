@@ -127,15 +127,6 @@ def test_points_share_the_dead_load_as_they_share_the_area(planar: bool) -> None
     assert np.sort(normal / normal.sum()) == pytest.approx(np.array(expected), rel=1e-6)
 
 
-def test_standing_is_verified_with_unlike_points() -> None:
-    """The displacements are those of the stiffest point: others are pressed by less than they close."""
-    solution, checks, status = verified(line_of(BLOCK, "contacts.points.per_edge=3", "parameters.mu=0.3"))
-    assert status == "solved"
-    assert solution.standing is not None
-    assert solution.standing.settlement is not None
-    assert not checks.failures
-
-
 def test_strengths_stay_those_of_the_points() -> None:
     """x = √s y: cohesion, tension and compression of y are those of x over √s."""
     mortar = "joints.dry={friction: 0.5, cohesion: 3000, tensile_strength: 1000, compressive_strength: 2.e5}"

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced, reduce_program, unreduced
@@ -16,7 +13,7 @@ from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.parts import to_full
 from mbla.solution.settings import SolverSettings
-from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
+from tests.line import BLOCK, HEAD, WALL, Line, line_of
 
 ARCH = (
     HEAD
@@ -61,11 +58,6 @@ def optimum(program: Program) -> LawState:
     return result.state
 
 
-def factor_of(line: Line) -> float:
-    """Load factor of the model from its whole program."""
-    return line.program.scaling.load_factor(optimum(line.program).load_factor)
-
-
 def both(line: Line) -> tuple[LawState, LawState, Program]:
     """State of the whole program, and that of the only part with its program."""
     (part,) = reduced(line).parts
@@ -102,39 +94,6 @@ def assert_state_of(program: Program, state: LawState) -> None:
     assert program.live_load @ state.velocities == pytest.approx(1.0)
 
 
-def test_a_wall_in_any_plane_is_planar() -> None:
-    """Rotated as a whole, with gravity and push."""
-    plain = optimum(reduced(line_of(WALL)).parts[0])
-    turn = Rotation.from_rotvec([0.3, -1.1, 0.7])
-    vector, angle = turn.as_rotvec().tolist(), float(turn.magnitude())
-    down, push = turn.apply([0, 0, -9.81]).tolist(), turn.apply([1, 0, 0]).tolist()
-    up = [-value for value in down]
-    rotate = f"transform: [{{rotate: {{axis: {vector!r}, angle: {math.degrees(angle)!r}}}}}]"
-    text = (
-        WALL.replace("courses: ", f"{rotate}, courses: ")
-        .replace("supports: [{ground: {z: 0}}]", f"supports: [{{ground: {{point: [0, 0, 0], normal: {up!r}}}}}]")
-        .replace("push: {live", f"push: {{dead: [{{gravity: {down!r}}}], live")
-        .replace("[1, 0, 0]", repr(push))
-    )
-    turned = reduced(line_of(text))
-    assert turned.size.dimension == 2
-    assert optimum(turned.parts[0]).load_factor == pytest.approx(plain.load_factor, rel=1e-7)
-
-
-def test_a_push_out_of_the_plane_is_spatial() -> None:
-    live = "load_cases.push.live=[{acceleration: [1, 0.1, 0]}]"
-    size = reduced(line_of(WALL, live)).size
-    assert (size.dimension, size.mirror_planes) == (3, 0)
-
-
-def test_a_block_off_the_middle_is_spatial() -> None:
-    text = WALL.replace(
-        "supports:",
-        "  - box: {group: off, material: stone, min: [0, 0, 0.875], max: [0.4, 0.15, 1]}\nsupports:",
-    )
-    assert reduced(line_of(text)).size.dimension == 3
-
-
 def test_a_push_along_the_middle_of_a_wall_halves_it() -> None:
     live = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
     line = line_of(WALL, live)
@@ -144,27 +103,6 @@ def test_a_push_along_the_middle_of_a_wall_halves_it() -> None:
     assert size.dropped_points == pytest.approx(line.program.n_points / 2, abs=10)
     assert half.load_factor == pytest.approx(whole.load_factor, rel=1e-6)
     assert_state_of(*to_full(part, half))
-
-
-def test_no_halves_without_normality() -> None:
-    """A symmetric structure may fail by a lower mechanism that is not."""
-    live = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
-    assert reduced(line_of(WALL, live), associative=False).size.mirror_planes == 0
-
-
-def test_parts_that_cannot_interact_are_solved_apart() -> None:
-    """The higher wall goes first; the lower one carries its share at rest."""
-    line = line_of(TWO_WALLS)
-    size = reduced(line).size
-    assert size.parts == 2
-    solution, checks, status = verified(line)
-    assert status == "solved", (solution.reason, checks.failures)
-    alone = (factor_of(line_of(WALL)), factor_of(line_of(WALL, "blocks.0.wall.courses=9")))
-    assert solution.mechanics is not None
-    assert solution.mechanics.load_factor == pytest.approx(min(alone), rel=1e-6)
-    moving = np.abs(solution.mechanics.mechanism).max(axis=1) > 0
-    groups = np.array(line.model.blocks.groups)
-    assert set(groups[moving]) == {"other"}
 
 
 def test_points_inside_the_hull_are_left_out_of_associative_programs_only() -> None:

@@ -6,7 +6,6 @@ The size of a program with conditions on interfaces.
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.kinematic import ConeProgram
-from mbla.program.resultants.assemble import assemble_convex, resultants_map, size_of_convex
+from mbla.program.resultants.assemble import assemble_convex, size_of_convex
 from mbla.program.resultants.conditions import M1, M2, MN, ConditionRows, N
 from mbla.program.resultants.crushing import crushing_limits, crushing_rows, crushing_violation
 from mbla.program.resultants.shapes import InterfaceShapes
@@ -23,7 +22,7 @@ from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsi
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
 from tests.line import BLOCK, WALL, line_of
-from tests.program.resultants.test_shapes import prism_line, shapes_of
+from tests.program.resultants.test_shapes import shapes_of
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
 TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))
@@ -116,20 +115,6 @@ def test_outlines_of_more_corners_are_refused_unless_they_are_in_pieces() -> Non
         refused = bool(np.isfinite(strength[0]))
         with pytest.raises(ValueError, match="neither a parallelogram") if refused else nullcontext():
             crushing_limits(trapezium, strength, np.array([0.0]))
-
-
-def test_interfaces_without_the_condition_are_left_out() -> None:
-    none = np.array([0.0])
-    assert torsion_rows(torsion_limits(RECTANGLE, none, none), 1).cost.size == 0
-    assert crushing_rows(crushing_limits(RECTANGLE, np.array([np.inf]), none), 1).cost.size == 0
-
-
-@pytest.mark.parametrize("size", [2.0**-60, 2.0**30, 2.0**60])
-def test_moments_of_the_smallest_interface_are_forces_by_arms(size: float) -> None:
-    contacts = prism_line([(0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75)]).contacts
-    scaled = replace(contacts, points=size * contacts.points, centroids=size * contacts.centroids)
-    lengths = np.array([1.0, 1.0, 1.0, size, size, size])
-    assert np.array_equal(resultants_map(scaled).toarray(), lengths[:, None] * resultants_map(contacts).toarray())
 
 
 @pytest.mark.parametrize(

@@ -88,14 +88,6 @@ def test_safe_curve_of_rectangles_is_not_far_inside(aspect: float, least: float)
     assert 1 / size.max() < least + 0.005  # the stated bound is not a loose one
 
 
-def test_the_ellipse_is_outside_the_limit_curve() -> None:
-    """The reason for θ: the usual ellipse overstates a square by 7 %, a slender rectangle by 15 %."""
-    for aspect, least in ((1.0, 0.934), (100.0, 0.866)):
-        rho, _, _ = rectangle_curve(np.array([[aspect, 1.0]]))
-        shear, torsion = limit_curve(rectangle(aspect, 1.0))
-        assert np.hypot(shear, torsion / rho).min() == pytest.approx(least, abs=2e-3)
-
-
 @pytest.mark.parametrize("name", SHAPES)
 def test_fitted_curves_are_inside_the_limit_curve(name: str) -> None:
     outline = SHAPES[name]
@@ -116,12 +108,6 @@ def test_fitted_curves_do_not_depend_on_size_place_in_the_array_or_rotation() ->
     assert radii[0] == pytest.approx(1000 * radius[0], rel=1e-9)
     assert thetas[0] == pytest.approx(theta[0], abs=1e-6)
     assert radii[2] == pytest.approx(radius[0], rel=1e-9)
-
-
-def test_near_a_disc_the_curve_is_nearly_that_of_a_disc() -> None:
-    """About the middle of a disc of radius 1 the Hessian of ρ = 2/3 is the unit matrix: θ = 2 - 4/3 at the least."""
-    _, theta = fitted_curves(regular(24))
-    assert 0.6 < theta[0] < 0.95
 
 
 @pytest.mark.parametrize("name", ["square", "two to one"])

@@ -47,13 +47,6 @@ def test_nearest_point_is_in_the_set_and_nearer_than_others_in_it() -> None:
         assert ((inside - found[i]) @ (trial[i] - found[i])).max() <= 1e-9
 
 
-def test_points_inside_stay() -> None:
-    limit, theta, trial = sets(200)
-    inside = needed(trial, limit, theta) <= 1
-    assert inside.any()
-    assert nearest(trial, limit, theta).point[inside] == pytest.approx(trial[inside], abs=1e-15)
-
-
 def test_derivatives() -> None:
     limit, theta, trial = sets(400)
     exact, h = nearest(trial, limit, theta), 1e-6
@@ -121,11 +114,6 @@ def test_sizes_change_with_the_resultants_as_their_derivatives_say() -> None:
             for name, by in (("total", exact.of_total), ("share", exact.of_share)):
                 rise = (getattr(up, name) - getattr(down, name)) / (2 * h)
                 assert rise == pytest.approx(by.toarray()[:, j], abs=1e-6)
-
-
-def test_without_shear_small_forces_stay_in_every_direction() -> None:
-    limit, theta = limit_of(np.array([2.0]), np.array([1.5])), np.array([0.5])
-    assert nearest(np.array([[0.0, 0.0, 0.25]]), limit, theta).by_point[0] == pytest.approx(np.eye(3))
 
 
 def test_reserve_is_what_no_twist_needs() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from mbla.program.resultants.friction_curve import disc_radius, fitted_curves
 from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes
-from tests.line import HEAD, WALL, Line, line_of
+from tests.line import HEAD, Line, line_of
 
 PRISM = (
     HEAD
@@ -63,15 +63,6 @@ def test_points_on_edges_are_no_corners() -> None:
     assert refined.radii == pytest.approx(plain.radii, rel=1e-12)
 
 
-def test_small_interfaces_have_the_same_corners() -> None:
-    """Sides of a few ten-thousandths of the unit of length."""
-    outline, size = np.array([(0, 0), (1, 0), (1, 0.75), (0, 0.75)]), 2.0**-12
-    large, small = (shapes_of(*[(float(x), float(y)) for x, y in scale * outline]) for scale in (1.0, size))
-    assert small.rectangles.all()
-    assert small.corners == pytest.approx(size * large.corners)
-    assert small.radii == pytest.approx(size * large.radii)
-
-
 def test_angle_has_the_hull_for_its_edges_and_itself_for_its_friction() -> None:
     angle = ((0, 0), (1, 0), (1, 0.4), (0.4, 0.4), (0.4, 1), (0, 1))
     shapes = shapes_of(*angle)
@@ -106,12 +97,6 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
     assert not shapes.convex.any()
     assert shapes.radii == pytest.approx(disc_radius(np.array([0.84])))
     assert shapes.thetas == pytest.approx(1.0)
-
-
-def test_every_interface_of_a_wall_is_a_rectangle() -> None:
-    shapes = interface_shapes(line_of(WALL).contacts)
-    assert shapes.rectangles.all()
-    assert np.all(shapes.radii > disc_radius(shapes.sides.prod(axis=1)) * 0.999)
 
 
 def test_where_nothing_touches_there_are_no_shapes() -> None:

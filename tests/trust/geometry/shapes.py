@@ -341,6 +341,7 @@ MERGED = frozenset({"vertices-merged", "vertices-welded"})
 TURNED = frozenset({"faces-turned-outwards"})
 GONE = frozenset({"faces-collapsed", "vertices-merged"})
 AGAIN = frozenset({"faces-repeated", "surfaces-repeated"})
+SPLIT = frozenset({"bent-faces-split"})
 
 FLAT = _corners(lambda corners: corners * [1, 0, 1] + [0, 0.5, 0])
 THIN = _corners(lambda corners: corners * [1, 1e-17, 1])
@@ -433,7 +434,7 @@ MUTATIONS = (
     Mutation("corner that no face has, not a number", _one(idle_nan), EITHER),
     Mutation("renumbered", _all(renumbered), SAME),
     Mutation("in triangles", _all(split_faces), SAME),
-    Mutation("corner off the plane", _one(bent), REFUSED, suits=lambda kind: kind.polygons and not kind.flat),
+    Mutation("corner off the plane", _one(bent), TOLD, lambda kind: kind.polygons and not kind.flat, SPLIT),
     Mutation("block without thickness", _one(FLAT), REFUSED, lambda kind: not kind.flat),
     Mutation("block thinner than rounding", _one(THIN), REFUSED, lambda kind: not kind.flat),
     Mutation("block on a line", _one(LINE), REFUSED, lambda kind: kind.apart),
