@@ -25,9 +25,6 @@ from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
 from mbla.model.transform import build_transform, repetitions, transform_item
 
-CORNERS_OF_A_BLOCK = 8
-"""of a block, between which its copies are looked for in one place"""
-
 
 @dataclass(frozen=True)
 class CollectedItems:
@@ -161,12 +158,6 @@ def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
         facets = sum(len(part.polyhedra.block_of_face) for part in generated.parts)
         amounts.refuse_too_many(amounts.Amount(facets, key, "facets"), item)
     amounts.refuse_beyond(amounts.MOST, before + blocks, (), "blocks, with those of the items before it")
-    if copies > 1 and blocks:
-        first = next(part.polyhedra for part in generated.parts if len(part.polyhedra))
-        with np.errstate(all="ignore"):  # coordinates that are not finite are refused by block
-            corners = first.vertices[: min(int(first.vertex_start[1]), CORNERS_OF_A_BLOCK)]
-            images = repetitions(item.repeat).points(corners)
-            amounts.refuse_crowd(images.min(axis=1), images.max(axis=1), blocks)
 
 
 def _labels(deck: Deck, placed: Sequence[_Placed]) -> Labels:

@@ -14,7 +14,6 @@ from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.generators import amounts
-from mbla.model.generators.generator import ItemRefused
 from mbla.model.model import Model
 from tests.deck.decks import BLOCK, write
 from tests.model.shapes import write_deck
@@ -70,21 +69,6 @@ def test_what_fits_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     two = stack.replace("X", "0").replace("GROUP", "block") + stack.replace("X", "5").replace("GROUP", "b")
     assert len(build_model(read_deck(write(tmp_path, BLOCK.replace(BOX, two)))).blocks) == 4
     assert len(faults(tmp_path, two + BOX.replace("group: block", "group: c"))) == 1
-
-
-@pytest.mark.parametrize("apart", [(0.0, 0.0, 0.0), (1e-4, 0.0, 0.0), (0.0, -1e-4, 1e-4)])
-def test_copies_in_one_place(apart: tuple[float, float, float]) -> None:
-    lower = np.arange(1000)[:, None] * np.array(apart) + 0.3
-    with pytest.raises(ItemRefused, match="lays copies in one place: more than 300,000 pairs of them come near"):
-        amounts.refuse_crowd(lower, lower + 1.0, 1000)
-
-
-def test_copies_beside_each_other_and_flat_ones_are_not_in_one_place() -> None:
-    lower = np.arange(100_000)[:, None] * np.array([1.0, 0.0, 0.0])
-    amounts.refuse_crowd(lower, lower + np.array([1.0, 1.0, 1.0]), 100_000)
-    amounts.refuse_crowd(lower, lower + np.array([1.0, 0.0, 1.0]), 100_000)
-    with np.errstate(invalid="ignore"):
-        amounts.refuse_crowd(np.full((1000, 3), np.inf), np.full((1000, 3), np.inf), 1000)
 
 
 BLOCKS = [

@@ -6,9 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
-from mbla.arrays import FloatArray
 from mbla.deck.items.item import Item, Repetition
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding, Message
@@ -68,31 +65,6 @@ def refuse_too_many(amount: Amount, item: Item) -> None:
 def most_pairs(blocks: int) -> int:
     """Pairs that so many blocks may have that come near each other."""
     return max(MOST_PAIRS, PAIRS_OF_A_BLOCK * blocks)
-
-
-def refuse_crowd(lower: FloatArray, upper: FloatArray, blocks: int) -> None:
-    """Refuse copies that lie in one place by the thousand, before they are made.
-
-    Boxes whose middles differ along each axis by less than the smallest of them measures share a point: there are at
-    least as many pairs as of boxes with their middles in one cell of a grid of that width.
-
-    lower, upper : (n_copies, 3) of a box around some of each copy
-    blocks       : of all copies
-
-    Raises
-    ------
-    ItemRefused
-        at the key ``repeat``
-    """
-    width = (upper - lower).min(axis=0)
-    cells = np.floor((lower + upper) / 2 / np.where(width > 0, width, 1.0))
-    together = np.unique(cells[np.isfinite(cells).all(axis=1)], axis=0, return_counts=True)[1]
-    most = most_pairs(blocks)
-    if (together * (together - 1) // 2).sum() > most:
-        words = (
-            f"lays copies in one place: more than {most:,} pairs of them come near each other; no more can be handled"
-        )
-        raise ItemRefused(Finding("too-many-units", words, "repeat"))
 
 
 def too_many_together(about: float) -> Message | None:

@@ -177,16 +177,16 @@ def volumes_and_centroids(polyhedra: Polyhedra) -> tuple[FloatArray, FloatArray]
 
 
 LARGE = 2_000_000
-"""products faces x vertices above which not every vertex is compared with every face: of a million triangles that would
-take hours"""
-SHARE = 0.01
-"""part of what is allowed by which the comparison of large polyhedra may miss it"""
+"""products faces x vertices of a polyhedron above which it is not asked whether it is convex: no surveyed stone is, and
+of a million triangles that would take hours"""
 AT_ONCE = 2_000_000
 """products held in memory together"""
 
 
 def find_convex(polyhedra: Polyhedra, faces: FaceGeometry, allowed: FloatArray) -> BoolArray:
     """True where every vertex lies behind the plane of every face, or ahead of it by at most ``allowed``, (n,).
+
+    Large polyhedra count as not convex, which only takes longer.
 
     allowed : (n,) length, for each polyhedron
     """
@@ -197,10 +197,6 @@ def find_convex(polyhedra: Polyhedra, faces: FaceGeometry, allowed: FloatArray) 
     for part in chunks(products[small], AT_ONCE):
         blocks = small[part]
         convex[blocks] = _greatest_lead(polyhedra, faces, blocks) <= allowed[blocks]
-    for block in np.flatnonzero(products > LARGE):
-        vertices = polyhedra.local_vertices[polyhedra.vertex_start[block] : polyhedra.vertex_start[block + 1]]
-        rows = slice(polyhedra.face_start[block], polyhedra.face_start[block + 1])
-        convex[block] = _none_ahead(vertices, faces.centres[rows], faces.normals[rows], float(allowed[block]))
     return convex
 
 
@@ -215,25 +211,3 @@ def _greatest_lead(polyhedra: Polyhedra, faces: FaceGeometry, blocks: IntArray) 
     leads -= np.repeat(offsets, per_face)
     products = vertex_counts * face_counts
     return np.asarray(np.maximum.reduceat(leads, np.cumsum(products) - products), dtype=np.float64)
-
-
-def _none_ahead(vertices: FloatArray, centres: FloatArray, normals: FloatArray, allowed: float) -> bool:
-    """Whether one large polyhedron is convex: no vertex in a great ball that rests on each face, ``allowed`` above it.
-
-    A ball of radius r holds what leads by more than ``allowed`` + L²/2r at a distance L along the face; r makes that
-    at most ``SHARE`` of ``allowed`` more across the whole polyhedron.
-    """
-    from scipy.spatial import cKDTree
-
-    extent = float(np.linalg.norm(np.ptp(vertices, axis=0)))
-    if not allowed > 0 or not extent > 0:
-        return False
-    radius = extent**2 / (2 * SHARE * allowed)
-    tree = cKDTree(vertices)
-    for first in range(0, len(normals), AT_ONCE // 20):
-        rows = slice(first, first + AT_ONCE // 20)
-        middles = centres[rows] + (allowed + radius) * normals[rows]
-        nearest, _ = tree.query(middles, distance_upper_bound=radius)
-        if np.isfinite(nearest).any():
-            return False
-    return True

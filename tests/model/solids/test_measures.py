@@ -8,7 +8,6 @@ from mbla.model.solids.measures import (
     count_pieces,
     face_geometry,
     faces_to_turn,
-    find_convex,
     find_edges,
     volumes_and_centroids,
 )
@@ -201,26 +200,3 @@ def test_dents_within_the_tolerance_do_not_count(dent: float, convex: bool) -> N
     vertices = [*vertices, [0.5, 0.5, 1 - dent]]
     built = build((vertices, [faces[0], *([4 + i, 4 + (i + 1) % 4, 8] for i in range(4)), *faces[2:]]))
     assert built.blocks.convex.tolist() == [convex]
-
-
-@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
-def test_large_polyhedra_are_judged_as_small_ones(monkeypatch: pytest.MonkeyPatch, scale: float) -> None:
-    points = np.random.default_rng(0).normal(size=(400, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    faces = ConvexHull(points).simplices.tolist()
-    shapes = []
-    for dent in (0.0, 1e-4, 5e-2, 0.5):
-        dented = points.copy()
-        dented[7] *= 1 - dent
-        shapes.append(moved((dented.tolist(), faces), scale * rotation(0)))
-    small = build(*shapes).blocks.convex.tolist()
-    assert set(small) == {True, False}
-    monkeypatch.setattr("mbla.model.solids.measures.LARGE", 0)
-    assert build(*shapes).blocks.convex.tolist() == small
-
-
-def test_large_polyhedra_are_not_called_convex_where_nothing_is_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
-    polyhedra = raw(box(), box())
-    monkeypatch.setattr("mbla.model.solids.measures.LARGE", 0)
-    convex = find_convex(polyhedra, face_geometry(polyhedra), np.array([0.0, 1e-3]))
-    assert convex.tolist() == [False, True]
