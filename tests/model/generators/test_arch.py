@@ -314,13 +314,6 @@ def test_arch_on_piers(shape: str, skew: float) -> None:
         assert area == pytest.approx(alone[1] + 6 * 0.8 * WIDTH + bearing + ends * WIDTH, rel=1e-9)
 
 
-def test_piers_under_springings_at_different_heights() -> None:
-    vertices = arch_of_arch_shapes("points", piers=PIERS).parts[1].polyhedra.vertices
-    left, right = vertices[vertices[:, 0] < 2], vertices[vertices[:, 0] > 2]
-    assert (left[:, 2].min(), left[:, 2].max()) == (-3.0, 0.0)
-    assert (right[:, 2].min(), right[:, 2].max()) == pytest.approx((-2.8, 0.2))
-
-
 def test_a_pier_as_wide_as_the_springing_joint_reaches() -> None:
     """The springer block is then a triangle."""
     section = corners(arch_of_arch_shapes("catenary"))

@@ -112,13 +112,6 @@ def test_fields_between_lines(tmp_path: Path) -> None:
     ]
 
 
-def test_ends_that_nearly_meet(tmp_path: Path) -> None:
-    document, space = drawing()
-    for (x, z), (u, w) in zip(SQUARE, SQUARE[1:] + SQUARE[:1], strict=True):
-        space.add_line((x, z + 1e-8), (u, w - 1e-8))
-    assert areas(read(document, tmp_path)) == pytest.approx([1], rel=1e-6)
-
-
 def test_what_is_no_outline_is_left_out_with_a_warning(tmp_path: Path) -> None:
     document, space = drawing()
     space.add_lwpolyline(SQUARE, close=True)
@@ -200,12 +193,6 @@ def lines(*places: list[tuple[float, float]]) -> list[FloatArray]:
 def corners(outlines: list[FloatArray]) -> list[list[tuple[float, float]]]:
     """Corners of each outline, sorted."""
     return [sorted((float(x), float(z)) for x, z in outline) for outline in outlines]
-
-
-def test_a_diagonal_bounds_a_field() -> None:
-    fields, loose = enclosed_fields(lines([(0, 0), (1, 1)], [(1, 1), (1, 0)], [(1, 0), (0, 0)]))
-    assert corners(fields) == [[(0, 0), (1, 0), (1, 1)]]
-    assert loose == 0
 
 
 def test_open_polylines_bound_fields_as_lines_do() -> None:

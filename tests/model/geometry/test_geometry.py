@@ -94,17 +94,6 @@ def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: s
     assert caught.value.message.identifier == "file-unreadable"
 
 
-@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="no file that can be opened and not read")
-@pytest.mark.parametrize("suffix", READERS)
-def test_a_file_that_can_be_opened_and_not_read(tmp_path: Path, suffix: str) -> None:
-    path = tmp_path / f"blocks{suffix}"
-    path.symlink_to("/proc/self/mem")
-    with pytest.raises(GeometryFileError) as caught:
-        read_geometry(path)
-    assert str(caught.value) == "cannot be read: Input/output error"
-    assert caught.value.message.identifier == "file-unreadable"
-
-
 @pytest.mark.parametrize("suffix", READERS)
 def test_a_file_without_permission(tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whoever runs the tests may read it, so the system's answer is put in its place."""

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.gltf import read_gltf
@@ -182,34 +181,6 @@ def test_a_first_buffer_with_an_address_is_not_the_binary_chunk(tmp_path: Path) 
     text = json.dumps(document([{"mesh": 0}])).encode()
     geometry = binary(tmp_path, (JSON_CHUNK, text), (BINARY_CHUNK, bytes(168)))
     assert boxes(geometry) == [pytest.approx([1, 0.5, 0.5, 0.5])]
-
-
-def test_a_rotation_about_any_axis_turns_as_quaternions_do(tmp_path: Path) -> None:
-    turn = Rotation.from_quat([0.1, -0.7, 0.4, 0.5])
-    node = {"mesh": 0, "rotation": turn.as_quat().tolist(), "translation": [1, 2, 3]}
-    polyhedra = written(tmp_path, document([node])).polyhedra
-    placed = turn.apply(POINTS.astype(float)[TRIANGLES.reshape(-1)]) + np.array([1, 2, 3])
-    assert polyhedra.vertices[polyhedra.loops] == pytest.approx(placed)
-
-
-def test_primitives_over_points_of_their_own_make_one_surface(tmp_path: Path) -> None:
-    """Bottom and top of the cube with its points, and its sides with the same points in reverse order."""
-    ends, sides = TRIANGLES[:4], 7 - TRIANGLES[4:]
-    data = POINTS.tobytes() + POINTS[::-1].tobytes() + ends.tobytes() + sides.astype(np.uint16).tobytes()
-    lengths = [96, 96, 24, 48]
-    keys: dict[str, Any] = {
-        "meshes": [{"primitives": [{"attributes": {"POSITION": i}, "indices": i + 2} for i in (0, 1)]}],
-        "accessors": [
-            *({"bufferView": i, "componentType": 5126, "count": 8, "type": "VEC3"} for i in (0, 1)),
-            *({"bufferView": i, "componentType": 5123, "count": lengths[i] // 2, "type": "SCALAR"} for i in (2, 3)),
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteOffset": sum(lengths[:i]), "byteLength": length} for i, length in enumerate(lengths)
-        ],
-        "buffers": [{"byteLength": len(data), "uri": address(data)}],
-    }
-    polyhedra = written(tmp_path, document([{"mesh": 0}], **keys)).polyhedra
-    assert polyhedra.vertices[polyhedra.loops].tolist() == POINTS[TRIANGLES.reshape(-1)].tolist()
 
 
 @pytest.mark.parametrize(

@@ -72,14 +72,6 @@ def test_surface_of_touching_blocks_is_split(tmp_path: Path, suffix: str) -> Non
     assert built.blocks.facet_of_face.max() + 1 == 54
 
 
-@pytest.mark.parametrize("suffix", [".ply", ".vtu", ".msh", ".inp"])
-def test_quadrilaterals(tmp_path: Path, suffix: str) -> None:
-    points, cells = grid()
-    path = tmp_path / f"wall{suffix}"
-    write_mesh(path, points, [("quad", quads_of(cells))], file_format=FORMATS[suffix])
-    assert volumes(path) == pytest.approx([1] * 9)
-
-
 def test_every_reader_has_a_round_trip() -> None:
     assert set(READERS) == {*FORMATS, ".obj", ".gltf", ".glb", ".json", ".dxf"}
 

@@ -166,13 +166,3 @@ def test_vertices_that_no_face_uses_are_counted(tmp_path: Path, extra: str, word
     assert [(notice.identifier, notice.message) for notice in read_obj(obj(tmp_path)).notices] == [
         ("file-vertices-unused", f"{words} used by no face: is the file whole?")
     ]
-
-
-@pytest.mark.parametrize("before", ["", "# stones\n"])
-def test_the_longest_line_is_read_and_none_that_is_longer(tmp_path: Path, before: str) -> None:
-    line = "#" * LONGEST_LINE
-    obj(tmp_path).write_text(f"{before}{line}\n{CUBE}{FACES}")
-    assert len(read_obj(obj(tmp_path)).polyhedra) == 1
-    obj(tmp_path).write_text(f"{before}{line}#\n{CUBE}{FACES}")
-    with pytest.raises(GeometryFileError, match=rf"line {1 + before.count(chr(10))} is too long"):
-        read_obj(obj(tmp_path))

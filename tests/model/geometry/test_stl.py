@@ -8,7 +8,6 @@ import pytest
 
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import GeometryFileError
-from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.repair import repair
 from mbla.model.geometry.stl import read_stl
 from tests.model.shapes import Shape, box, build_raw
@@ -57,21 +56,6 @@ def test_binary(tmp_path: Path, header: bytes) -> None:
     path.write_bytes(content[:-10])
     with pytest.raises(GeometryFileError, match="is not a well-formed STL file"):
         read_stl(path)
-
-
-@pytest.mark.parametrize("name", ["crossvault", "wall"])
-def test_real_blocks_as_one_surface_of_triangles(tmp_path: Path, name: str) -> None:
-    """The exported vault and wall of the tutorials as a soup of triangles: blocks that touch come apart again.
-
-    Faces of the vault are bent, so that neighbours have different triangles where they touch.
-    """
-    polyhedra = repair(read_obj(DATA / f"{name}.obj"), 1e-3).polyhedra
-    faces = np.split(polyhedra.loops, polyhedra.loop_start[1:-1])
-    corners = [[face[0], face[i], face[i + 1]] for face in faces for i in range(1, len(face) - 1)]
-    content = b"".join(struct.pack("<12fH", 0, 0, 0, *polyhedra.vertices[each].reshape(-1), 0) for each in corners)
-    path = tmp_path / "x.stl"
-    path.write_bytes(bytes(80) + struct.pack("<I", len(corners)) + content)
-    assert sorted(volumes(path)) == pytest.approx(sorted(build_raw(polyhedra).blocks.volumes.tolist()), rel=2e-5)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.loads.gravity import ramp_moments
 from mbla.results.collapse.mechanics import live_load_in_g
-from tests.model.shapes import L_OUTLINE, build, deck, hull, prism, write_deck
+from tests.model.shapes import L_OUTLINE, build, deck, prism, write_deck
 
 DENSITY, G = 2000.0, 9.81
 GROUND = "[{ground: {z: 0}}]"
@@ -72,19 +72,6 @@ def test_ramps_over_blocks_that_are_not_convex_or_not_upright(level: float) -> N
     h = np.maximum(points @ along - level, 0)
     assert ramps[0] == pytest.approx(h.sum() / n**3, rel=1e-4)
     assert moments[0] == pytest.approx(h @ (points - blocks.centroids[0]) / n**3, rel=2e-3, abs=1e-4)
-
-
-def test_a_ramp_and_its_opposite_make_a_straight_line() -> None:
-    """max(s - l, 0) - max(l - s, 0) = s - l, whose integral is V (s of the centroid - l)."""
-    shape, volume = hull(5)
-    blocks = build(shape).blocks
-    along, level = np.array([0.6, 0.0, 0.8]), 0.2
-    up, up_moment = ramp_moments(blocks, np.array([0]), along, np.array([level]))
-    down, down_moment = ramp_moments(blocks, np.array([0]), -along, np.array([-level]))
-    assert up[0] - down[0] == pytest.approx(volume * (blocks.centroids[0] @ along - level), rel=1e-11)
-    everywhere, all_moment = ramp_moments(blocks, np.array([0]), along, np.array([-9.0]))
-    assert everywhere[0] == pytest.approx(volume * (blocks.centroids[0] @ along + 9), rel=1e-11)
-    assert up_moment[0] - down_moment[0] == pytest.approx(all_moment[0], rel=1e-9, abs=1e-12 * volume)
 
 
 def test_what_is_not_uniform_is_not_told_in_g(tmp_path: Path) -> None:

@@ -47,13 +47,6 @@ def test_default_dead_load_is_gravity(tmp_path: Path) -> None:
     assert found.name == "push"
 
 
-def test_acceleration_is_in_units_of_g(tmp_path: Path) -> None:
-    found = case(tmp_path, "live: [{acceleration: [0.5, 0, -1]}]")
-    assert found.live_load[:, 0] == pytest.approx(0.5 * 9.81 * 2000 * np.array([1, 2, 1]))
-    assert found.live_load[:, 2] == pytest.approx(-9.81 * 2000 * np.array([1, 2, 1]))
-    assert found.live_words == ("acceleration (0.5, 0, -1) g",)
-
-
 def test_acceleration_on_a_selection(tmp_path: Path) -> None:
     found = case(tmp_path, "live: [{acceleration: [1, 0, 0], on: top}]")
     assert found.live_load[:, 0] == pytest.approx(9.81 * 2000 * np.array([0, 2, 1]))
@@ -71,13 +64,6 @@ def test_acceleration_on_a_selection(tmp_path: Path) -> None:
 def test_an_acceleration_of_one_g_weighs_as_much_as_gravity(tmp_path: Path, units: str, gravity: float) -> None:
     found = case(tmp_path, f"dead: [{{gravity: [0, 0, {-gravity}]}}], live: [{{acceleration: [0, 0, -1]}}]", units)
     assert found.dead_load == pytest.approx(found.live_load, rel=1e-5)
-
-
-def test_force_at_the_centroid_has_no_moment(tmp_path: Path) -> None:
-    found = case(tmp_path, "live: [{force: [10, 20, 30], on: {group: top, index: 1}}]")
-    assert found.live_load[2].tolist() == [10, 20, 30, 0, 0, 0]
-    assert not found.live_load[:2].any()
-    assert found.live_words == ("force (10, 20, 30) N on top[1] at its centroid",)
 
 
 def test_force_at_a_point_brings_its_moment(tmp_path: Path) -> None:
@@ -123,13 +109,6 @@ def test_dead_force_on_a_fixed_block_is_remarked_on(tmp_path: Path) -> None:
 def test_force_outside_its_block(tmp_path: Path, x: float, remarked: bool) -> None:
     found = model(tmp_path, f"live: [{{force: [1, 0, 0], on: {{group: top, index: 0}}, at: [{x}, 0.5, 2]}}]")
     assert [notice.identifier for notice in found.notices] == ["force-outside-block"] * remarked
-
-
-def test_words_of_a_force_outside_its_block(tmp_path: Path) -> None:
-    found = model(tmp_path, "live: [{force: [1, 0, 0], on: {group: top, index: 0}, at: [1.5, 0.5, 2]}]")
-    assert found.notices[0].message == (
-        "the force (1, 0, 0) N on top[0] at (1.5, 0.5, 2) m acts 0.5 m outside that block; its moment is kept"
-    )
 
 
 def test_a_couple_has_an_effect(tmp_path: Path) -> None:

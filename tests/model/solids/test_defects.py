@@ -125,12 +125,6 @@ def test_bent_faces_within_the_tolerance() -> None:
     )
 
 
-@pytest.mark.parametrize(("tolerance", "split"), [(1e-2, True), (1e-1, False)])
-def test_the_tolerance_decides(tolerance: float, split: bool) -> None:
-    assert bool(len(build(bent_box(0.1), tolerance=tolerance).bent)) is split
-    assert bool(build(notched(0.2), tolerance=tolerance).defects) is split
-
-
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_the_tolerance_is_relative_to_the_block(scale: float) -> None:
     assert build(moved(notched(0.1), scale * np.eye(3))).defects
@@ -168,11 +162,3 @@ def test_blocks_from_polyhedra_counts_in_groups() -> None:
     blocks = blocks_from_polyhedra([vertices] * 4, [faces] * 4, ["a", "b", "a", "b"], [1.0, 2.0, 3.0, 4.0])
     assert [blocks.name(block) for block in range(4)] == ["a[0]", "b[0]", "a[1]", "b[1]"]
     assert blocks.masses == pytest.approx([1, 2, 3, 4])
-
-
-@pytest.mark.parametrize(("steps", "sound"), [(3, False), (5, True)])
-def test_a_plate_is_a_block_beyond_twice_what_rounding_makes_of_its_two_sides(steps: int, sound: bool) -> None:
-    """Thicknesses in steps between numbers at the height of the plate, both of whose ends are rounded."""
-    high = 2.0**24
-    plate = box((0, 0, high), (1, 1, high + steps * np.spacing(high)))
-    assert (not build(plate).defects) is sound

@@ -4,12 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull
 
 from mbla.model.solids.build import BuiltBlocks, blocks_from_polyhedra
-from mbla.model.solids.facets import find_facets
-from mbla.model.solids.measures import face_geometry, find_edges
-from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, raw, rotation
+from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
 
 
 def triangulated_box(n: int = 1, bulge: float = 0.0) -> Shape:
@@ -70,17 +67,6 @@ def test_coplanar_faces_that_share_no_edge_stay_apart() -> None:
     assert facets(prism(u_shape)) == 10
 
 
-def test_random_hull_has_a_facet_for_each_triangle() -> None:
-    points = np.random.default_rng(0).normal(size=(30, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    faces = ConvexHull(points).simplices.tolist()
-    assert facets((points.tolist(), faces)) == len(faces)
-
-
-def test_bulge_within_the_tolerance_is_one_facet() -> None:
-    assert facets(triangulated_box(6, bulge=5e-4)) == 6
-
-
 def test_finely_faceted_curve_is_not_flattened() -> None:
     # neighbours are nearly in line, the whole leaves its plane by 25 times the tolerance
     assert facets(triangulated_box(40, bulge=2.5e-2)) > 100
@@ -120,18 +106,6 @@ def test_mantle_of_a_finely_faceted_ring_is_no_facet() -> None:
         faces.append([corner(0, 0, k + 1), corner(0, 1, k + 1), corner(0, 1, k), corner(0, 0, k)])
     ring = blocks_from_polyhedra([rim], [faces])
     assert len(set(ring.facet_of_face.tolist())) == 2 * n + 2
-
-
-@pytest.mark.parametrize(("share", "number"), [(1.002, 1), (0.998, 20)])
-def test_a_curved_strip_is_a_facet_by_its_distance_from_the_plane_fitted_to_it(share: float, number: int) -> None:
-    """A roof of 20 strips over an arc of 0.4; its ends leave the plane through the mean of its strips most."""
-    angles = np.linspace(-0.2, 0.2, 21)
-    heights = np.cos(angles)
-    farthest = np.mean(0.5 * (heights[1:] + heights[:-1])) - heights[0]
-    outline = [(float(np.sin(angle)), float(np.cos(angle))) for angle in angles[::-1]]
-    polyhedra = raw(prism([*outline, (-0.1, 0.0), (0.1, 0.0)]))
-    facet = find_facets(polyhedra, find_edges(polyhedra), face_geometry(polyhedra), np.array([share * farthest]))
-    assert len(set(facet[2:22].tolist())) == number
 
 
 def lifted(height: float, order: tuple[int, ...] = (4, 5, 6, 7)) -> Shape:

@@ -64,26 +64,11 @@ def test_faces_of_a_box_are_turned_outwards(turned: set[int]) -> None:
     )
 
 
-def test_only_blocks_that_need_it_are_touched() -> None:
-    built = build(box(), with_faces_turned(box((3, 0, 0), (4, 1, 1)), {2}), box((6, 0, 0), (7, 1, 1)))
-    assert "(b[1])" in built.notices[0].message
-    first = slice(0, built.blocks.loop_start[6])
-    assert built.blocks.loops[first].tolist() == [corner for face in box()[1] for corner in face]
-
-
 def test_the_notice_names_the_first_blocks_and_counts_the_rest() -> None:
     built = build(*[with_faces_turned(box((3.0 * i, 0, 0), (3.0 * i + 1, 1, 1)), {i % 6}) for i in range(8)])
     assert (
         built.notices[0].message == "8 faces were turned outwards in 8 blocks (b[0], b[1], b[2], b[3], b[4] and 3 more)"
     )
-
-
-def test_edges_of_a_box() -> None:
-    edges = find_edges(raw(box(), box()))
-    assert len(edges.ends) == 24
-    assert edges.face_count.tolist() == [2] * 24
-    assert edges.opposed.all()
-    assert np.bincount(edges.block).tolist() == [12, 12]
 
 
 def test_pieces_are_counted() -> None:
@@ -116,18 +101,6 @@ def test_klein_bottle_is_one_sided() -> None:
 
 def _on_klein_bottle(row: int, column: int, n: int) -> int:
     return (-column) % n if row == n else row * n + column
-
-
-def test_only_faces_that_disagree_with_the_first_of_their_block_are_turned() -> None:
-    polyhedra = raw(box(), with_faces_turned(box((3, 0, 0), (4, 1, 1)), {2, 5}))
-    turned, _ = faces_to_turn(polyhedra, find_edges(polyhedra))
-    assert np.flatnonzero(turned).tolist() == [8, 11]
-
-
-def test_tetrahedron() -> None:
-    volumes, centroids = volumes_and_centroids(raw(TETRAHEDRON))
-    assert volumes == pytest.approx([1 / 6], rel=1e-15)
-    assert centroids == pytest.approx(np.full((1, 3), 0.25), rel=1e-15)
 
 
 def test_non_convex_prism() -> None:

@@ -3,7 +3,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.solids.self_intersection import _strictly_apart
 from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
 
 PENTAGRAM = [(np.cos(4 * np.pi * i / 5), np.sin(4 * np.pi * i / 5)) for i in range(5)]
@@ -108,14 +107,3 @@ def test_a_spike_along_any_axis_is_found_to_touch(shift: int, sign: int) -> None
     (defect,) = build(moved(spiked(0.0), turn)).defects
     assert defect.message.startswith("intersects itself")
     assert defect.face == 0
-
-
-@pytest.mark.parametrize("length", [1e-3, 1.0, 1e3])
-@pytest.mark.parametrize(("off", "apart"), [(1.1e-2, True), (0.9e-2, False)])
-def test_points_lie_apart_by_their_distance_from_a_line_of_any_length(length: float, off: float, apart: bool) -> None:
-    tail, head = np.zeros((2, 2)), np.array([[length, 0.0], [0.0, length]])
-    one, other = np.array([[0.0, off], [off, 0.0]]), np.array([[0.0, -1.0], [-1.0, 0.0]])
-    margin = np.full(2, 1e-2)
-    assert _strictly_apart(tail, head, one, other, margin).tolist() == [apart] * 2
-    assert _strictly_apart(tail, head, other, one, margin).tolist() == [apart] * 2
-    assert not _strictly_apart(tail, head, one, one, margin).any()
