@@ -35,8 +35,8 @@ DOORS = {
     "plotly": "results/view3d/view.py",
     "pandas": "results/tables/table.py",
     "pyarrow": "results/tables/formats.py",
-    "dask": "sweeps/engine/connection.py",
-    "distributed": "sweeps/engine/connection.py",
+    "dask": "sweeps/engine/cluster.py",
+    "distributed": "sweeps/engine/cluster.py",
 }
 FILES = sorted(PACKAGE.rglob("*.py"))
 

@@ -7,8 +7,7 @@ Everything of a command is imported when it is called, so that the program start
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +22,7 @@ from mbla.cli.options import (
     threads,
     workers,
 )
-from mbla.cli.terminal import clear_line, rewrite_line, say
+from mbla.cli.sweep_commands import print_finished, solved
 from mbla.process.collector import loading
 
 if TYPE_CHECKING:
@@ -36,14 +35,14 @@ def add_interact(commands: Any) -> None:
         "interact",
         help="load factor over horizontal direction, or over two live loads: table and diagram",
         description="Turn the live load of a load case around the horizon, or let the live loads of two load cases act "
-        "together in all proportions: table, STEM_interact.csv (of two loads STEM_interact_A_B.csv), .json, and a "
-        "diagram (extra mbla[pictures]). Turned are the horizontal parts of live accelerations and forces, all "
-        "together; azimuth 0 pushes along +x, 90 along +y. Two loads A and B act as A cos + B sin of an angle, with "
-        "the one dead load that both must have.",
+        "together in all proportions: a sweep over the angle, with its table and a diagram (extra mbla[pictures]) in "
+        "DECK_interact.out, of two loads DECK_interact_A_B.out. Turned are the horizontal parts of live accelerations "
+        "and forces, all together; azimuth 0 pushes along +x, 90 along +y. Two loads A and B act as A cos + B sin of "
+        "an angle, with the one dead load that both must have.",
         epilog="Exit status 0 where every point is answered and verified (also that the load never brings collapse "
         "there); else that of the gravest point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
         "bounds of points contradict each other; 5 where no point has a load factor; 130 where it was interrupted: "
-        "points solved until then are written, unless there are earlier files.",
+        "the same command goes on with the points that are solved.",
     )
     command.set_defaults(action=interact, about={"deck": "deck"})
     command.add_argument("deck", type=Path, metavar="DECK")
@@ -57,9 +56,9 @@ def add_interact(commands: Any) -> None:
         "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
     )
     command.add_argument(
-        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (1; more: mbla[dask])"
+        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (default 1)"
     )
-    add_deck_options(command, "for every point")
+    add_deck_options(command, "for every point", default="DECK_interact.out")
     command.add_argument(
         "--time-limit", type=seconds, metavar="S", help="seconds for each point, instead of analysis.time_limit"
     )
@@ -70,13 +69,12 @@ def add_interact(commands: Any) -> None:
 def interact(options: argparse.Namespace) -> int:
     """Solve the points of a diagram; the table goes to standard output, with ``--json`` the object alone."""
 
-    def study() -> tuple[Any, Any]:
+    def study() -> Any:
         from mbla.sweeps.interaction.study import interact
-        from mbla.sweeps.interaction.words import study_lines
 
-        return interact, study_lines
+        return interact
 
-    return _run_study(options, run_options(options), "points", study)
+    return _run_study(options, run_options(options), study)
 
 
 def add_tradeoff(commands: Any) -> None:
@@ -85,15 +83,16 @@ def add_tradeoff(commands: Any) -> None:
         "tradeoff",
         help="speed against accuracy on a deck: table, CSV and plot",
         description="Run a deck under a ladder of settings, one after the other, and hold time and "
-        "error against each other: table, STEM_tradeoff.csv, .json, and a picture of each load case (extra "
-        "mbla[pictures]). Without --knob and --setting the ladder has everything that applies to the deck.",
+        "error against each other: a sweep over settings, with its table and a picture of each load case (extra "
+        "mbla[pictures]) in DECK_tradeoff.out. Without --knob and --setting the ladder has everything that applies to "
+        "the deck.",
         epilog="Exit status 0; 4 where no setting is verified that the others could be held against; 7 where the time "
         "limit came before the reference.",
     )
     command.set_defaults(action=tradeoff, about={"deck": "deck"})
     command.add_argument("deck", type=Path, metavar="DECK")
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
-    add_deck_options(command, "for every setting")
+    add_deck_options(command, "for every setting", default="DECK_tradeoff.out")
     command.add_argument(
         "--knob",
         action="append",
@@ -124,62 +123,23 @@ def add_tradeoff(commands: Any) -> None:
 def tradeoff(options: argparse.Namespace) -> int:
     """Measure a deck under many settings; the table goes to standard output, with ``--json`` the object alone."""
 
-    def study() -> tuple[Any, Any]:
+    def study() -> Any:
         from mbla.sweeps.tradeoff.study import tradeoff
-        from mbla.sweeps.tradeoff.words import study_lines
 
-        return tradeoff, study_lines
+        return tradeoff
 
-    return _run_study(options, run_options(options, override=False), "settings", study)
+    return _run_study(options, run_options(options, override=False), study)
 
 
-def _run_study(options: argparse.Namespace, run: RunOptions, what: str, study: Callable[[], tuple[Any, Any]]) -> int:
+def _run_study(options: argparse.Namespace, run: RunOptions, study: Callable[[], Any]) -> int:
     """Read the deck, solve what is asked of it and tell what came out; the exit status.
 
-    what  : what is solved, as the line of progress counts it
-    study : imports what solves it, and what says it in words
+    study : imports what solves it
     """
     refuse_unfit_name(options.deck)
     content, _ = read_given_deck(options.deck, run)
     with loading():
-        solve, lines = study()
-    report = None if options.quiet else _progress(what)
-    try:
-        solved, record, remarks = solve(content, run, options, report)
-    finally:
-        clear_line(report)  # what is said of an interruption has a line of its own
-    _tell(options, run, lines(solved), record, remarks)
-    return int(solved.exit_code)
-
-
-def _tell(
-    options: argparse.Namespace,
-    run: RunOptions,
-    lines: Sequence[str],
-    record: Mapping[str, Any],
-    remarks: Sequence[str],
-) -> None:
-    """Remarks, the JSON object where it is asked for, what the study found in words, and its files."""
-    with loading():
-        from mbla.results.listing.text import sentence
-        from mbla.results.record.json_values import json_line
-
-    for remark in remarks:
-        say(f"mbla: {remark}", 0)
-    if options.json:
-        print(json_line(dict(record)), flush=True)
-    if not options.quiet:
-        named = f"files: {', '.join(record['files'])} in {run.folder_for(options.deck)}/"
-        text = [*lines, *(sentence(named) if record["files"] else [])]
-        print("\n".join(text), file=sys.stderr if options.json else sys.stdout, flush=True)
-
-
-def _progress(what: str) -> Callable[[int, int], None] | None:
-    """A line that rewrites itself on a terminal, ``12 of 72 points``; nothing elsewhere."""
-    if not sys.stderr.isatty():
-        return None
-
-    def show(done: int, count: int) -> None:
-        rewrite_line(f"{done} of {count} {what}")
-
-    return show
+        solve = study()
+    finished = solved(options, lambda report: solve(content, run, options, report))
+    print_finished(options, finished, finished.lines)
+    return int(finished.exit_code)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ from mbla.cli.terminal import clear_line, rewrite_line, say
 from mbla.process.collector import loading
 
 if TYPE_CHECKING:
-    from mbla.sweeps.command import SweepOptions
+    from mbla.sweeps.command import Finished, SweepOptions
     from mbla.sweeps.plan import Outcome, Task
     from mbla.sweeps.words import Progress
 
@@ -48,7 +49,7 @@ def add_sweep(commands: Any) -> None:
         type=workers,
         default=1,
         metavar="N",
-        help="processes of this machine (default 1; more: extra mbla[dask])",
+        help="processes of this machine (default 1)",
     )
     command.add_argument(
         "--scheduler",
@@ -90,7 +91,6 @@ def sweep(options: argparse.Namespace) -> int:
         from mbla.results.record.json_values import json_line
         from mbla.sweeps.command import dry_run_json, prepare, run_sweep
         from mbla.sweeps.design.design import design_lines
-        from mbla.sweeps.fragility import fragility_lines
         from mbla.sweeps.words import sweep_lines
 
     chosen = _sweep_options(options)
@@ -99,23 +99,35 @@ def sweep(options: argparse.Namespace) -> int:
         text = [json_line(dry_run_json(prepared))] if options.json else design_lines(prepared.design)
         print("\n".join(text), flush=True)
         return 0
+    finished = solved(options, lambda report: run_sweep(prepared, chosen, report))
+    print_finished(options, finished, [*sweep_lines(finished.record, finished.table), *finished.lines])
+    return finished.exit_code
+
+
+def solved(options: argparse.Namespace, solve: Callable[[Any], Finished]) -> Finished:
+    """What a sweep ends with, its progress told meanwhile."""
     report = None if options.quiet else _Reporter()
     try:
-        finished = run_sweep(prepared, chosen, report)
+        return solve(report)
     finally:
         if report is not None:
             report.end()
+
+
+def print_finished(options: argparse.Namespace, finished: Finished, lines: Sequence[str]) -> None:
+    """The JSON object where it is asked for, what was found in words, and where the files are."""
+    with loading():
+        from mbla.results.record.json_values import json_line
+
+    if finished.remark:
+        say(f"mbla: {finished.remark}", 0)
     if options.json:
         print(json_line(finished.record), flush=True)
     if not options.quiet:
-        fragility = fragility_lines(finished.fragility)
-        lines = [
-            *sweep_lines(finished.record, finished.table),
-            *fragility,
-            f"  files: {chosen.folder_for(options.sweep)}/",
-        ]
-        print("\n".join(lines), file=sys.stderr if options.json else sys.stdout, flush=True)
-    return finished.exit_code
+        folder, here = finished.folder, Path.cwd()
+        shown = folder.relative_to(here) if folder.is_relative_to(here) else folder
+        text = "\n".join([*lines, f"  files: {shown}/"])
+        print(text, file=sys.stderr if options.json else sys.stdout, flush=True)
 
 
 def _sweep_options(options: argparse.Namespace) -> SweepOptions:

@@ -40,7 +40,7 @@ def sweep(
     output
         Folder of the files; ``SWEEP.out`` beside the sweep file unless given.
     jobs
-        Processes of this machine; more than one need the extra ``dask``.
+        Processes of this machine.
     scheduler
         Address of a Dask scheduler whose workers solve the points, in the place of processes of this machine. At a
         ``tls://`` address the certificates are those of Dask's own configuration.

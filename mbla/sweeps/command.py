@@ -7,32 +7,34 @@ from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
 from mbla.errors import Notice, UsageError
 from mbla.results.listing.text import counted
-from mbla.sweeps.base import Base, check_points, read_base
+from mbla.sweeps.base import check_points, read_base
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Design, design_json
-from mbla.sweeps.engine.engine import EngineOptions, engine_for
+from mbla.sweeps.engine.engine import EngineOptions, check_options, outcomes_of
+from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
-from mbla.sweeps.fragility import Fragility, fragility_json, fragility_of
+from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, shard_of
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, shown_folders
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table
-from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, write_tables
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
+from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
 from mbla.sweeps.words import Progress
 
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
 MEGABYTE = 1e6
-RESUME = "--resume"
-"""the option that goes on with a journal"""
+RESUME = "--resume goes on"
+"""what is said of finished points in a journal"""
 
 Report = Callable[[Progress, Task | None, Outcome | None], None]
 """called once before the first point, with None, and after each finished point"""
@@ -47,6 +49,7 @@ class SweepOptions:
     resume       : go on with the journal that is there
     force        : begin anew and replace earlier files
     retry_failed : on resuming, solve failed points again
+    goes_on      : how a sweep that was broken off is gone on with, in words
     """
 
     folder: Path | None = None
@@ -57,6 +60,7 @@ class SweepOptions:
     retry_failed: bool = False
     parquet: bool = False
     hdf5: bool = False
+    goes_on: str = RESUME
 
     def folder_for(self, path: Path) -> Path:
         """Where the files of a sweep go."""
@@ -67,18 +71,30 @@ class SweepOptions:
 class Prepared:
     """A sweep that could begin.
 
-    keys    : of each point of the design, in its order
-    columns : of results
-    tasks   : each different point once
+    name, deck : sweep file and base deck as the user names them
+    keys       : of each point of the design, in its order
+    columns    : of results
+    files      : that are written beside sweep.csv and sweep.json
+    conclude   : what follows from the table of all points
     """
 
-    sweep: Sweep
-    base: Base
+    name: str
+    deck: str
+    title: str
     design: Design
     keys: tuple[str, ...]
     columns: tuple[SweepColumn, ...]
     plan: Plan
-    tasks: tuple[Task, ...]
+    files: TableFiles
+    conclude: Callable[[SweepTable], Conclusion]
+
+    @property
+    def tasks(self) -> tuple[Task, ...]:
+        """Each different point once."""
+        first: dict[str, Task] = {}
+        for key, point in zip(self.keys, self.design.points, strict=True):
+            first.setdefault(key, Task(key, point.number, point.settings))
+        return tuple(first.values())
 
 
 @dataclass(frozen=True)
@@ -88,7 +104,9 @@ class Finished:
     record: dict[str, Any]
     table: SweepTable
     exit_code: int
-    fragility: tuple[Fragility, ...] = ()
+    folder: Path
+    lines: Sequence[str] = ()
+    remark: str = ""
 
 
 def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
@@ -103,25 +121,39 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     content = sweep.content
     design = design_of(base.sources)
     check_points(base, design.points)
-    keys = tuple(base.key_of(point.settings) for point in design.points)
-    first: dict[str, Task] = {}
-    for key, point in zip(keys, design.points, strict=True):
-        first.setdefault(key, Task(key, point.number, point.settings))
-    limits = content.limits
+    limits, output = content.limits, content.output
     plan = Plan(
         deck=str(base.deck.path.absolute()),
         fingerprint=base.fingerprint,
         fixed=base.fixed,
         cases=base.cases,
         results=tuple(content.results),
-        keep=content.output.files,
+        keep=output.files,
         folder=str(options.folder_for(sweep.path).absolute()),
         time_limit=limits.time,
         memory_limit=None if limits.memory is None else limits.memory * MEGABYTE,
         program=program_identity(),
     )
-    columns = result_columns(content.results, base.cases, base.deck.units)
-    return Prepared(sweep, base, design, keys, columns, plan, tuple(first.values()))
+    return Prepared(
+        name=sweep.path.name,
+        deck=content.deck,
+        title=content.title,
+        design=design,
+        keys=tuple(base.key_of(point.settings) for point in design.points),
+        columns=result_columns(content.results, base.cases, base.deck.units),
+        plan=plan,
+        files=TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5),
+        conclude=partial(_fragility, content.fragility),
+    )
+
+
+def _fragility(asked: FragilitySection | None, table: SweepTable) -> Conclusion:
+    """Probabilities of a sweep that asks for them."""
+    if asked is None:
+        return Conclusion()
+    found = fragility_of(table, asked.result, asked.demand, asked.confidence)
+    texts = {FRAGILITY: fragility_csv(found)}
+    return Conclusion(record={"fragility": fragility_json(found)}, texts=texts, lines=fragility_lines(found))
 
 
 def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:
@@ -135,47 +167,41 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         another run is at work, files are in the way or cannot be written; what was solved is in the journal
     """
     started = time.perf_counter()
-    folder, files = options.folder_for(prepared.sweep.path), _files(prepared, options)
+    plan, folder = prepared.plan, Path(prepared.plan.folder)
     header = JournalHeader(
-        program=prepared.plan.program,
-        fingerprint=prepared.base.fingerprint,
+        program=plan.program,
+        fingerprint=plan.fingerprint,
         columns={column.name: column.kind for column in prepared.columns},
-        title=prepared.sweep.content.title,
-        cases=prepared.plan.cases,
+        title=prepared.title,
+        cases=plan.cases,
         libraries=library_versions(),
     )
     asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
     path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
     journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
-    engine = engine_for(options.engine)
-    fragility = prepared.sweep.content.fragility is not None
-    refuse_tables(folder, files, replace=options.force or options.resume, fragility=fragility)
+    check_options(options.engine)
+    refuse_tables(folder, prepared.files, replace=options.force or options.resume)
     with journal:
         tasks = [task for task in asked if task.key not in journal.finished]
         progress = Progress(len(tasks), len(journal.finished))
         if report is not None:
             report(progress, None, None)
         if tasks:
-            with _noted(journal), engine:
-                _solve(prepared, engine.run(prepared.plan, tasks), journal, progress, report)
+            with _noted(journal, options.goes_on), closing(outcomes_of(options.engine, plan, tasks)) as outcomes:
+                _solve(prepared, outcomes, journal, progress, report)
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
-        return _finish(prepared, options, finished, journal.notices, time.perf_counter() - started)
+        return _finish(prepared, finished, journal.notices, time.perf_counter() - started)
 
 
 @contextmanager
-def _noted(journal: Journal) -> Iterator[None]:
+def _noted(journal: Journal, goes_on: str) -> Iterator[None]:
     """What breaks a sweep off says how much of it is kept, where its own words do not."""
     try:
         yield
     except BaseException as error:
         if not isinstance(error, UsageError) and RESUME not in str(error):
-            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {RESUME} goes on")
+            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {goes_on}")
         raise
-
-
-def _files(prepared: Prepared, options: SweepOptions) -> TableFiles:
-    output = prepared.sweep.content.output
-    return TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5)
 
 
 def _solve(
@@ -187,53 +213,46 @@ def _solve(
 ) -> None:
     """Each outcome into the journal as it comes."""
     by_key: Mapping[str, Task] = {task.key: task for task in prepared.tasks}
-    shown = shown_folders(prepared.plan, prepared.sweep.content.deck)
+    shown = shown_folders(prepared.plan, prepared.deck)
     started = time.perf_counter()
-    with closing(outcomes):
-        for outcome in map(shown, outcomes):
-            task = by_key[outcome.key]
-            journal.add(task, outcome)
-            progress.add(outcome.state == FAILED, time.perf_counter() - started)
-            if report is not None:
-                report(progress, task, outcome)
+    for outcome in map(shown, outcomes):
+        task = by_key[outcome.key]
+        journal.add(task, outcome)
+        progress.add(outcome.state == FAILED, time.perf_counter() - started)
+        if report is not None:
+            report(progress, task, outcome)
 
 
-def _finish(
-    prepared: Prepared,
-    options: SweepOptions,
-    finished: Mapping[str, Outcome],
-    notices: Sequence[Notice],
-    seconds: float,
-) -> Finished:
+def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequence[Notice], seconds: float) -> Finished:
     """The table of all points, and its files once none is missing, which may be so in a shard."""
-    content, design = prepared.sweep.content, prepared.design
-    table = sweep_table(content.title, design, prepared.columns, finished, prepared.keys, unfinished=True)
-    failed = any(finished[key].state == FAILED for key in prepared.keys if key in finished)
+    design, keys = prepared.design, prepared.keys
+    table = sweep_table(prepared.title, design, prepared.columns, finished, keys, unfinished=True)
+    failed = any(finished[key].state == FAILED for key in keys if key in finished)
+    conclusion = prepared.conclude(table)
+    table = with_columns(table, conclusion.columns)
     run = SweepRun(
-        sweep=prepared.sweep.path.name,
-        deck=content.deck,
+        sweep=prepared.name,
+        deck=prepared.deck,
         created=datetime.now(UTC).isoformat(timespec="seconds"),
-        exit_code=FAILED_POINTS if failed else 0,
+        exit_code=conclusion.exit_code if conclusion.exit_code is not None else FAILED_POINTS if failed else 0,
         left_out=design.left_out,
         seconds=seconds,
         notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
     )
-    asked = content.fragility
-    fragility = () if asked is None else fragility_of(table, asked.result, asked.demand, asked.confidence)
+    remark, folder = "", Path(prepared.plan.folder)
     if counts(table)["unfinished"]:
-        record = sweep_json(run, table, fragility_json(fragility))
+        record = sweep_json(run, table, conclusion.record)
     else:
-        folder = options.folder_for(prepared.sweep.path)
-        record = write_tables(folder, True, run, table, _files(prepared, options), fragility)
-    return Finished(record, table, run.exit_code, fragility)
+        record, remark = write_tables(folder, run, table, prepared.files, conclusion)
+    return Finished(record, table, run.exit_code, folder, conclusion.lines, remark)
 
 
 def dry_run_json(prepared: Prepared) -> dict[str, Any]:
     """The points of a sweep that is only listed, with their keys and the columns of its table."""
     return {
         "mbla": __version__,
-        "sweep": prepared.sweep.path.name,
-        "deck": prepared.sweep.content.deck,
+        "sweep": prepared.name,
+        "deck": prepared.deck,
         "cases": list(prepared.plan.cases),
         "design": design_json(prepared.design),
         "keys": list(prepared.keys),

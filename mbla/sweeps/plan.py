@@ -30,7 +30,7 @@ class Plan:
     time_limit   : seconds for each point, None for none; the process is stopped then
     memory_limit : bytes that a point may take above what its process holds with the base deck, None for none
     program      : version and hash of the mbla that planned it; a worker with another one refuses
-    shared       : what points have in common is worked out once; not where their times are compared
+    timed        : times are compared: points share nothing, and of quick ones the shortest of three runs counts
     """
 
     deck: str
@@ -43,7 +43,7 @@ class Plan:
     time_limit: float | None
     memory_limit: float | None
     program: str
-    shared: bool = True
+    timed: bool = False
 
 
 @dataclass(frozen=True)

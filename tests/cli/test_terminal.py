@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from mbla.cli import decks, study_commands
+from mbla.cli import decks
 from mbla.cli.terminal import WIDTH, clear_line, line_width, rewrite_line
 
 
@@ -55,15 +55,6 @@ def test_iterations_of_a_load_case(monkeypatch: pytest.MonkeyPatch) -> None:
     assert texts == ["push: program 2, iteration 7, load factor 0.123457"]
 
 
-def test_points_and_settings_of_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts = shown(monkeypatch, study_commands)
-    show = study_commands._progress("points")
-    assert show is not None
-    show(3, 24)
-    assert texts == ["3 of 24 points"]
-
-
 def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    shown(monkeypatch, study_commands, terminal=False)
-    assert study_commands._progress("settings") is None
+    shown(monkeypatch, decks, terminal=False)
     assert decks._progress() is None

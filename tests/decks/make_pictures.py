@@ -158,7 +158,7 @@ def make_study(name: str, folder: Path) -> Path:
     deck = deck_path(TABLE[0], folder)
     if name == "wall_interact":
         assert main(["interact", str(deck), "--directions", "72", "-o", str(folder / "interact"), "-q"]) == 0
-        return (folder / "interact" / f"{name}.svg").replace(target)
+        return (folder / "interact" / "interact.svg").replace(target)
     sweep, out = folder / "door.yaml", folder / "door.out"
     text = readme_block("`door.yaml`, beside", DECKS / "sweeps" / README)
     assert text.count(SAMPLE[0]) == 1

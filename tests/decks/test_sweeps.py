@@ -36,8 +36,8 @@ def test_every_sweep_agrees_with_its_schema_and_its_row_of_the_page(name: str) -
     prepared, path = prepared_sweep(name), sweep_path(name)
     assert len(prepared.design.points) == POINTS[name]
     assert dry_run_json(prepared)["different"] == POINTS[name]  # no point twice
-    assert prepared.sweep.content.title
-    assert "load_factor" in prepared.sweep.content.results
+    assert prepared.title
+    assert "load_factor" in prepared.plan.results
     prefix, schema = "# yaml-language-server: $schema=", ROOT / "schemas" / "sweep.schema.json"
     first = path.read_text(encoding="utf-8").splitlines()[0]
     assert (path.parent / first.removeprefix(prefix)).resolve() == schema

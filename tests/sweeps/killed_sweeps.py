@@ -46,13 +46,14 @@ parameters:
 class Scene:
     """A sweep, where its files go, and how it is run."""
 
+    path: Path
     prepared: Prepared
     options: SweepOptions
 
     @property
     def folder(self) -> Path:
         """Of its files."""
-        return self.options.folder_for(self.prepared.sweep.path)
+        return Path(self.prepared.plan.folder)
 
     @property
     def n_points(self) -> int:
@@ -73,7 +74,7 @@ class Scene:
 def scene(path: Path, folder: Path, engine: EngineOptions | None = None) -> Scene:
     """The sweep file's sweep with its files in the folder."""
     options = SweepOptions(folder=folder, engine=engine or EngineOptions())
-    return Scene(prepare(read_sweep(path, ()), options), options)
+    return Scene(path, prepare(read_sweep(path, ()), options), options)
 
 
 def table_of(folder: Path) -> list[bytes]:
@@ -153,6 +154,6 @@ def with_kills(scene: Scene, kills: int, draw: Random, wait: float, at_client: f
 
 def finish(scene: Scene) -> str:
     """Go on to the end as the command does, in one process; its exit status."""
-    command = ["sweep", str(scene.prepared.sweep.path), "-o", str(scene.folder), "--resume", "-q"]
+    command = ["sweep", str(scene.path), "-o", str(scene.folder), "--resume", "-q"]
     with forked(lambda report: report(f"exit {main(command)}")) as client:
         return client.lines()[-1]

@@ -1,7 +1,7 @@
-"""What solves the points: ``SerialEngine`` in one process beside this one, ``ClusterEngine`` on workers of Dask::
+"""What solves the points: processes of this machine, or those of the workers of a Dask scheduler::
 
-    engine.py, cluster.py ──> on_worker.py ──> supervised.py ──> child.py
-    tasks in, outcomes out    in a worker      its process: limits of time and memory, deaths
-
-Only ``connection.py`` imports Dask.
+engine.py ────────────────────────────> supervised.py ──> child.py
+  cluster.py ──> on_worker.py ───────────┘
+tasks in,        in a worker of Dask    a process: limits of time and memory, deaths
+outcomes out
 """

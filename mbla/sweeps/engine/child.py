@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import io
+import math
 import os
 import pkgutil
 import platform
@@ -133,6 +134,8 @@ def requested_only(deck: Deck, plan: Plan) -> Deck:
     return replace(deck, content=deck.content.model_copy(update={"analysis": analysis}))
 
 
+REPEATS, SHORT = 3, 1.0
+"""runs at most of a point whose time counts, where it takes fewer seconds than that"""
 ANSWERED = (0, 5)
 """exit codes with a verified answer for every case: 5 is that there is no load factor"""
 
@@ -166,8 +169,8 @@ class PointRunner:
 
     def _shared(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         """Solve it with what earlier points left; without, where that leaves too little memory for this one."""
-        if not self.plan.shared:
-            return self._solve(task)
+        if self.plan.timed:
+            return self._quickest(task)
         for memory in (self.memory, Memory()):
             self.memory = memory
             try:
@@ -177,6 +180,13 @@ class PointRunner:
                 if not len(memory):
                     raise
         raise AssertionError  # nothing was left in the second
+
+    def _quickest(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        """Solve it by itself; of a quick one the shortest of some runs."""
+        found = [self._solve(task)]
+        while len(found) < REPEATS and _seconds(found[0]) < SHORT:
+            found.append(self._solve(task))
+        return min(found, key=_seconds)
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
@@ -190,6 +200,12 @@ class PointRunner:
                 write_results(results, out, deck.content.output)
         record = results_json(results)
         return results.exit_code, reason_of(record), values_of(record, self._places)
+
+
+def _seconds(solved: tuple[int, str, dict[str, Plain]]) -> float:
+    """Time of all load cases of a point; infinite where there is none."""
+    times = [value for name, value in solved[2].items() if name.endswith("time.total")]
+    return sum(value for value in times if isinstance(value, float)) or math.inf
 
 
 if __name__ == "__main__":

@@ -1,145 +1,295 @@
-"""Points on the workers of a Dask scheduler, of this machine or a cluster.
+"""Points on the workers of a Dask scheduler (only importer of distributed).
 
-A sliding window of batches is under way, so that neither the scheduler nor this process holds more than that of a
-sweep of any length. What was delivered stays, whatever becomes of the rest.
+A sliding window of points is under way, so that neither the scheduler nor this process holds more than that of a sweep
+of any length. What was delivered stays, whatever becomes of the rest. Nothing waits without end: a scheduler or workers
+that are gone are told in words, with the remedy.
 """
 
 from __future__ import annotations
 
-import math
+import asyncio
+import concurrent.futures
+import json
+import logging
 import queue
+import threading
+import time
 import uuid
 from collections import deque
-from collections.abc import Generator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, TypeVar
 
-from mbla.errors import UsageError
-from mbla.sweeps.engine.connection import LOOK, REPLY, Connection
-from mbla.sweeps.engine.engine import Engine, EngineOptions
-from mbla.sweeps.engine.on_worker import end_processes, run_batch
+import distributed
+from distributed.scheduler import KilledWorker
+
+from mbla.errors import FileError, UsageError
+from mbla.sweeps.engine.engine import EngineOptions
+from mbla.sweeps.engine.on_worker import describe, end_processes, run_point
+from mbla.sweeps.engine.supervised import StoppedError
+from mbla.sweeps.identity import difference, library_versions, program_identity
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 
-SECONDS = 1.0
-"""that a batch should take: hundreds of times what handing it out costs"""
-MOST = 200
-"""points of a batch, so that a line of the journal is never long in coming"""
-MEMORY = 0.1
-"""share of the last point in the mean time of a point"""
-STRIKES = 2
-"""workers that may die of a point before it is given up"""
-GIVEN_UP = f"its worker was ended, as was that of each try before; given up after {STRIKES} tries"
-
-
-class Batches:
-    """What is left to be handed out, and in which portions."""
-
-    def __init__(self, tasks: Sequence[Task]) -> None:
-        """All of them are left."""
-        self._left = deque(tasks)
-        self._alone: deque[Task] = deque()
-        self._strikes: dict[str, int] = {}
-        self._mean: float | None = None
-
-    def __bool__(self) -> bool:
-        return bool(self._left or self._alone)
-
-    def take(self, places: int) -> tuple[Task, ...]:
-        """The next batch: single points until one is done, then about a second, less where they are near their end.
-
-        places : batches that are under way together
-        """
-        if self._alone:
-            return (self._alone.popleft(),)
-        fair = math.ceil(len(self._left) / max(places, 1))
-        second = 1 if self._mean is None else int(SECONDS / max(self._mean, SECONDS / MOST))
-        return tuple(self._left.popleft() for _ in range(max(1, min(second, fair))))
-
-    def learn(self, outcome: Outcome) -> None:
-        """Note how long a point took."""
-        seconds = outcome.seconds
-        self._mean = seconds if self._mean is None else (1.0 - MEMORY) * self._mean + MEMORY * seconds
-
-    def give_back(self, tasks: Sequence[Task]) -> None:
-        """They were not begun: they come next."""
-        self._left.extendleft(reversed(tasks))
-
-    def died(self, tasks: Sequence[Task]) -> tuple[Task, ...]:
-        """Its workers died of this batch: points are handed out alone, once; returns those that are given up."""
-        hopeless = []
-        for task in tasks:
-            self._strikes[task.key] = self._strikes.get(task.key, 0) + 1
-            if self._strikes[task.key] >= STRIKES:
-                hopeless.append(task)
-            else:
-                self._alone.append(task)
-        return tuple(hopeless)
-
-
+dask: Any = distributed  # without types
+LOOK = 1.0
+"""seconds between looks at whether scheduler and workers are still there"""
+REPLY = 30.0
+"""seconds in which a scheduler must answer a question; a busy one takes a few"""
+PARTING = 1.0
+"""seconds for taking leave of a scheduler; one that does not answer is left without"""
+CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 WINDOW = 2
-"""batches under way for each thread of the workers: one is solved, the next waits beside it"""
+"""points under way for each thread of the workers: one is solved, the next waits beside it"""
+TRIES = 2
+"""times that Dask may find a point to have ended its workers before it is given up: one of its neighbours may have"""
+GIVEN_UP = "its worker was ended, as was that of each try before; given up"
+Answer = TypeVar("Answer")
 
 
-class ClusterEngine(Engine):
-    """The local workers, or the connection, are there inside the block and gone after it."""
-
-    def __init__(self, options: EngineOptions) -> None:
-        """UsageError where the extra is not installed."""
-        self._connection = Connection(options)
-
-    def __enter__(self) -> Self:
-        """Start or connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
-        self._connection.__enter__()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        super().__exit__(kind, error, traceback)
-        self._connection.__exit__(kind, error, traceback)
-
-    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        connection, batches = self._connection, Batches(tasks)
-        running: dict[str, tuple[tuple[Task, ...], Any]] = {}  # tasks and future by the key of the batch
-        finished: queue.Queue[str] = queue.Queue()
+def outcomes_of_cluster(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+    """As ``outcomes_of`` of the engine."""
+    left, strikes = deque(tasks), dict.fromkeys((task.key for task in tasks), 0)
+    running: dict[str, tuple[Task, Any]] = {}  # and its future, by the key that Dask has for it
+    finished: queue.Queue[str] = queue.Queue()
+    with Connection(options) as connection:
         try:
-            while batches or running:
-                places = WINDOW * max(connection.threads, 1)
-                while batches and len(running) < places:
-                    batch, key = batches.take(places), f"mbla-points-{uuid.uuid4().hex}"
+            while left or running:
+                while left and len(running) < WINDOW * max(connection.threads, 1):
+                    task, key = left.popleft(), f"mbla-point-{uuid.uuid4().hex}"
                     with connection.lost_where_it_fails():
-                        arguments = plan, batch, connection.libraries
-                        future = connection.client.submit(run_batch, *arguments, key=key, pure=False)
-                    running[key] = batch, future
+                        arguments = plan, task, connection.libraries
+                        future = connection.client.submit(run_point, *arguments, key=key, pure=False)
+                    running[key] = task, future
                     future.add_done_callback(lambda future: finished.put(future.key))
                 connection.look(every=LOOK)
                 with suppress(queue.Empty):
-                    for outcome in self._outcomes_of(*running.pop(finished.get(timeout=LOOK)), batches):
-                        batches.learn(outcome)
-                        yield outcome
+                    task, future = running.pop(finished.get(timeout=LOOK))
+                    try:
+                        yield future.result(timeout=REPLY)
+                    except KilledWorker:
+                        strikes[task.key] += 1
+                        if strikes[task.key] < TRIES:
+                            left.append(task)
+                        else:
+                            yield Outcome(task.key, FAILED, 1, GIVEN_UP, {}, TRIES, 0.0)
+                    except (OSError, StoppedError, *CANCELLED) as error:  # the worker is gone with its answer
+                        connection.refuse_lost(error)
+                        left.appendleft(task)
+                    except Exception as error:
+                        words = f"a worker cannot solve points of this sweep: {' '.join(str(error).split())}"
+                        raise UsageError("worker-refused", words) from error
         finally:  # nothing goes on for nobody: what is under way is cancelled, the processes of the workers are ended
             if running:
                 futures = [future for _, future in running.values()]
                 connection.ask_quietly(lambda client: client.cancel(futures, force=True))
             connection.ask_quietly(lambda client: client.run(end_processes, on_error="ignore"))
 
-    def _outcomes_of(self, tasks: tuple[Task, ...], future: Any, batches: Batches) -> list[Outcome]:
-        """Outcomes of a finished batch; what of it was not solved is given back."""
-        connection = self._connection
+
+class Connection:
+    """Context manager; the client of a scheduler is there inside the block and gone after it.
+
+    client    : of Dask
+    threads   : points that can be solved together, as last seen
+    libraries : versions that every worker must have
+    """
+
+    def __init__(self, options: EngineOptions) -> None:
+        """The scheduler is asked when the block is entered."""
+        self.client: Any = None
+        self.threads = 0
+        self.libraries = library_versions()
+        self._options = options
+        self._stack = ExitStack()
+        self._looked = self._seen = 0.0
+
+    def __enter__(self) -> Connection:
+        """Connect; raises UsageError where there is no scheduler, no worker, or one with another mbla."""
+        with self._stack:
+            self._stack.enter_context(silenced())
+            self.client = self._connected()
+            self._await_workers()
+            self._check_workers()
+            self._stack = self._stack.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._stack.close()
+
+    def look(self, every: float = 0.0) -> None:
+        """See what workers there are, unless that was less than so many seconds ago.
+
+        Raises
+        ------
+        FileError
+            the scheduler is gone
+        UsageError
+            no worker has been there for a while
+        """
+        now = time.monotonic()
+        if now - self._looked < every:
+            return
+        self._looked = now
+        self.refuse_lost()
         try:
-            outcomes: list[Outcome]
-            outcomes, refused = future.result(timeout=REPLY)
-        except connection.dask.KilledWorker:
-            return [Outcome(task.key, FAILED, 1, GIVEN_UP, {}, STRIKES, 0.0) for task in batches.died(tasks)]
-        except (OSError, *connection.dask.cancelled) as error:
-            connection.refuse_lost(error)
-            batches.give_back(tasks)  # the worker is gone with its answer
-            return []
+            self.threads = sum(within(REPLY, self.client.nthreads).values())
+        except (OSError, *CANCELLED) as error:  # a TimeoutError is one
+            raise self._lost() from error
+        if self.threads or not self._seen:
+            self._seen = now
+        elif now - self._seen > self._options.patience:
+            raise UsageError("scheduler-lost", self._no_worker())
+
+    def refuse_lost(self, cause: BaseException | None = None) -> None:
+        """Raises FileError where the scheduler is gone."""
+        if self.client.status != "running":
+            raise self._lost() from cause
+
+    @contextmanager
+    def lost_where_it_fails(self) -> Iterator[None]:
+        """What cannot be handed over is the scheduler's end: raises FileError."""
+        try:
+            yield
+        except (OSError, RuntimeError, *CANCELLED) as error:
+            raise self._lost() from error
+
+    def ask_quietly(self, ask: Callable[[Any], Any]) -> None:
+        """Ask the client for what is only of use while the scheduler is there, and not for long."""
+        if self.client is not None and self.client.status == "running":
+            with suppress(Exception):
+                within(PARTING, lambda: ask(self.client))
+
+    # --- opening ------------------------------------------------------------------------------------------------------
+
+    def _connected(self) -> Any:
+        options = self._options
+        address = options.scheduler or self._address_in_file()
+        security = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_client_key": "--tls-key"}
+        files = {key: str(options.tls_files[name]) for key, name in security.items() if name in options.tls_files}
+        try:
+            client = dask.Client(
+                address,
+                security=dask.Security(**files, require_encryption=True if address.startswith("tls://") else None),
+                timeout=options.patience,
+                set_as_default=False,
+            )
         except Exception as error:
-            words = f"{type(error).__name__}: {' '.join(str(error).split())}"
-            raise UsageError("worker-refused", f"a worker cannot solve points: {words}") from error
-        if refused:
-            raise UsageError("worker-refused", f"a worker cannot solve points of this sweep: {refused}")
-        batches.give_back(tasks[len(outcomes) :])
-        return outcomes
+            said = str(error.__cause__ or error) or type(error).__name__
+            message = f"no connection to the scheduler {address}: {' '.join(said.split())}"
+            remedy = "; a tls:// address needs --tls-ca-file, --tls-cert and --tls-key" if address[:3] == "tls" else ""
+            raise UsageError("scheduler-lost", message + remedy) from error
+        self._stack.callback(_quietly, lambda: client.close(timeout=PARTING))
+        return client
+
+    def _address_in_file(self) -> str:
+        """The address that a scheduler wrote, waited for as long as for the scheduler itself."""
+        path, until = self._options.scheduler_file, time.monotonic() + self._options.patience
+        assert path is not None
+        while True:
+            try:
+                return str(json.loads(path.read_text(encoding="utf-8"))["address"])
+            except FileNotFoundError:
+                words = "there is no such file; `dask scheduler --scheduler-file` writes it"
+            except OSError as error:
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {error.strerror}") from error
+            except (ValueError, KeyError, TypeError):
+                words = "not a file that `dask scheduler --scheduler-file` wrote"  # or not yet the whole of it
+            if time.monotonic() > until:
+                raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
+            time.sleep(LOOK / 10)
+
+    def _await_workers(self) -> None:
+        until = time.monotonic() + self._options.patience
+        while True:
+            self.look()
+            if self.threads:
+                return
+            if time.monotonic() > until:
+                raise UsageError("scheduler-lost", self._no_worker())
+            time.sleep(LOOK / 10)
+
+    def _check_workers(self) -> None:
+        """UsageError naming each worker that has another mbla or other libraries than this process."""
+        client = self.client
+        try:
+            answers = within(REPLY, lambda: client.run(describe, on_error="return"))
+        except TimeoutError:
+            raise UsageError(
+                "scheduler-lost", f"a worker of {self._name()} does not answer within {REPLY:g} s: restart it"
+            ) from None
+        faults = []
+        for worker, answer in sorted(answers.items()):
+            if isinstance(answer, ImportError):
+                faults.append(f"worker {worker} cannot import this mbla: {_line(answer)}")
+            elif isinstance(answer, Exception):
+                if not isinstance(answer, OSError):  # that is one that has just gone
+                    faults.append(f"worker {worker}: {type(answer).__name__}: {_line(answer)}")
+            elif words := difference(
+                {"mbla": program_identity()} | self.libraries, {"mbla": answer["program"], **answer["libraries"]}
+            ):
+                faults.append(f"worker {worker} on {answer['machine']}: {words}")
+        if faults:
+            raise UsageError(
+                "workers-differ", "\n".join([*faults, "install the same versions in the workers' environment"])
+            )
+
+    def _no_worker(self) -> str:
+        return (
+            f"{self._name()} has had no worker for {self._options.patience:g} s: "
+            "start some with `dask worker`; what was solved is in the journal, --resume goes on from it"
+        )
+
+    def _name(self) -> str:
+        return f"the scheduler {self._options.scheduler or self._options.scheduler_file}"
+
+    def _lost(self) -> FileError:
+        return FileError(
+            "scheduler-lost",
+            f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest",
+        )
+
+
+@contextmanager
+def silenced() -> Iterator[None]:
+    """What Dask remarks on lost workers and connections is told in words of this program instead."""
+    names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] in ("distributed", "tornado")]
+    loggers = [logging.getLogger(name) for name in names]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+def within(seconds: float, ask: Callable[[], Answer]) -> Answer:
+    """The answer; raises TimeoutError where it does not come in time, whatever the library waits for."""
+    answers: queue.Queue[tuple[Answer | None, BaseException | None]] = queue.Queue()
+
+    def answer() -> None:
+        try:
+            answers.put((ask(), None))
+        except BaseException as error:
+            answers.put((None, error))
+
+    threading.Thread(target=answer, daemon=True).start()
+    try:
+        value, error = answers.get(timeout=seconds)
+    except queue.Empty:
+        raise TimeoutError from None
+    if error is not None:
+        raise error
+    return value  # type: ignore[return-value]
+
+
+def _quietly(close: Callable[[], Any]) -> None:
+    with suppress(Exception):
+        within(2 * PARTING, close)
+
+
+def _line(error: BaseException) -> str:
+    return " ".join(str(error).split())

@@ -1,17 +1,17 @@
-"""Where the points of a sweep are solved: what every engine promises, and the one that solves one after the other."""
+"""Where the points of a sweep are solved: processes of this machine, or the workers of a Dask scheduler."""
 
 from __future__ import annotations
 
+import importlib.util
+import queue
+import threading
 import time
-from abc import ABC, abstractmethod
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from mbla.errors import LimitError, UsageError
-from mbla.sweeps.engine.supervised import SupervisedRunner
+from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 
 NOT_BEGUN = "not run: the time limit was over"
@@ -31,6 +31,8 @@ class EngineOptions:
     tls_cert       : certificate of this client
     tls_key        : its private key
     patience       : seconds to wait for the scheduler and its first worker, and for another where all are gone
+    until          : time.monotonic() at which the points under way are stopped and no further one is begun
+    threads        : of each process of this machine
     """
 
     workers: int = 1
@@ -40,6 +42,8 @@ class EngineOptions:
     tls_cert: Path | None = None
     tls_key: Path | None = None
     patience: float = PATIENCE
+    until: float | None = None
+    threads: int = 1
 
     @property
     def cluster(self) -> bool:
@@ -53,8 +57,11 @@ class EngineOptions:
         return {option: path for option, path in files.items() if path is not None}
 
 
+MISSING = "a cluster needs an extra that is not installed: pip install 'mbla[dask]'"
+
+
 def check_options(options: EngineOptions) -> None:
-    """Raises UsageError for what does not go together or is not there; all of it in one line each."""
+    """Raises UsageError for what does not go together or is not there, each in a line, and for a missing extra."""
     wrong = []
     if options.workers < 1:
         wrong.append(f"-j {options.workers}: at least 1")
@@ -72,71 +79,65 @@ def check_options(options: EngineOptions) -> None:
     wrong += [f"{option} {path}: there is no such file" for option, path in files.items() if not path.is_file()]
     if wrong:
         raise UsageError("sweep-option", "\n".join(wrong))
+    if options.cluster and importlib.util.find_spec("distributed") is None:
+        raise UsageError("extra-missing", MISSING)
 
 
-class Engine(ABC):
-    """Hands tasks to workers; a context manager, of which nothing goes on after its block."""
+def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+    """Outcomes in the order in which they are done; one for every task, also where its worker died.
 
-    _outcomes: Generator[Outcome, None, None] | None = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        if self._outcomes is not None:
-            self._outcomes.close()
-
-    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        """Outcomes in the order in which they are done; one for every task, also where its worker died.
-
-        Closing the iterator stops what is under way.
-
-        Raises
-        ------
-        UsageError
-            no worker can be had, or one has another mbla or reads another base deck
-        FileError
-            the scheduler is gone
-        """
-        self._outcomes = self._solved(plan, tasks)
-        return self._outcomes
-
-    @abstractmethod
-    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]: ...
-
-
-class SerialEngine(Engine):
-    """Tasks are done in their order, by one process beside this one."""
-
-    def __init__(self, until: float | None = None, threads: int = 1) -> None:
-        """
-        Until   : time.monotonic() at which the point under way is stopped and no further one is begun
-        threads : of the process of points
-        """
-        self._until, self._threads = until, threads
-
-    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        with SupervisedRunner(plan, until=self._until, threads=self._threads) as runner:
-            for task in tasks:
-                if self._until is not None and time.monotonic() >= self._until:
-                    yield Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)
-                else:
-                    yield runner.run(task)
-
-
-def engine_for(options: EngineOptions) -> Engine:
-    """The engine; it is started by entering its context.
+    Closing the iterator stops what is under way.
 
     Raises
     ------
     UsageError
-        options that do not go together, or an extra that is not installed
+        no worker can be had, or one has another mbla or reads another base deck
+    FileError
+        the scheduler is gone
     """
-    check_options(options)
-    if options.workers == 1 and not options.cluster:
-        return SerialEngine()
-    from mbla.sweeps.engine.cluster import ClusterEngine
+    if options.cluster:
+        from mbla.sweeps.engine.cluster import outcomes_of_cluster
 
-    return ClusterEngine(options)
+        return outcomes_of_cluster(options, plan, tasks)
+    return _outcomes_here(options, plan, tasks)
+
+
+def _outcomes_here(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+    """Tasks are begun in their order by as many processes as are wanted, each with a thread that looks after it."""
+    left, lock = iter(tasks), threading.Lock()
+    found: queue.SimpleQueue[Outcome | BaseException] = queue.SimpleQueue()
+
+    def work(runner: SupervisedRunner) -> None:
+        try:
+            while True:
+                with lock:
+                    task = next(left, None)
+                if task is None:
+                    return
+                late = options.until is not None and time.monotonic() >= options.until
+                found.put(_not_begun(task) if late else runner.run(task))
+        except StoppedError:  # nobody waits for it any more
+            return
+        except BaseException as error:
+            found.put(error)
+
+    wanted = range(min(options.workers, len(tasks)))
+    runners = [SupervisedRunner(plan, until=options.until, threads=options.threads) for _ in wanted]
+    threads = [threading.Thread(target=work, args=(runner,), daemon=True) for runner in runners]
+    try:
+        for thread in threads:
+            thread.start()
+        for _ in tasks:
+            outcome = found.get()
+            if isinstance(outcome, BaseException):
+                raise outcome
+            yield outcome
+    finally:
+        for runner in runners:
+            runner.kill()
+        for thread in threads:
+            thread.join()
+
+
+def _not_begun(task: Task) -> Outcome:
+    return Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)

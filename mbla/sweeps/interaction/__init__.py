@@ -2,5 +2,5 @@
 
     deck ──> question ──> points ──> domain ──> table, diagram
 
-``study.py`` puts the parts together; ``words.py`` and ``picture.py`` tell.
+``study.py`` puts the parts together and tells; ``picture.py`` draws.
 """

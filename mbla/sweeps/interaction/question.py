@@ -17,60 +17,28 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.tree import KeyPath
 from mbla.errors import UsageError
+from mbla.model import build_model
 from mbla.model.loads.load_case import kind_of
 from mbla.model.loads.load_kind import Entry, entries_of
 from mbla.model.model import Model
-from mbla.results.listing.text import counted
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal
 from mbla.sweeps.plan import Plain
 
-CLOSED = 1e-9
-"""degrees by which two angles may miss a full circle and close it"""
-
-
-def angles_between(start: float, end: float, count: int, ratio: float = 1.0) -> tuple[float, ...]:
-    """Angles from ``start`` to ``end``, both among them; the last one left out where it is a full circle on.
-
-    ratio : of the sine's unit to that of the cosine: the angles are at equal distances where both axes of a diagram
-            are drawn in these units
-    """
-    if ratio == 1.0:
-        return _evenly(start, end, count)
-    first, last = stretched(start, 1 / ratio), stretched(end, 1 / ratio)
-    between = [stretched(angle, ratio) for angle in _evenly(first, last, count)]
-    ends = {0: start} if closes(start, end) else {0: start, count - 1: end}
-    return tuple(ends.get(number, angle) for number, angle in enumerate(between))
-
-
-def stretched(degrees: float, ratio: float) -> float:
-    """Angle of the vector (cos, ratio sin) of an angle, in the same turn; multiples of 90 degrees stay."""
-    cosine, sine = horizontal(degrees, 1.0)
-    angle = math.degrees(math.atan2(ratio * sine, cosine))
-    return angle + FULL_CIRCLE * round((degrees - angle) / FULL_CIRCLE)
-
-
-def _evenly(start: float, end: float, count: int) -> tuple[float, ...]:
-    if closes(start, end):
-        return tuple(start + FULL_CIRCLE * number / count for number in range(count))
-    return tuple(start + (end - start) * number / (count - 1) for number in range(count))
-
-
-def closes(start: float, end: float) -> bool:
-    """Whether a range of angles is a full circle."""
-    return abs(end - start - FULL_CIRCLE) <= CLOSED
-
-
 DIRECTION, TWO_LOADS = "direction", "two_loads"
+DIRECTIONS, ANGLES = 72, 31
+"""points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
+MOST_POINTS = 3600
+QUARTER = 90.0
 
 
 @dataclass(frozen=True)
@@ -80,29 +48,94 @@ class Question:
     kind     : ``direction`` or ``two_loads``
     case     : load case that is solved at each point
     axes     : what the coordinates of the diagram are, in words: load factor times cosine, times sine of the angle
-    short    : the same for the names of columns
+    names    : the same for columns
     pair     : load cases of the deck as it is solved whose live loads add up, times cosine and sine, to that of each
                point; empty where they do not
     angles   : degrees, one for each point
     settings : values by key path of the deck, one mapping for each point
     fixed    : ``key.path=value`` texts for every point, after those of the command line
     closed   : the last point is followed by the first
-    absolute : azimuths count from +x, rather than from the directions that the deck gives
-    words    : what is turned or added, in sentences
+    words    : what is turned or added, in a sentence
     """
 
     kind: str
     case: str
     axes: tuple[str, str]
-    short: tuple[str, str]
-    pair: tuple[str, str] | tuple[()]
+    names: tuple[str, str]
+    pair: tuple[str, ...]
     angles: tuple[float, ...]
     settings: tuple[Mapping[str, Plain], ...]
     fixed: tuple[str, ...]
     closed: bool
-    absolute: bool
-    words: tuple[str, ...]
+    words: str
 
+
+def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
+    """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
+
+    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
+    ratio   : of the load factor of the second of two loads alone to that of the first
+
+    Raises
+    ------
+    DeckError
+        for what is wrong with the deck
+    UsageError
+        for options that do not go together, and for load cases of which it cannot be asked
+    """
+    model = build_model(deck)
+    contacts_of(deck, model)
+    if options.loads is None:
+        if options.start is not None or options.end is not None:
+            raise UsageError("interact-option", "--from and --to apply with --loads; directions go all around")
+        return _direction(deck, _case(deck, options.case or ""), _count(options.directions, DIRECTIONS, 1))
+    if options.case:
+        raise UsageError("interact-option", "--case and --loads: one or the other; --loads names the two load cases")
+    start = 0.0 if options.start is None else options.start
+    end = start + QUARTER if options.end is None else options.end
+    if not start < end <= start + FULL_CIRCLE:
+        raise UsageError(
+            "interact-option", f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
+        )
+    angles = angles_between(start, end, _count(options.directions, ANGLES, 2), ratio)
+    return _two_loads(deck, model, tuple(options.loads), angles, closed=closes(start, end))
+
+
+def _count(given: int | None, usual: int, least: int) -> int:
+    count = usual if given is None else given
+    if not least <= count <= MOST_POINTS:
+        raise UsageError("interact-option", f"--directions {count}: {least} to {MOST_POINTS} points")
+    return count
+
+
+def angles_between(start: float, end: float, count: int, ratio: float = 1.0) -> tuple[float, ...]:
+    """Angles from ``start`` to ``end``, both among them; the last one left out where it is a full circle on.
+
+    ratio : of the sine's unit to that of the cosine: the angles are at equal distances where both axes of a diagram
+            are drawn in these units
+    """
+    closed = closes(start, end)
+    first, last = stretched(start, 1 / ratio), stretched(end, 1 / ratio)
+    between = np.linspace(first, last, count, endpoint=not closed).tolist()
+    ends = {0: start} if closed else {0: start, count - 1: end}
+    return tuple(ends.get(number, stretched(angle, ratio)) for number, angle in enumerate(between))
+
+
+def closes(start: float, end: float) -> bool:
+    """Whether a range of angles is a full circle."""
+    return math.isclose(end - start, FULL_CIRCLE)
+
+
+def stretched(degrees: float, ratio: float) -> float:
+    """Angle of the vector (cos, ratio sin) of an angle, in the same turn; multiples of 90 degrees stay."""
+    if ratio == 1.0:
+        return degrees
+    cosine, sine = horizontal(degrees, 1.0)
+    angle = math.degrees(math.atan2(ratio * sine, cosine))
+    return angle + FULL_CIRCLE * round((degrees - angle) / FULL_CIRCLE)
+
+
+# --- loads ------------------------------------------------------------------------------------------------------------
 
 NO_SUM = {
     "travel": "travels: a load case for each of its positions",
@@ -111,32 +144,35 @@ NO_SUM = {
 """kinds of loads that make something else of a load case than a sum of loads, and what"""
 
 
-def section_of(deck: Deck, case: str, what: str) -> LoadCaseSection:
-    """A load case whose live loads are a sum of loads.
+def _case(deck: Deck, case: str) -> str:
+    """The load case, which need not be named where the deck has but one."""
+    cases = list(deck.content.load_cases)
+    if not case and len(cases) > 1:
+        raise UsageError(
+            "load-case-not-chosen", f"the deck has several load cases: choose one with --case, of {', '.join(cases)}"
+        )
+    return case or cases[0]
 
-    Raises UsageError for any other, where ``what`` cannot be asked.
-    """
+
+def _section(deck: Deck, case: str) -> LoadCaseSection:
+    """A load case whose live loads are a sum of loads; raises UsageError for any other."""
     cases = deck.content.load_cases
     if case not in cases:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
-    section = cases[case]
-    if section.settlement is not None:
-        raise UsageError(
-            "interact-load", f"load case {case}: a support gives way, there is no live load; {what} needs one"
-        )
+    if cases[case].settlement is not None:
+        raise UsageError("interact-load", f"load case {case}: a support gives way, there is no live load")
     for entry in live_entries(deck, case):
         for kind, words in NO_SUM.items():
             if getattr(entry.load, kind) is not None:
                 raise UsageError(
-                    "interact-load", f"load case {case}: its live load {words}; {what} takes other kinds of load"
+                    "interact-load", f"load case {case}: its live load {words}; a diagram takes other kinds of load"
                 )
-    return section
+    return cases[case]
 
 
 def live_entries(deck: Deck, case: str) -> list[Entry]:
     """The live loads of a case, those that named loads stand for among them, with the products of their factors."""
-    path: KeyPath = ("load_cases", case, "live")
-    return list(entries_of(deck.content.load_cases[case].live or [], path, deck.content.loads))
+    return list(entries_of(deck.content.load_cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
 
 
 def written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str, Any]:
@@ -151,127 +187,6 @@ def written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str
     return text | {"factor": factor} | changes
 
 
-TURNED = ("gravity", "acceleration", "force")
-"""kinds of loads that are turned: those that are a vector"""
-ONE_WAY = 1e-9
-"""sine of the angle between two horizontal parts up to which they point one way: rounding of expressions in decks"""
-OVER_DIRECTION = "the load factor over direction"
-
-
-@dataclass(frozen=True)
-class Turning:
-    """A live load as it is turned.
-
-    part     : its horizontal part in the frame whose first axis points to azimuth 0, as a complex number
-    vertical : its vertical part
-    """
-
-    entry: Entry
-    kind: str
-    part: complex
-    vertical: float
-
-    def at(self, deck: Deck, azimuth: float) -> dict[str, Any]:
-        """The load as the deck writes it, at an azimuth in degrees."""
-        turned = self.part * complex(*horizontal(azimuth, 1.0))
-        vector = [turned.real + 0.0, turned.imag + 0.0, self.vertical]
-        return written(deck, self.entry, self.entry.factor, **{self.kind: vector})
-
-
-def direction_question(deck: Deck, case: str, count: int) -> Question:
-    """Azimuths around the circle for one load case; its name may be left out where the deck has but one.
-
-    Raises UsageError where the load case cannot be turned.
-    """
-    case = _case(deck, case)
-    section_of(deck, case, OVER_DIRECTION)
-    _refuse_halves(deck)
-    turnings, absolute = _turnings(deck, case)
-    azimuths = angles_between(0.0, FULL_CIRCLE, count)
-    key = f"load_cases.{case}.live"
-    settings = tuple({key: _live(deck, turnings, azimuth)} for azimuth in azimuths)
-    flat = all(one.vertical == 0.0 for one in turnings)
-    pair, fixed = _axis_cases(deck, case, turnings) if flat else ((), ())
-    axes = ("along x", "along y") if absolute else ("as the deck directs it", "a quarter turn on")
-    words = _words(case, turnings, absolute=absolute, flat=flat)
-    short = ("x", "y") if absolute else ("0", "90")
-    return Question(DIRECTION, case, axes, short, pair, azimuths, settings, fixed, True, absolute, words)
-
-
-def _live(deck: Deck, turnings: Sequence[Turning], azimuth: float) -> list[Plain]:
-    return [one.at(deck, azimuth) for one in turnings]
-
-
-def _case(deck: Deck, case: str) -> str:
-    if case:
-        return case
-    cases = list(deck.content.load_cases)
-    if len(cases) > 1:
-        raise UsageError(
-            "load-case-not-chosen", f"the deck has several load cases: choose one with --case, of {', '.join(cases)}"
-        )
-    return cases[0]
-
-
-def _refuse_halves(deck: Deck) -> None:
-    for number, plane in enumerate(deck.content.symmetry):
-        if plane.z is None:
-            raise UsageError(
-                "interact-load",
-                f"symmetry.{number}: the deck gives half of the structure, and what pushes one half out of the plane "
-                f"would push its image the other way; {OVER_DIRECTION} needs the whole structure",
-            )
-
-
-def _turnings(deck: Deck, case: str) -> tuple[list[Turning], bool]:
-    """The loads in the frame of azimuth 0, and whether azimuths count from +x."""
-    entries = live_entries(deck, case)
-    horizontal, vertical = [], []
-    for entry in entries:
-        kind = kind_of(entry.load)
-        if kind not in TURNED:
-            raise UsageError(
-                "interact-load",
-                f"load case {case}: its live load {'.'.join(map(str, entry.path))} is a {kind}, which is not turned; "
-                f"{OVER_DIRECTION} takes acceleration, gravity and force",
-            )
-        x, y, z = getattr(entry.load, kind)
-        horizontal.append(complex(x, y))
-        vertical.append(z)
-    way, absolute = _way(entries, horizontal)
-    if way == 0.0:
-        raise UsageError("interact-load", f"load case {case}: no live load has a horizontal part that could be turned")
-    parts = [_in_frame(part, way, absolute=absolute) for part in horizontal]
-    kinds = [kind_of(entry.load) for entry in entries]
-    found = [Turning(*one) for one in zip(entries, kinds, parts, vertical, strict=True)]
-    return found, absolute
-
-
-def _way(entries: list[Entry], horizontal: list[complex]) -> tuple[complex, bool]:
-    """Unit vector of the first horizontal part as it pushes, 0 without any, and whether all others point that way."""
-    pushes = [part if entry.factor > 0 else -part for entry, part in zip(entries, horizontal, strict=True) if part]
-    if not pushes:
-        return 0j, False
-    ways = [push / abs(push) for push in pushes]
-    turned = [one * ways[0].conjugate() for one in ways]
-    return ways[0], all(one.real > 0 and abs(one.imag) <= ONE_WAY for one in turned)
-
-
-def _in_frame(part: complex, way: complex, *, absolute: bool) -> complex:
-    """A horizontal part where azimuth 0 is +x, or where it is the deck as it stands."""
-    if not absolute or not part:
-        return part
-    return complex(math.copysign(abs(part), (part * way.conjugate()).real), 0.0)
-
-
-def _axis_cases(deck: Deck, case: str, turnings: list[Turning]) -> tuple[tuple[str, str], tuple[str, ...]]:
-    """Load cases at 0 and 90 degrees beside the deck's own, whose powers say what a mechanism bounds all around."""
-    names = (free_name(deck, "interact_0"), free_name(deck, "interact_90"))
-    loads = [_live(deck, turnings, azimuth) for azimuth in (0.0, 90.0)]
-    texts = [f"load_cases.{name}={json.dumps({'live': live})}" for name, live in zip(names, loads, strict=True)]
-    return names, tuple(texts)
-
-
 def free_name(deck: Deck, name: str) -> str:
     """The name with as many strokes as make it one that no load case of the deck has."""
     while name in deck.content.load_cases:
@@ -279,75 +194,123 @@ def free_name(deck: Deck, name: str) -> str:
     return name
 
 
-def _words(case: str, turnings: list[Turning], *, absolute: bool, flat: bool) -> tuple[str, ...]:
-    kinds = [one.kind for one in turnings if one.part]
-    listed = " and ".join(counted(kinds.count(kind), kind) for kind in dict.fromkeys(kinds)) if kinds else ""
-    listed = listed.replace("gravitys", "gravities")
-    upright = "" if flat else "; vertical parts stay as they are"
-    from_where = (
-        "azimuth 0 pushes along +x, 90 along +y"
-        if absolute
-        else "as they do not all point one way, the azimuth is the angle by which they are turned together from "
-        "where the deck directs them, from +x towards +y"
-    )
-    return (f"load case {case}: the horizontal part of its live load ({listed}) is turned{upright}; {from_where}",)
+# --- direction --------------------------------------------------------------------------------------------------------
 
+TURNED = ("gravity", "acceleration", "force")
+"""kinds of loads that are turned: those that are a vector"""
+ONE_WAY = 1e-9
+"""sine of the angle between two horizontal parts up to which they point one way: rounding of expressions in decks"""
+
+
+def _direction(deck: Deck, case: str, count: int) -> Question:
+    """Azimuths around the circle for one load case."""
+    _section(deck, case)
+    if deck.content.symmetry:
+        raise UsageError(
+            "interact-load",
+            "symmetry: the deck gives half of the structure, and what pushes one half out of the plane would push its "
+            "image the other way; the load factor over direction needs the whole structure",
+        )
+    entries = live_entries(deck, case)
+    vectors = [_vector(case, entry) for entry in entries]
+    both = zip(entries, vectors, strict=True)
+    pushes = [complex(x, y) * (1 if entry.factor > 0 else -1) for entry, (x, y, _) in both if x or y]
+    if not pushes:
+        raise UsageError("interact-load", f"load case {case}: no live load has a horizontal part that could be turned")
+    way = pushes[0] / abs(pushes[0])
+    turned = [push / abs(push) / way for push in pushes]
+    absolute = all(one.real > 0 and abs(one.imag) <= ONE_WAY for one in turned)
+
+    def live(azimuth: float) -> list[Plain]:
+        """The loads as a deck writes them; where they all point one way the azimuth counts from +x."""
+        found: list[Plain] = []
+        for entry, (x, y, z) in zip(entries, vectors, strict=True):
+            part = complex(math.copysign(math.hypot(x, y), entry.factor), 0.0) if absolute else complex(x, y)
+            to = part * complex(*horizontal(azimuth, 1.0))
+            vector = [to.real + 0.0, to.imag + 0.0, z]
+            found.append(written(deck, entry, entry.factor, **{kind_of(entry.load): vector}))
+        return found
+
+    pair: tuple[str, ...] = ()
+    fixed: tuple[str, ...] = ()
+    if not any(z for _, _, z in vectors):  # powers of both say what a mechanism bounds all around
+        pair = free_name(deck, "interact_0"), free_name(deck, "interact_90")
+        fixed = tuple(
+            f"load_cases.{name}={json.dumps({'live': live(azimuth)})}"
+            for name, azimuth in zip(pair, (0.0, QUARTER), strict=True)
+        )
+    azimuths = angles_between(0.0, FULL_CIRCLE, count)
+    return Question(
+        kind=DIRECTION,
+        case=case,
+        axes=("along x", "along y") if absolute else ("as the deck directs it", "a quarter turn on"),
+        names=("x", "y") if absolute else ("0", "90"),
+        pair=pair,
+        angles=azimuths,
+        settings=tuple({f"load_cases.{case}.live": live(azimuth)} for azimuth in azimuths),
+        fixed=fixed,
+        closed=True,
+        words=f"load case {case}: the horizontal part of its live load is turned; "
+        + ("azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"),
+    )
+
+
+def _vector(case: str, entry: Entry) -> tuple[float, float, float]:
+    """The vector of a load; raises UsageError for one that has none."""
+    kind = kind_of(entry.load)
+    if kind not in TURNED:
+        raise UsageError(
+            "interact-load",
+            f"load case {case}: its live load {'.'.join(map(str, entry.path))} is a {kind}, which is not turned; "
+            "the load factor over direction takes acceleration, gravity and force",
+        )
+    x, y, z = getattr(entry.load, kind)
+    return float(x), float(y), float(z)
+
+
+# --- two loads --------------------------------------------------------------------------------------------------------
 
 SAME_LOAD = 1e-12
 """difference of two dead loads, relative to the larger, that is rounding of how the deck writes them"""
-OF_TWO_LOADS = "an interaction of two loads"
 
 
-def two_loads_question(
-    deck: Deck, model: Model, names: tuple[str, str], start: float, end: float, count: int, ratio: float = 1.0
-) -> Question:
-    """Angles from ``start`` to ``end`` in degrees for two load cases.
-
-    ratio : of the load factor of the second alone to that of the first; the points lie evenly on a curve that is drawn
-            in units of the two
-
-    Raises UsageError where they have no sum, or not the same dead load.
-    """
-    first, second = names
+def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...], angles: tuple[float, ...], *, closed: bool) -> Question:
+    """Angles between two load cases; raises UsageError where they have no sum, or not the same dead load."""
+    first, second = pair
     if first == second:
         raise UsageError("interact-option", f"--loads {first} {second}: name two different load cases")
-    section = section_of(deck, first, OF_TWO_LOADS)
-    section_of(deck, second, OF_TWO_LOADS)
-    _refuse_other_dead_load(model, first, second)
-    name = free_name(deck, "interact")
-    own: dict[str, Plain] = {}
-    if section.dead is not None:
-        places = (("load_cases", first, "dead", number) for number in range(len(section.dead)))
-        entries = [Entry(load, place, load.factor) for load, place in zip(section.dead, places, strict=True)]
-        own["dead"] = [written(deck, entry, entry.factor) for entry in entries]
-    angles = angles_between(start, end, count, ratio)
-    settings = tuple({f"load_cases.{name}": {**own, "live": _together(deck, names, angle)}} for angle in angles)
-    words = (
-        f"live loads of {first} times cos and of {second} times sin of the angle act together, with the dead load that "
-        "both have; load factor times cos and sin are the factors of the two at collapse",
-    )
-    axes = (f"factor of {first}", f"factor of {second}")
-    closed = closes(start, end)
-    return Question(TWO_LOADS, name, axes, names, names, angles, settings, (), closed, True, words)
-
-
-def _refuse_other_dead_load(model: Model, first: str, second: str) -> None:
-    dead = {case.name: case.dead_load for case in model.load_cases}
-    one, other = dead[first], dead[second]
-    largest = max(float(np.abs(one).max(initial=0.0)), float(np.abs(other).max(initial=0.0)))
-    if float(np.abs(one - other).max(initial=0.0)) > SAME_LOAD * largest:
+    section = _section(deck, first)
+    _section(deck, second)
+    one, other = ({case.name: case.dead_load for case in model.load_cases}[name] for name in pair)
+    if not np.abs(one - other).max(initial=0.0) <= SAME_LOAD * np.abs([one, other]).max(initial=0.0):
         raise UsageError(
             "interact-load",
             f"load cases {first} and {second} have different dead loads: their live loads act together only on one; "
             "give both the same dead load",
         )
+    own: dict[str, Plain] = {}
+    if section.dead is not None:
+        places = (("load_cases", first, "dead", number) for number in range(len(section.dead)))
+        dead = [Entry(load, place, load.factor) for load, place in zip(section.dead, places, strict=True)]
+        own["dead"] = [written(deck, entry, entry.factor) for entry in dead]
 
+    def live(angle: float) -> list[Plain]:
+        """Both live loads; one whose share is zero is left out."""
+        shares = zip(pair, horizontal(angle, 1.0), strict=True)
+        entries = ((share, entry) for name, share in shares if share for entry in live_entries(deck, name))
+        return [written(deck, entry, share * entry.factor) for share, entry in entries]
 
-def _together(deck: Deck, names: tuple[str, str], angle: float) -> list[Plain]:
-    """Both live loads at an angle; one whose share is zero is left out."""
-    return [
-        written(deck, entry, share * entry.factor)
-        for name, share in zip(names, horizontal(angle, 1.0), strict=True)
-        if share != 0.0
-        for entry in live_entries(deck, name)
-    ]
+    name = free_name(deck, "interact")
+    return Question(
+        kind=TWO_LOADS,
+        case=name,
+        axes=(f"factor of {first}", f"factor of {second}"),
+        names=(first, second),
+        pair=(first, second),
+        angles=angles,
+        settings=tuple({f"load_cases.{name}": {**own, "live": live(angle)}} for angle in angles),
+        fixed=(),
+        closed=closed,
+        words=f"live loads of {first} times cos and of {second} times sin of the angle act together, with the dead "
+        "load that both have; load factor times cos and sin are the factors of the two at collapse",
+    )

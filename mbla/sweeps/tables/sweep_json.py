@@ -47,9 +47,9 @@ class SweepRun:
 
 
 def sweep_json(
-    run: SweepRun, table: SweepTable, fragility: Sequence[dict[str, Any]] = (), files: Sequence[str] = ()
+    run: SweepRun, table: SweepTable, concluded: Mapping[str, Any] | None = None, files: Sequence[str] = ()
 ) -> dict[str, Any]:
-    """The record; fragility as ``fragility_json`` gives it."""
+    """The record; ``concluded``: further keys, and those that have another value than that of a plain sweep."""
     return {
         "mbla": __version__,
         "sweep": run.sweep,
@@ -66,10 +66,11 @@ def sweep_json(
             "places": _places(table.dimensions, table.position),
         },
         "columns": [asdict(column) for column in table.columns],
-        "fragility": list(fragility),
+        "fragility": [],
         "notices": [notice_json(notice) for notice in run.notices],
         "time": {"total": number(run.seconds)},
         "files": list(files),
+        **(concluded or {}),
     }
 
 

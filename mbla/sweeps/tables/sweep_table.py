@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -50,6 +50,15 @@ class SweepTable:
     def of_role(self, *roles: str) -> tuple[SweepColumn, ...]:
         """Columns with one of these roles."""
         return tuple(column for column in self.columns if column.role in roles)
+
+
+def with_columns(table: SweepTable, columns: Sequence[tuple[SweepColumn, Values]]) -> SweepTable:
+    """The table with more columns at its end."""
+    return replace(
+        table,
+        columns=(*table.columns, *(column for column, _ in columns)),
+        values=(*table.values, *(values for _, values in columns)),
+    )
 
 
 POINT = SweepColumn("point", "", "number of the point in the design, from 1", "int", "number")

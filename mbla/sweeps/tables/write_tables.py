@@ -9,19 +9,20 @@ values, which xarray shows as nan.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mbla import __version__
+from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import Labelled, LabelledFile, write_labelled_hdf5
+from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.record.scene import Values
 from mbla.results.tables.formats import ParquetColumn, csv_text, parquet_bytes, require_parquet
-from mbla.sweeps.fragility import Fragility, fragility_csv, fragility_json
 from mbla.sweeps.tables.read_table import CSV, JSON
 from mbla.sweeps.tables.sweep_json import VERSION, SweepRun, counts, record_text, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
@@ -133,27 +134,44 @@ def sweep_csv(table: SweepTable) -> str:
 
 
 PARQUET, HDF5, FRAGILITY = "sweep.parquet", "sweep.h5", "sweep_fragility.csv"
+PICTURES = ("png", "svg")
 
 
 @dataclass(frozen=True)
 class TableFiles:
-    """What is written beside sweep.csv and sweep.json.
-
-    others : files of the sweep that others write, listed in the record
-    """
+    """What is written beside sweep.csv and sweep.json."""
 
     parquet: bool = False
     hdf5: bool = False
-    others: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all of them."""
+        asked = ((PARQUET, self.parquet), (HDF5, self.hdf5))
+        return (CSV, JSON, *(name for name, wanted in asked if wanted))
 
 
-def table_names(files: TableFiles, fragility: bool = False) -> tuple[str, ...]:
-    """Names of the files that ``write_tables`` will write, for ``OutputFolder.refuse`` before the work."""
-    asked = ((PARQUET, files.parquet), (HDF5, files.hdf5), (FRAGILITY, fragility))
-    return (CSV, JSON, *(name for name, wanted in asked if wanted))
+@dataclass(frozen=True)
+class Conclusion:
+    """What follows from the points of a sweep together.
+
+    columns   : further ones of the table
+    record    : further keys of sweep.json
+    texts     : further files by name
+    pictures  : what draws each, by the stem of its files
+    lines     : for a terminal
+    exit_code : of the sweep; None for that of every sweep
+    """
+
+    columns: Sequence[tuple[SweepColumn, Values]] = ()
+    record: Mapping[str, Any] = field(default_factory=dict)
+    texts: Mapping[str, str] = field(default_factory=dict)
+    pictures: Mapping[str, Callable[[Path], None]] = field(default_factory=dict)
+    lines: Sequence[str] = ()
+    exit_code: int | None = None
 
 
-def refuse_tables(folder: Path, files: TableFiles, *, replace: bool, fragility: bool = False) -> None:
+def refuse_tables(folder: Path, files: TableFiles, *, replace: bool) -> None:
     """What ``write_tables`` would refuse, now and not after the work.
 
     Raises
@@ -165,35 +183,43 @@ def refuse_tables(folder: Path, files: TableFiles, *, replace: bool, fragility: 
     """
     if files.parquet:
         require_parquet()
-    OutputFolder(folder, "sweep", replace, beside=True).refuse(*table_names(files, fragility))
+    OutputFolder(folder, "sweep", replace, beside=True).refuse(*files.names)
 
 
 def write_tables(
-    folder: Path,
-    force: bool,
-    run: SweepRun,
-    table: SweepTable,
-    files: TableFiles,
-    fragility: Sequence[Fragility] = (),
-) -> dict[str, Any]:
-    """Write the files; the record, as in sweep.json.
+    folder: Path, run: SweepRun, table: SweepTable, files: TableFiles, conclusion: Conclusion
+) -> tuple[dict[str, Any], str]:
+    """Write the files; the record, as in sweep.json, and why there are no pictures, if that is so.
 
     Raises
     ------
     FileError
-        a file is there already and ``force`` is not set, or cannot be written
+        a file cannot be written
     UsageError
         what Parquet needs is not installed
     """
-    names = table_names(files, bool(fragility))
-    record = sweep_json(run, table, fragility_json(fragility), sorted({*names, *files.others}))
-    with OutputFolder(folder, "sweep", force, beside=True) as out:
+    remark = _without_pictures() if conclusion.pictures else ""
+    with OutputFolder(folder, "sweep", True, beside=True) as out:
         out.write_text(CSV, sweep_csv(table))
-        out.write_text(JSON, record_text(record))
+        for name, text in conclusion.texts.items():
+            out.write_text(name, text)
         if files.parquet:
             out.write_bytes(PARQUET, sweep_parquet(run, table))
         if files.hdf5:
             out.write_bytes(HDF5, sweep_hdf5(run, table))
-        if fragility:
-            out.write_text(FRAGILITY, fragility_csv(fragility))
-    return record
+        for stem, draw in () if remark else conclusion.pictures.items():
+            for ending in PICTURES:
+                with out.writing(f"{stem}.{ending}") as path:
+                    draw(path)
+        record = sweep_json(run, table, conclusion.record, sorted({*out.names, JSON}))
+        out.write_text(JSON, record_text(record))
+    return record, remark
+
+
+def _without_pictures() -> str:
+    """Why there can be no pictures; empty where there can."""
+    try:
+        matplotlib_parts()
+    except UsageError as error:
+        return f"no pictures: {error}"
+    return ""

@@ -1,5 +1,4 @@
 """Speed against accuracy on one deck, a sweep over its settings: ladder -> points -> distances -> front, advice.
 
-``ladder.py`` has the settings, ``study.py`` runs them and writes the files, ``trade.py`` compares, ``words.py`` and
-``picture.py`` tell.
+``ladder.py`` has the settings, ``study.py`` runs them and tells, ``trade.py`` compares, ``picture.py`` draws.
 """

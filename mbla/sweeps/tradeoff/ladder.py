@@ -27,13 +27,20 @@ from mbla.sweeps.plan import Plain, override_texts
 
 REFERENCE = "accuracy: reference"
 """name of the setting that the others are held against"""
-PRESETS = ("standard", "reference", "draft")
-"""the reference early, so that a time limit that ends the ladder leaves something to compare"""
-TOLERANCES = ("1e-4", "1e-6", "1e-8", "1e-10")
-SOLVERS = ("mbla", "clarabel", "highs")
-SIDES = (4, 8, 16, 32)
-SCHEMES = ("proximal", "interior", "published")
-POINTS = (2, 3)
+LADDER: tuple[tuple[str, Mapping[str, Plain]], ...] = (
+    ("the deck's own settings", {}),
+    *((f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in ("1e-4", "1e-6", "1e-8", "1e-10")),
+    *((f"solver: {name}", {"analysis.solver": name}) for name in ("mbla", "clarabel", "highs")),
+    *(
+        (f"polyhedron: {sides} sides", {"analysis.friction_cone": "polyhedral", "analysis.sides": sides})
+        for sides in (4, 8, 16, 32)
+    ),
+    *((f"scheme: {name}", {"analysis.scheme": name}) for name in ("proximal", "interior", "published")),
+    *((f"points per edge: {number}", {"contacts.points.per_edge": number}) for number in (2, 3)),
+    ("contact_model: convex", {"analysis.contact_model": "convex"}),
+    ("flow_rule: associative", {"analysis.flow_rule": "associative"}),
+)
+"""settings after the presets"""
 LIMITS = ("max_iterations", "time_limit")
 """knobs without a default that are limits of effort, none of accuracy"""
 MODEL_KEYS = ("flow_rule", "contact_model")
@@ -48,57 +55,58 @@ BRACKETS = {"[": 1, "{": 1, "]": -1, "}": -1}
 class Rung:
     """A setting under a name.
 
-    name  : as a deck says it, ``accuracy: draft``
-    set   : values by key path of the deck
-    freed : knobs of the analysis section that the deck gives and this setting leaves to ``accuracy``
-    unfit : why it does not apply to this deck; empty where it does
-    model : what makes it another model than the deck's, in words; empty where it is the deck's
-    spatial : tells nothing in a planar structure
+    name     : as a deck says it, ``accuracy: draft``
+    settings : values by key path of the deck
+    without  : knobs of the analysis section that the deck gives and this setting leaves to ``accuracy``
+    unfit    : why it does not apply to this deck; empty where it does
+    model    : what makes it another model than the deck's, in words; empty where it is the deck's
     """
 
     name: str
-    set: Mapping[str, Plain] = field(default_factory=dict)
-    freed: tuple[str, ...] = ()
+    settings: Mapping[str, Plain] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
     unfit: str = ""
     model: str = ""
-    spatial: bool = False
-
-    def settings(self, deck: Deck, fixed: Sequence[str]) -> dict[str, Plain]:
-        """Values by key path, as a point sets them: knobs are left out by writing the analysis section without them."""
-        if not self.freed:
-            return dict(self.set)
-        own: Mapping[str, Any] = effective_tree(deck.path, fixed).data["analysis"]
-        section: dict[str, Plain] = {key: value for key, value in own.items() if key not in self.freed}
-        return {"analysis": section | {key.removeprefix("analysis."): value for key, value in self.set.items()}}
 
 
-def usual_ladder(deck: Deck, fixed: Sequence[str]) -> list[Rung]:
-    """Every setting that mbla knows of, those that do not apply with the reason."""
-    rule, spacing = deck.analysis.flow_rule, deck.contacts.points.spacing
-    no_scheme = "" if rule == "non_associative" else f"a scheme of flow_rule: non_associative ({rule} here)"
-    no_points = "" if spacing is None else "the deck gives the spacing of contact points"
-    polyhedral: dict[str, Plain] = {"analysis.friction_cone": "polyhedral"}
-    return [
-        *(_preset(deck, fixed, word) for word in PRESETS),
-        Rung("the deck's own settings"),
-        *(Rung(f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in TOLERANCES),
-        *(Rung(f"solver: {name}", {"analysis.solver": name}) for name in SOLVERS),
-        *(Rung(f"polyhedron: {sides} sides", {**polyhedral, "analysis.sides": sides}, spatial=True) for sides in SIDES),
-        *(Rung(f"scheme: {name}", {"analysis.scheme": name}, unfit=no_scheme) for name in SCHEMES),
-        *(Rung(f"points per edge: {n}", {"contacts.points.per_edge": n}, unfit=no_points) for n in POINTS),
-        Rung("contact_model: convex", {"analysis.contact_model": "convex"}),
-        Rung("flow_rule: associative", {"analysis.flow_rule": "associative"}),
-    ]
+def ladder_of(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[Rung]:
+    """The reference and what the user names, or every setting that mbla knows of; those that do not apply say why.
+
+    fixed : overrides with which the deck was read
+
+    Raises UsageError where two have one name, and where nothing that was named applies.
+    """
+    reference = _preset(deck, fixed, "reference")
+    if named:
+        rungs = [reference, *(rung for rung in named if rung.name != REFERENCE)]
+    else:  # the reference early, so that a time limit that ends the ladder leaves something to compare
+        rungs = [_preset(deck, fixed, "standard"), reference, _preset(deck, fixed, "draft")]
+        rungs += [Rung(name, settings) for name, settings in LADDER]
+    names = [rung.name for rung in rungs]
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise UsageError("tradeoff-option", f"{twice[0]}: two settings of that name")
+    seen: dict[str, str] = {}
+    fitted = [_fitted(deck, fixed, rung, seen) for rung in rungs]
+    asked = [rung for rung in fitted if rung.name in {own.name for own in named}]
+    if asked and all(rung.unfit for rung in asked):
+        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in asked)
+        raise UsageError("tradeoff-option", f"no setting that was asked for applies to the deck: {why}")
+    return fitted
 
 
 def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
     """One word, free of the knobs that the deck sets by itself; the reference with the true friction cone."""
-    own: dict[str, Plain] = {"analysis.accuracy": word}
+    own: dict[str, Plain] = {"accuracy": word}
     if word == "reference" and deck.analysis.friction_cone == "polyhedral":
-        own["analysis.friction_cone"] = "circular"
+        own["friction_cone"] = "circular"
         if deck.analysis.solver == "highs":
-            own["analysis.solver"] = "auto"
-    return Rung(f"accuracy: {word}", own, given_knobs(deck, fixed))
+            own["solver"] = "auto"
+    without = given_knobs(deck, fixed)
+    if not without:
+        return Rung(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})
+    section: Mapping[str, Any] = effective_tree(deck.path, fixed).data["analysis"]
+    kept: dict[str, Plain] = {key: value for key, value in section.items() if key not in without}
+    return Rung(f"accuracy: {word}", {"analysis": kept | own}, without)
 
 
 def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
@@ -112,28 +120,10 @@ def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def named_ladder(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[Rung]:
-    """The reference and the settings that the user names."""
-    return [_preset(deck, fixed, "reference"), *(rung for rung in named if rung.name != REFERENCE)]
-
-
-def fitted(deck: Deck, fixed: Sequence[str], rungs: Sequence[Rung]) -> list[Rung]:
-    """The settings with what is wrong with them on this deck: refused by it, the same as an earlier one, another model.
-
-    Raises UsageError where two have one name.
-    """
-    ready: list[Rung] = []
-    seen: dict[str, str] = {}
-    for rung in rungs:
-        if rung.name in [other.name for other in ready]:
-            raise UsageError("tradeoff-option", f"{rung.name}: two settings of that name")
-        ready.append(rung if rung.unfit else _fitted(deck, fixed, rung, seen))
-    return ready
-
-
 def _fitted(deck: Deck, fixed: Sequence[str], rung: Rung, seen: dict[str, str]) -> Rung:
+    """The setting with what is wrong with it on this deck: refused, the same as an earlier one, another model."""
     try:
-        content = read_deck(deck.path, (*fixed, *override_texts(rung.settings(deck, fixed)))).content
+        content = read_deck(deck.path, (*fixed, *override_texts(rung.settings))).content
     except DeckError as error:
         return replace(rung, unfit="; ".join(fault.message for fault in error.faults))
     same = seen.setdefault(content.model_dump_json(exclude={"output", "expected"}), rung.name)
@@ -157,8 +147,7 @@ def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
     count = len(settings) + (prod(len(choice) for choice in choices) if knobs else 0)
     if count > MOST:
         raise UsageError("tradeoff-option", f"--knob: {count} settings, more than {MOST}; name fewer values")
-    rungs = [_combination(texts) for texts in product(*choices)] if knobs else []
-    return rungs + [_named(text) for text in settings]
+    return [*(_combination(texts) for texts in product(*choices) if texts), *map(_named, settings)]
 
 
 def _values(text: str) -> list[str]:

@@ -1,50 +1,39 @@
-"""``mbla tradeoff``: a sweep over settings of a deck, its table, pictures and advice."""
+"""``mbla tradeoff``: a sweep over settings of a deck, its pictures and advice."""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck
-from mbla.errors import LimitError, SolverError, UsageError
+from mbla.errors import LimitError, SolverError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model, select_cases
 from mbla.process.run_options import RunOptions
 from mbla.results.diff.cases import ZERO, least_factor
-from mbla.results.failures import SIGNALS
-from mbla.results.files import OutputFolder
-from mbla.results.listing.answers import reaction_unit
-from mbla.results.record.json_values import number
+from mbla.results.listing.answers import reaction_unit, status_name
+from mbla.results.listing.text import number, sentence, small, table
+from mbla.results.record.json_values import as_json
 from mbla.results.record.scene import Values
 from mbla.solution.solution import Status
-from mbla.sweeps.engine.engine import NOT_BEGUN, SerialEngine
+from mbla.sweeps.answers import numbers_of
+from mbla.sweeps.command import Finished, Report, run_sweep
+from mbla.sweeps.engine.engine import NOT_BEGUN, EngineOptions
 from mbla.sweeps.engine.supervised import STOPPED
-from mbla.sweeps.plan import DONE, Outcome, Plan
-from mbla.sweeps.results import result_places
-from mbla.sweeps.studies import (
-    About,
-    Study,
-    about,
-    plan_of,
-    rows_json,
-    solved,
-    study_record,
-    study_table,
-    tasks_of,
-    with_columns,
-    without_empty,
-    written_study,
-)
-from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, as_text
-from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, fitted, named_ladder, named_rungs, usual_ladder
+from mbla.sweeps.plan import DONE
+from mbla.sweeps.studies import heading_lines, prepared_study, study_options, study_plan
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
+from mbla.sweeps.tables.write_tables import Conclusion
+from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, ladder_of, named_rungs
 from mbla.sweeps.tradeoff.picture import draw_trade
-from mbla.sweeps.tradeoff.trade import NAN, VERDICTS, Advice, CaseTrade, Row, advice, case_trade
+from mbla.sweeps.tradeoff.trade import VERDICTS, Advice, CaseTrade, Row, advice, case_trade
 
 RESIDUALS = (
     *("equilibrium_residual", "yield_violation", "tension_violation", "penetration", "complementarity_residual"),
@@ -59,46 +48,13 @@ ANSWERS = {
 """columns of the answer and its bounds, by what a load case asks for"""
 RESULTS = (
     *("status", "verified", "flow_rule", *(path for paths in ANSWERS.values() for path in paths)),
-    *("gap", *RESIDUALS, "range.0", "range.1", "size.dimension", "iterations", "time.total", "time.solver"),
+    *("gap", *RESIDUALS, "iterations", "time.total", "time.solver"),
 )
-PLANAR = "friction has two directions in a planar structure: any polyhedron is exact"
-REPEATS, SHORT = 3, 1.0
-"""runs at most of a setting that takes fewer seconds than that, of which the shortest counts"""
 SETTING = SweepColumn("setting", "", "name of the setting", "text", "parameter", "setting")
-Report = Callable[[int, int], None]
-"""called with the settings that are done, and all of them"""
 
 
-@dataclass(frozen=True)
-class Tradeoff(Study):
-    """Everything that was measured and what it says.
-
-    wanted, limits, threads : as of ``study_deck``
-    trades  : by load case, a travelling load as one
-    advices : by load case; then, with several, the one for all of them
-    """
-
-    wanted: float
-    limits: tuple[float | None, float | None]
-    threads: int
-    trades: tuple[CaseTrade, ...]
-    advices: tuple[Advice, ...]
-
-    @property
-    def exit_code(self) -> int:
-        """130, 143: a signal; 7: the time limit came before the reference; 4: no reference is verified; else 0."""
-        if self.stop:
-            return self.stop
-        late = [row for row in self.trades[0].rows if row.name == REFERENCE and row.reason in (STOPPED, NOT_BEGUN)]
-        if late:
-            return LimitError.exit_status
-        return 0 if all(trade.verified for trade in self.trades) else SolverError.exit_status
-
-
-def tradeoff(
-    deck: Deck, run: RunOptions, options: Any, report: Report | None
-) -> tuple[Tradeoff, dict[str, Any], list[str]]:
-    """Run a deck under its settings and write the files; the study, its JSON record, and remarks.
+def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -> Finished:
+    """Run a deck under its settings and write the files.
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
 
@@ -109,142 +65,92 @@ def tradeoff(
     FileError
         Files are in the way or cannot be written.
     """
+    until = None if options.time_limit is None else time.monotonic() + options.time_limit
     named = named_rungs(options.knob, options.setting)
-    limits = options.time_limit, options.run_limit
-
-    def draw(folder: OutputFolder, ending: str, study: Tradeoff) -> None:
-        for trade, advised in zip(study.trades, study.advices, strict=False):
-            with folder.writing(f"{folder.stem}_{trade.name}.{ending}") as path:
-                draw_trade(path, study.about.heading, trade, advised.sentence)
-
-    return written_study(
-        OutputFolder(run.folder_for(deck.path), f"{deck.path.stem}_tradeoff", run.force, beside=True),
-        lambda: study_deck(deck, run, named, options.wanted_error, limits, report),
-        draw,
-        study_json,
-    )
-
-
-def study_deck(
-    deck: Deck,
-    run: RunOptions,
-    named: Sequence[Rung],
-    wanted: float,
-    limits: tuple[float | None, float | None] = (None, None),
-    report: Report | None = None,
-) -> Tradeoff:
-    """Run the settings that are named with the reference, or the usual ones, and hold them against the reference.
-
-    limits : seconds for all settings, which count from here, and for each; None for none
-    """
-    started = time.perf_counter()
-    until = None if limits[0] is None else time.monotonic() + limits[0]
-    fixed = run.overrides
+    chosen = study_options(deck, run, "tradeoff", EngineOptions(until=until, threads=run.threads))
+    assert chosen.folder is not None
     model = build_model(deck)
     contacts_of(deck, model)  # what is wrong with it is told before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
-    rungs = fitted(deck, fixed, named_ladder(deck, fixed, named) if named else usual_ladder(deck, fixed))
-    _refuse_nothing_fit([rung for rung in rungs if rung.name in {own.name for own in named}])
-    plan = replace(plan_of(deck, fixed, tuple(cases), RESULTS), shared=False, time_limit=limits[1])
-    outcomes, ends, stop = _run(deck, plan, rungs, SerialEngine(until, run.threads), report)
-    trades = tuple(_trade(model, case, plan, rungs, outcomes, ends) for case in cases.values())
+    rungs = ladder_of(deck, run.overrides, named)
+    plan = study_plan(deck, run.overrides, tuple(cases), RESULTS, chosen.folder, options.run_limit, timed=True)
+    fit = [rung for rung in rungs if not rung.unfit]
+    conclude = partial(conclusion_of, deck, model, tuple(cases.values()), rungs, options.wanted_error)
+    settings = [rung.settings for rung in fit]
+    prepared = prepared_study(deck, "tradeoff", plan, SETTING, [rung.name for rung in fit], settings, conclude)
+    return run_sweep(prepared, chosen, report)
+
+
+def conclusion_of(
+    deck: Deck, model: Model, cases: Sequence[LoadCase], rungs: Sequence[Rung], wanted: float, results: SweepTable
+) -> Conclusion:
+    """What follows from the points, which are the settings that apply."""
+    trades = [_trade(model, case, [rung for rung in rungs if not rung.unfit], results) for case in cases]
     advices = [advice([trade], wanted) for trade in trades]
-    of = about(deck, fixed)
-    return Tradeoff(
-        about=of,
-        wanted=wanted,
-        limits=limits,
-        threads=run.threads,
-        table=_table(of, plan, rungs, outcomes, trades),
-        trades=trades,
-        advices=tuple([*advices, advice(trades, wanted)] if len(trades) > 1 else advices),
-        stop=stop,
-        seconds=time.perf_counter() - started,
+    advices += [advice(trades, wanted)] if len(trades) > 1 else []
+    columns: list[tuple[SweepColumn, Values]] = []
+    for trade in trades:
+        before = f"{trade.name}." if len(trades) > 1 else ""
+        distance = SweepColumn(f"{before}distance", "", "relative distance from the reference", "float", "result")
+        front = SweepColumn(f"{before}front", "", "on the Pareto front of time and distance", "bool", "result")
+        columns.append((distance, np.array([row.distance for row in trade.rows])))
+        columns.append((front, np.array([row.front for row in trade.rows])))
+    pairs = list(zip(trades, advices, strict=False))
+    return Conclusion(
+        columns=columns,
+        record={"tradeoff": _record(trades, advices, rungs, wanted)},
+        pictures={
+            f"tradeoff_{trade.name}": partial(draw_trade, deck.title, trade, one.sentence) for trade, one in pairs
+        },
+        lines=_lines(deck, trades, advices, rungs, results),
+        exit_code=_exit_code(trades, results),
     )
 
 
-def _refuse_nothing_fit(named: Sequence[Rung]) -> None:
-    """UsageError where settings were asked for and none of them applies: there would be nothing to compare."""
-    if named and all(rung.unfit for rung in named):
-        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in named)
-        raise UsageError("tradeoff-option", f"no setting that was asked for applies to the deck: {why}")
+def _exit_code(trades: Sequence[CaseTrade], results: SweepTable) -> int:
+    """7: the time limit came before the reference; 4: no reference is verified; else 0."""
+    settings = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
+    if any(name == REFERENCE and reason in (STOPPED, NOT_BEGUN) for name, reason in settings):
+        return LimitError.exit_status
+    return 0 if all(trade.verified for trade in trades) else SolverError.exit_status
 
 
-# --- points -----------------------------------------------------------------------------------------------------------
-
-
-def _run(
-    deck: Deck, plan: Plan, rungs: Sequence[Rung], engine: SerialEngine, report: Report | None
-) -> tuple[dict[int, Outcome], dict[int, tuple[str, str]], int]:
-    """Outcomes by number of the setting, state and reason of those without one, and what ended it.
-
-    Settings that say nothing in a planar structure come last; quick ones are run again, and their least times count.
-    """
-    settings = [{} if rung.unfit else rung.settings(deck, plan.fixed) for rung in rungs]
-    tasks = [task for task in tasks_of(plan, settings) if not rungs[task.number - 1].unfit]
-    ends = {number: ("unfit", rung.unfit) for number, rung in enumerate(rungs, 1) if rung.unfit}
-    found: dict[int, Outcome] = {}
-    stop = 0
-
-    def done(count: int) -> None:
-        if report is not None:
-            report(len(found) + count, len(tasks))
-
-    with engine:
-        for spatial in (False, True):
-            part = [task for task in tasks if rungs[task.number - 1].spatial == spatial]
-            if spatial and any(_is_planar(found[task.number]) for task in tasks if task.number in found):
-                ends |= {task.number: ("unfit", PLANAR) for task in part}
-            elif part and not stop:
-                more, stop = solved(engine, plan, part, deck, done)
-                found |= more
-        for _ in range(REPEATS - 1):
-            quick = [task for task in tasks if task.number in found and _is_quick(found[task.number])]
-            if quick and not stop:
-                again, stop = solved(engine, plan, quick, deck)
-                found |= {n: _quicker(found[n], own) for n, own in again.items() if own.state == DONE}
-    word = next((word for status, word in SIGNALS.values() if status == stop), "")
-    ends |= {task.number: (word, f"not run: {word} before") for task in tasks if task.number not in {**found, **ends}}
-    return found, ends, stop
-
-
-def _is_planar(outcome: Outcome) -> bool:
-    dimensions = {value for name, value in outcome.results.items() if name.endswith("size.dimension")}
-    return outcome.state == DONE and dimensions == {2}
-
-
-def _is_quick(outcome: Outcome) -> bool:
-    return outcome.state == DONE and outcome.seconds < SHORT
-
-
-def _quicker(one: Outcome, other: Outcome) -> Outcome:
-    """The outcome of two runs of one setting whose solving took less."""
-
-    def total(outcome: Outcome) -> float:
-        return sum(
-            float(str(v)) for name, v in outcome.results.items() if name.endswith("time.total") and v is not None
-        )
-
-    return min(one, other, key=total)
-
-
-# --- what they say ----------------------------------------------------------------------------------------------------
-
-
-def _trade(
-    model: Model,
-    case: LoadCase,
-    plan: Plan,
-    rungs: Sequence[Rung],
-    outcomes: Mapping[int, Outcome],
-    ends: Mapping[int, tuple[str, str]],
-) -> CaseTrade:
+def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTable) -> CaseTrade:
     kind, unit, least = _kind(model, case)
+    columns = {column.path: column for column in results.of_role("result") if column.case == case.deck_name}
+
+    def figures(path: str) -> FloatArray:
+        return numbers_of(columns[path], results[columns[path].name])
+
+    def texts(path: str) -> list[str]:
+        return [value or "" for value in results[columns[path].name].tolist()]
+
+    answers, lowers, uppers = map(figures, ANSWERS[kind])
+    residuals = np.fmax.reduce([figures(path) for path in RESIDUALS])
+    associative = np.array(texts("flow_rule")) == "associative"
+    accuracies = np.where(np.isnan(answers), np.nan, np.nan_to_num(np.where(associative, figures("gap"), residuals)))
+    done = results["state"] == DONE
+    verified = figures("verified") == 1.0
+    seconds = figures("time.total")
     rows = [
-        _row(rung, kind, case.deck_name, plan, outcomes[number]) if number in outcomes else Row(rung, *ends[number])
-        for number, rung in enumerate(rungs, 1)
+        Row(
+            rung=rung,
+            status=status,
+            verified=bool(
+                done[n]
+                if status == Status.APPROXIMATE  # as sharp as the setting asks for
+                else verified[n] and status in (Status.SOLVED, *VERDICTS)
+            ),
+            answer=float(answers[n]),
+            accuracy=float(accuracies[n]),
+            residual=float(residuals[n]),
+            lower=float(lowers[n]),
+            upper=float(uppers[n]),
+            seconds=float(seconds[n]),
+        )
+        for n, (rung, status) in enumerate(zip(rungs, texts("status"), strict=True))
     ]
-    return case_trade(case.deck_name, rows, least, kind, unit)
+    return case_trade(case.deck_name, rows, least, f"{kind} [{unit}]" if unit else kind)
 
 
 def _kind(model: Model, case: LoadCase) -> tuple[str, str, float]:
@@ -254,98 +160,95 @@ def _kind(model: Model, case: LoadCase) -> tuple[str, str, float]:
     return ("angle", "degree", 0.0) if case.tilt is not None else ("load factor", "", least_factor(model, case))
 
 
-def _row(rung: Rung, kind: str, case: str, plan: Plan, outcome: Outcome) -> Row:
-    """The row of one load case from the columns of the point."""
-    places = [place for place in result_places(plan.results, plan.cases) if place.case == case]
-    found: dict[str, Any] = {".".join(place.path): outcome.results.get(place.name) for place in places}
+# --- words ------------------------------------------------------------------------------------------------------------
 
-    def figure(name: str) -> float:
-        value = found.get(name)
-        return NAN if value is None else float(value)
-
-    status, (answer, lower, upper) = found.get("status") or "", map(figure, ANSWERS[kind])
-    residual = max((figure(name) for name in RESIDUALS if not math.isnan(figure(name))), default=NAN)
-    accuracy = figure("gap") if found.get("flow_rule") == "associative" else residual
-    sound = status == Status.APPROXIMATE and outcome.state == DONE  # as sharp as the setting asks for
-    return Row(
-        rung=rung,
-        state=outcome.state,
-        reason=outcome.reason,
-        status=status,
-        verified=sound or (bool(found.get("verified")) and status in (Status.SOLVED, *VERDICTS)),
-        answer=answer,
-        accuracy=NAN if math.isnan(answer) else (0.0 if math.isnan(accuracy) else accuracy),
-        residual=residual,
-        lower=lower,
-        upper=upper,
-        ends=(figure("range.0"), figure("range.1")),
-        iterations=int(found.get("iterations") or 0),
-        seconds=figure("time.total"),
-        solver=figure("time.solver"),
-    )
+LEGEND = (
+    "time: a load case by the clock, in seconds; error: distance from the reference, none of another model; lower, "
+    "upper: proved bounds of associative flow; resid.: largest, recomputed; *: no verified setting of the same model "
+    "is both faster and nearer"
+)
 
 
-def _table(
-    of: About, plan: Plan, rungs: Sequence[Rung], outcomes: Mapping[int, Outcome], trades: Sequence[CaseTrade]
-) -> SweepTable:
-    """The table of the sweep, with distance and front."""
-    table = without_empty(study_table(of, SETTING, [rung.name for rung in rungs], plan, outcomes))
-    columns: list[tuple[SweepColumn, Values]] = []
+def _lines(
+    deck: Deck, trades: Sequence[CaseTrade], advices: Sequence[Advice], rungs: Sequence[Rung], results: SweepTable
+) -> list[str]:
+    """A table for each load case, what does not apply or failed, and the advice."""
+    lines = heading_lines(deck)
     for trade in trades:
-        before = f"{trade.name}." if len(trades) > 1 else ""
-        distance = SweepColumn(f"{before}distance", "", "relative distance from the reference", "float", "result")
-        front = SweepColumn(f"{before}front", "", "on the Pareto front of time and distance", "bool", "result")
-        columns.append((distance, np.array([row.distance for row in trade.rows])))
-        columns.append((front, np.array([row.front for row in trade.rows])))
-    return with_columns(table, columns)
+        lines += ["", *sentence(f"load case {trade.name}: {reference_words(trade)}"), *_table(trade)]
+    lines += ["", *sentence(LEGEND), ""]
+    failed = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
+    why: dict[str, list[str]] = {}
+    for name, reason in (*((rung.name, rung.unfit) for rung in rungs), *failed):
+        if reason:
+            why.setdefault(reason, []).append(name)
+    for reason, names in why.items():
+        lines += sentence(f"{', '.join(names)}: {reason}")
+    names = [f"{trade.name}: " for trade in trades] + ["All load cases: "] if len(trades) > 1 else [""]
+    for name, one in zip(names, advices, strict=True):
+        lines += sentence(name + one.sentence)
+    return lines
 
 
-def study_json(study: Tradeoff, files: tuple[str, ...] = ()) -> dict[str, Any]:
-    """The record that ``--json`` prints and ``STEM_tradeoff.json`` holds; ``points`` are the rows of the table."""
-    rows = study.trades[0].rows
-    own = {
-        "wanted_error": study.wanted,
-        "limits": {"time": study.limits[0], "run": study.limits[1], "threads": study.threads},
-        "settings": [
-            _setting_json(row.rung)
-            | {"other_model": row.rung.model or None, "end": row.state, "reason": row.reason or None}
-            for row in rows
-        ],
-        "points": rows_json(study.table),
-        "cases": [_case_json(trade, study.advices[place]) for place, trade in enumerate(study.trades)],
-        "advice": _advice_json(study.advices[-1]),
-    }
-    return study_record(study, own, files)
+def reference_words(trade: CaseTrade) -> str:
+    """What the errors are distances from, and how small ones it can tell."""
+    if trade.reference is None:
+        return "no setting gave a result, so there is no reference"
+    unsure = "" if trade.verified else ", which is NOT VERIFIED"
+    return f"errors are relative to {trade.reference.rung.name}{unsure}, good to {small(trade.resolution)}"
 
 
-def _setting_json(rung: Rung | None) -> dict[str, Any]:
-    if rung is None:
-        return {"name": None, "set": [], "without": []}
-    texts = [f"{key}={as_text(value)}" for key, value in rung.set.items()]
-    return {"name": rung.name, "set": texts, "without": [f"analysis.{name}" for name in rung.freed]}
+def _table(trade: CaseTrade) -> list[str]:
+    head = ["setting", "time", trade.what, "error", "lower", "upper", "resid.", ""]
+    rows = [
+        [
+            ("* " if row.front else "  ") + row.rung.name,
+            "-" if math.isnan(row.seconds) else f"{row.seconds:.3f}",
+            number(row.answer),
+            _error(trade, row),
+            number(row.lower),
+            number(row.upper),
+            small(row.residual),
+            _mark(row),
+        ]
+        for row in trade.rows
+        if row.status
+    ]
+    return table(head, rows) if rows else []
 
 
-def _case_json(trade: CaseTrade, advised: Advice) -> dict[str, Any]:
-    reference = trade.reference
-    return {
-        "name": trade.name,
-        "kind": trade.kind,
-        "unit": trade.unit,
-        "reference": None if reference is None else reference.name,
-        "reference_verified": trade.verified,
-        "resolution": number(trade.resolution),
-        "verified": [row.name for row in trade.rows if row.verified],
-        "front": [row.name for row in trade.rows if row.front],
-        "advice": _advice_json(advised),
-    }
+def _error(trade: CaseTrade, row: Row) -> str:
+    """The distance; ``<1e-9`` where it is less than can be told."""
+    if trade.reference is not None and row.rung == trade.reference.rung:
+        return "ref."
+    if math.isnan(row.distance):
+        return "-"
+    return f"<{small(trade.resolution)}" if row.distance < trade.resolution else small(row.distance)
 
 
-def _advice_json(one: Advice) -> dict[str, Any]:
-    setting = _setting_json(one.rung)
-    return {
-        "setting": setting.pop("name"),
-        **setting,
-        "seconds": number(one.seconds),
-        "error": number(one.error),
-        "sentence": one.sentence,
-    }
+def _mark(row: Row) -> str:
+    """What the last column says of a setting: its status where it is not solved, its model where it is another."""
+    words = [] if row.status == Status.SOLVED else [status_name(Status(row.status))]
+    words += ["stands only by self-stress"] if row.verdict == Status.SOLVED else []
+    words += ["not verified"] if not row.verified and row.status in (Status.SOLVED, *VERDICTS) else []
+    words += ["other model"] if row.rung.model else []
+    return ", ".join(words)
+
+
+def _record(
+    trades: Sequence[CaseTrade], advices: Sequence[Advice], rungs: Sequence[Rung], wanted: float
+) -> dict[str, Any]:
+    """Settings, references, fronts and advice; figures of each setting are in the table."""
+    cases = [
+        {
+            "name": trade.name,
+            "answer": trade.what,
+            "reference": None if trade.reference is None else trade.reference.rung.name,
+            "reference_verified": trade.verified,
+            "resolution": trade.resolution,
+            "front": [row.rung.name for row in trade.rows if row.front],
+            "advice": one,
+        }
+        for trade, one in zip(trades, advices, strict=False)
+    ]
+    return dict(as_json({"wanted_error": wanted, "settings": rungs, "cases": cases, "advice": advices[-1]}))

@@ -7,12 +7,13 @@ import threading
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from distributed import Client
 
 from mbla.errors import FileError, UsageError
-from mbla.sweeps.engine.engine import EngineOptions, engine_for
+from mbla.sweeps.engine.engine import EngineOptions, outcomes_of
 from mbla.sweeps.engine.supervised import PACKAGES
 from mbla.sweeps.plan import DONE, Outcome, Task
 from tests.sweeps.engine.certificates import write_certificates
@@ -40,35 +41,27 @@ def check_answers(outcomes: Iterable[Outcome], tasks: Iterable[Task]) -> None:
 def test_two_workers_of_this_machine(tmp_path: Path) -> None:
     """Each point once; their processes are gone when the last is done, before the workers are."""
     before, tasks = set(children()), frictions(6)
-    with engine_for(EngineOptions(workers=2)) as engine:
-        check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
-        wait_for(lambda: not set(children()) - before)
+    check_answers(outcomes_of(EngineOptions(workers=2), plan_over(tmp_path), tasks), tasks)
+    assert not set(children()) - before
 
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_nothing_is_left_of_a_run_that_is_given_up(tmp_path: Path, workers: int) -> None:
-    """In the middle of large points; another plan in the same workers goes on from there."""
-    before, tasks = set(children()), frictions(6)
+    """In the middle of large points."""
+    before = set(children())
     large = [Task(f"large{n}", n, {"parameters.n": 40}) for n in range(9)]
-    with engine_for(EngineOptions(workers=workers)) as engine:
-        begun = engine.run(plan_over(tmp_path, ROW), (Task("small", 1, {}), *large))
-        next(begun)
-        assert 0 < len(set(children()) - before) <= workers
-        begun.close()
-        wait_for(lambda: not set(children()) - before)
-        check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
-        given_up = engine.run(plan_over(tmp_path), tasks)
-        next(given_up)
-    wait_for(lambda: not set(children()) - before)
+    begun = outcomes_of(EngineOptions(workers=workers), plan_over(tmp_path, ROW), (Task("small", 1, {}), *large))
+    next(begun)
+    assert 0 < len(set(children()) - before) <= workers
+    begun.close()
+    assert not set(children()) - before
 
 
 def test_over_tcp(tmp_path: Path) -> None:
     tasks = frictions(40)
     with real_cluster(tmp_path) as cluster:
-        with engine_for(EngineOptions(scheduler=cluster.address)) as engine:
-            check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
-        with engine_for(EngineOptions(scheduler_file=cluster.file)) as engine:
-            check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
+        check_answers(outcomes_of(EngineOptions(scheduler=cluster.address), plan_over(tmp_path), tasks), tasks)
+        check_answers(outcomes_of(EngineOptions(scheduler_file=cluster.file), plan_over(tmp_path), tasks), tasks)
 
 
 def test_over_tls(tmp_path: Path) -> None:
@@ -77,23 +70,20 @@ def test_over_tls(tmp_path: Path) -> None:
     with real_cluster(tmp_path, options=options) as cluster:
         assert cluster.address.startswith("tls://")
         plain = EngineOptions(scheduler=cluster.address, patience=3.0)
-        with engine_for(
-            replace(plain, tls_ca_file=files["ca"], tls_cert=files["cert"], tls_key=files["key"])
-        ) as engine:
-            check_answers(engine.run(plan_over(tmp_path), tasks), tasks)
+        fit = replace(plain, tls_ca_file=files["ca"], tls_cert=files["cert"], tls_key=files["key"])
+        check_answers(outcomes_of(fit, plan_over(tmp_path), tasks), tasks)
         other = write_certificates(tmp_path / "other", "another authority")
         strange = replace(plain, tls_ca_file=other["ca"], tls_cert=other["cert"], tls_key=other["key"])
         for wrong in (strange, plain):
-            engine = engine_for(wrong)
-            with pytest.raises(UsageError, match=r"no connection to the scheduler tls://.*--tls-ca-file"), engine:
-                pass
+            with pytest.raises(UsageError, match=r"no connection to the scheduler tls://.*--tls-ca-file"):
+                next(outcomes_of(wrong, plan_over(tmp_path), tasks))
 
 
 def test_workers_killed_in_the_middle(tmp_path: Path) -> None:
     """One of two workers is killed with its process of points, then another that came in its place."""
-    with real_cluster(tmp_path) as cluster, engine_for(EngineOptions(scheduler=cluster.address)) as engine:
+    with real_cluster(tmp_path) as cluster:
         found = []
-        for outcome in engine.run(plan_over(tmp_path, ROW), WALLS):
+        for outcome in outcomes_of(EngineOptions(scheduler=cluster.address), plan_over(tmp_path, ROW), WALLS):
             found.append(outcome)
             if len(found) in (3, 12):
                 kill(cluster.workers[-1])
@@ -102,8 +92,8 @@ def test_workers_killed_in_the_middle(tmp_path: Path) -> None:
 
 
 def test_scheduler_killed_in_the_middle(tmp_path: Path) -> None:
-    with real_cluster(tmp_path) as cluster, engine_for(EngineOptions(scheduler=cluster.address)) as engine:
-        begun = engine.run(plan_over(tmp_path, ROW), WALLS)
+    with real_cluster(tmp_path) as cluster:
+        begun = outcomes_of(EngineOptions(scheduler=cluster.address), plan_over(tmp_path, ROW), WALLS)
         found = [next(begun)]
         assert cluster.scheduler is not None
         kill(cluster.scheduler)
@@ -115,23 +105,22 @@ def test_scheduler_killed_in_the_middle(tmp_path: Path) -> None:
 
 def test_all_workers_gone(tmp_path: Path) -> None:
     with real_cluster(tmp_path, 1) as cluster:
-        with engine_for(EngineOptions(scheduler=cluster.address, patience=2.0)) as engine:
-            begun = engine.run(plan_over(tmp_path, ROW), WALLS)
-            assert next(begun).state == DONE
-            kill(cluster.workers[0])
-            with pytest.raises(UsageError, match=r"has had no worker for 2 s: start some with `dask worker`"):
-                list(begun)
-        engine = engine_for(EngineOptions(scheduler=cluster.address, patience=2.0))
-        with pytest.raises(UsageError, match="has had no worker for 2 s"), engine:
-            pass
+        options = EngineOptions(scheduler=cluster.address, patience=2.0)
+        begun = outcomes_of(options, plan_over(tmp_path, ROW), WALLS)
+        assert next(begun).state == DONE
+        kill(cluster.workers[0])
+        with pytest.raises(UsageError, match=r"has had no worker for 2 s: start some with `dask worker`"):
+            list(begun)
+        with pytest.raises(UsageError, match="has had no worker for 2 s"):
+            next(outcomes_of(options, plan_over(tmp_path, ROW), WALLS))
 
 
 def test_a_point_of_which_workers_die(tmp_path: Path) -> None:
     """The worker is killed whenever it has begun the one slow point; that point alone is given up."""
     slow = Task("slow", 9, {"parameters.n": 30})
     quick = tuple(Task(f"key{i}", i, {"parameters.n": 1, "parameters.mu": i / 50}) for i in range(1, 9))
-    with real_cluster(tmp_path, 1) as cluster, engine_for(EngineOptions(scheduler=cluster.address)) as engine:
-        done = engine.run(plan_over(tmp_path, ROW), (*quick, slow))
+    with real_cluster(tmp_path, 1) as cluster:
+        done = outcomes_of(EngineOptions(scheduler=cluster.address), plan_over(tmp_path, ROW), (*quick, slow))
         check_answers([next(done) for _ in quick], quick)
         over = threading.Event()
 
@@ -149,7 +138,7 @@ def test_a_point_of_which_workers_die(tmp_path: Path) -> None:
             over.set()
             thread.join()
     assert (outcome.key, outcome.state, outcome.exit_code) == ("slow", "failed", 1)
-    assert outcome.reason == "its worker was ended, as was that of each try before; given up after 2 tries"
+    assert outcome.reason == "its worker was ended, as was that of each try before; given up"
 
 
 def points_in(worker: int) -> bool:
@@ -170,20 +159,17 @@ def test_a_worker_with_another_mbla_or_other_libraries(tmp_path: Path) -> None:
         cluster.start_worker(PYTHONPATH=str(other))
         with Client(cluster.address, set_as_default=False) as client:  # type: ignore[no-untyped-call]
             client.wait_for_workers(2, timeout=30)
-        engine = engine_for(EngineOptions(scheduler=cluster.address))
         expected = r"^worker tcp://\S+ on \S+: its mbla is \S+, here it is \S+, its clarabel is 0\.0\.1, here it is"
-        with pytest.raises(UsageError, match=expected), engine:
-            pass
+        with pytest.raises(UsageError, match=expected):
+            next(outcomes_of(EngineOptions(scheduler=cluster.address), plan_over(tmp_path), frictions(1)))
 
 
 def test_no_scheduler_there(tmp_path: Path) -> None:
-    engine = engine_for(EngineOptions(scheduler="tcp://127.0.0.1:9", patience=0.5))
-    with pytest.raises(UsageError, match=r"no connection to the scheduler tcp://127\.0\.0\.1:9"), engine:
-        pass
-    missing = tmp_path / "none.json"
-    engine = engine_for(EngineOptions(scheduler_file=missing, patience=0.1))
-    with (
-        pytest.raises(UsageError, match=r"none\.json: there is no such file; `dask scheduler --scheduler-file`"),
-        engine,
-    ):
-        pass
+    def refused(words: str, **options: Any) -> None:
+        with pytest.raises(UsageError, match=words):
+            next(outcomes_of(EngineOptions(**options), plan_over(tmp_path), frictions(1)))
+
+    gone = "tcp://127.0.0.1:9"
+    refused(f"no connection to the scheduler {gone}", scheduler=gone, patience=0.5)
+    words = r"none\.json: there is no such file; `dask scheduler --scheduler-file`"
+    refused(words, scheduler_file=tmp_path / "none.json", patience=0.1)

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError, UsageError
-from mbla.sweeps.engine import connection
+from mbla.sweeps.engine import cluster
 from mbla.sweeps.engine.on_worker import describe
 from tests.sweeps.engine.certificates import write_certificates
-from tests.sweeps.engine.scripted import ADDRESS, Script, scripted_engine
+from tests.sweeps.engine.scripted import ADDRESS, Script, scripted
 
 NO_WORKER = (
     f"the scheduler {ADDRESS} has had no worker for 0.2 s: start some with `dask worker`; "
@@ -21,15 +21,14 @@ NO_WORKER = (
 
 def refusal(monkeypatch: pytest.MonkeyPatch, script: Script, **options: Any) -> str:
     """Words with which a connection is refused."""
-    engine = scripted_engine(monkeypatch, script, **options)
-    with pytest.raises((UsageError, FileError)) as caught, engine:
+    with pytest.raises((UsageError, FileError)) as caught, scripted(monkeypatch, script, **options):
         pass
     return str(caught.value)
 
 
 def test_workers_that_are_as_here(monkeypatch: pytest.MonkeyPatch) -> None:
     script = Script(threads=(0, 0, 3))
-    with scripted_engine(monkeypatch, script):
+    with scripted(monkeypatch, script):
         assert script.asked == ["describe"]
     assert script.asked == ["describe", "close"]
 
@@ -43,7 +42,7 @@ def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_certificates_are_handed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     files, script = write_certificates(tmp_path), Script()
     options = {"tls_ca_file": files["ca"], "tls_cert": files["cert"], "tls_key": files["key"]}
-    with scripted_engine(monkeypatch, script, scheduler="tls://host:8786", **options):
+    with scripted(monkeypatch, script, scheduler="tls://host:8786", **options):
         security = script.options["security"]
     assert script.options["address"] == "tls://host:8786"
     assert security.require_encryption
@@ -71,14 +70,14 @@ def test_workers_that_differ(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_worker_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    within = connection.within
+    within = cluster.within
 
     def late(seconds: float, ask: Any) -> Any:
         if ask.__qualname__.startswith("Connection._check_workers"):
             raise TimeoutError
         return within(seconds, ask)
 
-    monkeypatch.setattr(connection, "within", late)
+    monkeypatch.setattr(cluster, "within", late)
     assert refusal(monkeypatch, Script()) == (
         f"a worker of the scheduler {ADDRESS} does not answer within 30 s: restart it"
     )

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
-from mbla.deck import read_deck
-from mbla.deck.units import Units
+import numpy as np
+
+from mbla.deck import Deck, read_deck
 from mbla.model import build_model
-from mbla.sweeps.design.design import SweepColumn
+from mbla.process.run_options import RunOptions
+from mbla.sweeps.command import Prepared
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
-from mbla.sweeps.engine.engine import Engine
-from mbla.sweeps.interaction.domain import Point, domain_of
-from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question
-from mbla.sweeps.interaction.study import Interaction, question_of, study_points
-from mbla.sweeps.plan import DONE, Outcome, Plan, Task
-from mbla.sweeps.studies import About, study_table
+from mbla.sweeps.interaction.domain import Domain, Points, domain_of, points_of
+from mbla.sweeps.interaction.question import DIRECTION, Question, question_of
+from mbla.sweeps.interaction.study import conclusion_of, prepared_diagram
+from mbla.sweeps.plan import Outcome
+from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
+from mbla.sweeps.tables.write_tables import Conclusion
 from tests.line import HEAD
 
 BLOCK = (
@@ -46,30 +49,35 @@ analysis: {flow_rule: associative}
 """A block on the ground under loads of many kinds."""
 
 
-class Asked:
-    """What the command line asks."""
+@dataclass(frozen=True)
+class Diagram:
+    """A diagram and what follows from it."""
 
-    def __init__(self, **given: Any) -> None:
-        self.case = given.get("case")
-        self.loads = given.get("loads")
-        self.directions = given.get("directions")
-        self.start = given.get("start")
-        self.end = given.get("end")
+    deck: Deck
+    question: Question
+    table: SweepTable
 
+    @property
+    def points(self) -> Points:
+        """Its points."""
+        return points_of(self.table, self.question)
 
-class ThisProcess(Engine):
-    """An engine that solves the points where it is."""
+    @property
+    def domain(self) -> Domain:
+        """Its safe domain."""
+        found = domain_of(self.points, self.question)
+        assert found is not None
+        return found
 
-    def _solved(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-        """Outcomes, the last task first: the order must not matter."""
-        runner = PointRunner(plan)
-        for task in reversed(tasks):
-            yield runner.run(task)
+    @property
+    def conclusion(self) -> Conclusion:
+        """What is told of it."""
+        return conclusion_of(self.deck, self.question, self.table)
 
-
-def question(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Question:
-    """What is asked of the block."""
-    return question_of(read_deck(written(folder), overrides), Asked(**asked))
+    @property
+    def words(self) -> str:
+        """All that the terminal shows."""
+        return " ".join(" ".join(self.conclusion.lines).split())
 
 
 def written(folder: Path) -> Path:
@@ -79,11 +87,28 @@ def written(folder: Path) -> Path:
     return path
 
 
-def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Interaction:
-    """The diagram of the block."""
+def question(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Question:
+    """What is asked of the block."""
+    return question_of(read_deck(written(folder), overrides), options(**asked))
+
+
+def options(**asked: Any) -> Any:
+    """As of the command line."""
+    return SimpleNamespace(**dict.fromkeys(("case", "loads", "directions", "start", "end")) | asked)
+
+
+def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Diagram:
+    """The diagram of the block, its points solved in this process, the last first: the order must not matter."""
     deck = read_deck(written(folder), overrides)
-    wanted = question_of(deck, Asked(**asked))
-    return study_points(deck, overrides, wanted, ThisProcess(), None)
+    wanted = question_of(deck, options(**asked))
+    prepared = prepared_diagram(deck, RunOptions(overrides=tuple(overrides)), wanted, folder)
+    runner = PointRunner(prepared.plan)
+    outcomes = {task.key: runner.run(task) for task in reversed(prepared.tasks)}
+    return Diagram(deck, wanted, _table(prepared, outcomes))
+
+
+def _table(prepared: Prepared, outcomes: Mapping[str, Outcome]) -> SweepTable:
+    return sweep_table(prepared.title, prepared.design, prepared.columns, outcomes, prepared.keys)
 
 
 def live_load(folder: Path, settings: Sequence[str], case: str) -> Any:
@@ -93,53 +118,39 @@ def live_load(folder: Path, settings: Sequence[str], case: str) -> Any:
     return found.live_load[0], found.dead_load[0]
 
 
-def point(angle: float, factor: float = 0.5, **changes: Any) -> Point:
-    """A verified point of associative flow whose mechanism bounds the domain across its ray."""
-    cosine, sine = horizontal(angle, 1.0)
-    plain = Point(
-        angle,
-        True,
-        0,
-        "solved",
-        factor,
-        factor,
-        factor,
-        factor,
-        "yes",
-        "sliding",
-        {"A": cosine, "B": sine},
-        seconds=0.1,
-    )
-    return replace(plain, **changes)
+BOUNDS = ("static_bound", "kinematic_bound")
+FIGURES = ("load_factor", "associative_load_factor", *BOUNDS)
 
 
-def study(points: Sequence[Point], kind: str = DIRECTION, flow_rule: str = "associative") -> Interaction:
-    """The diagram of these points."""
-    pair = ("A", "B")
-    closed = kind == DIRECTION
-    asked = Question(
-        kind=kind,
-        case="push" if closed else "interact",
-        axes=("along x", "along y") if closed else ("factor of A", "factor of B"),
-        short=("x", "y") if closed else pair,
-        pair=pair,
-        angles=tuple(one.angle for one in points),
-        settings=tuple({} for _ in points),
-        fixed=(),
-        closed=closed,
-        absolute=True,
-        words=("what is asked",),
-    )
-    assert kind in (DIRECTION, TWO_LOADS)
-    domain = domain_of(points, pair, closed=closed)
-    of = About("block.yaml", "Block", (), Units("m", "N", "kg"), flow_rule, {"mbla": "0"})
-    angle = SweepColumn("azimuth", "degree", "", "float", "azimuth", "azimuth")
-    plan = Plan("", "", (), ("push",), ("load_factor",), "none", "", None, None, "")
-    outcomes = {n: Outcome(str(n), DONE, 0, "", {}, 1, 0.1) for n in range(1, len(points) + 1)}
-    table = study_table(of, angle, asked.angles, plan, outcomes)
-    return Interaction(of, table, 0, 1.0, asked, tuple(points), domain)
+def made(
+    folder: Path, kind: str, factors: Sequence[float], changes: Mapping[int, Mapping[str, Any]] | None = None
+) -> Diagram:
+    """Verified points whose mechanisms bound the domain across their rays.
+
+    factors : of points evenly around, or evenly over a quarter
+    changes : by the number of a point, results of it that are others, or ``state``, ``exit_code`` and ``reason``
+    """
+    deck = read_deck(written(folder))
+    asked = {"case": "push"} if kind == DIRECTION else {"loads": ("push", "top")}
+    wanted = question_of(deck, options(directions=len(factors), **asked))
+    prepared = prepared_diagram(deck, RunOptions(), wanted, folder)
+    outcomes = {}
+    results: dict[str, Any]
+    for number, (factor, angle, key) in enumerate(zip(factors, wanted.angles, prepared.keys, strict=True)):
+        powers = dict(zip((f"powers.{name}" for name in wanted.pair), horizontal(angle, 1.0), strict=True))
+        results = {**dict.fromkeys(FIGURES, factor), **powers, "status": "solved", "verified": True}
+        results |= {"standing.verdict": "yes", "mechanism.class": "sliding"} | dict((changes or {}).get(number, {}))
+        state, code, reason = results.pop("state", "done"), results.pop("exit_code", 0), results.pop("reason", "")
+        outcomes[key] = Outcome(key, str(state), int(code), str(reason), results, 1, 0.1)
+    return Diagram(deck, wanted, _table(prepared, outcomes))
 
 
-def around(count: int, **changes: Any) -> list[Point]:
-    """Points all around at one radius."""
-    return [point(360.0 * number / count, **changes) for number in range(count)]
+def both_bounds(value: float) -> dict[str, float]:
+    """Bounds that are another value."""
+    return dict.fromkeys(BOUNDS, value)
+
+
+def area_of_circle(count: int, radius: float) -> tuple[float, float]:
+    """Area of the polygons with so many corners in a circle and around it."""
+    turn = np.pi / count
+    return count * radius**2 * np.sin(turn) * np.cos(turn), count * radius**2 * np.tan(turn)

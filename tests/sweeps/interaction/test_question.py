@@ -13,9 +13,9 @@ from mbla.deck import read_deck
 from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.sweeps.design.directions import horizontal
-from mbla.sweeps.interaction.question import angles_between, closes, direction_question, stretched, two_loads_question
+from mbla.sweeps.interaction.question import angles_between, closes, question_of, stretched
 from mbla.sweeps.plan import override_texts
-from tests.sweeps.interaction.hand_made import live_load, question, written
+from tests.sweeps.interaction.hand_made import live_load, options, question, written
 
 
 def test_ranges() -> None:
@@ -49,7 +49,6 @@ WEIGHT = 2000 * 9.81 * 2
 def test_azimuths_are_absolute_whatever_the_direction_of_the_deck(tmp_path: Path, case: str) -> None:
     """``named`` pushes along +y in the deck: -0.5 times a named load of 2 along -y."""
     asked = question(tmp_path, case=case, directions=12)
-    assert asked.absolute
     for azimuth, settings in zip(asked.angles, asked.settings, strict=True):
         load, _ = live_load(tmp_path, override_texts(settings), case)
         vertical = -0.5 * WEIGHT if case == "slanted" else 0.0
@@ -58,8 +57,7 @@ def test_azimuths_are_absolute_whatever_the_direction_of_the_deck(tmp_path: Path
 
 def test_loads_that_point_apart_are_turned_together_from_where_they_are(tmp_path: Path) -> None:
     asked = question(tmp_path, case="apart", directions=4)
-    assert not asked.absolute
-    assert "the angle by which they are turned together" in asked.words[0]
+    assert "azimuth 0 is as the deck directs its loads" in asked.words
     load, _ = live_load(tmp_path, override_texts(asked.settings[0]), "apart")
     assert load[:2] == pytest.approx([WEIGHT, WEIGHT])
     load, _ = live_load(tmp_path, override_texts(asked.settings[1]), "apart")
@@ -104,10 +102,9 @@ def test_refusals(tmp_path: Path, asked: dict[str, Any], words: str) -> None:
 
 
 def test_half_of_a_structure_is_refused(tmp_path: Path) -> None:
-    level = direction_question(read_deck(written(tmp_path), ["symmetry=[{z: 2}]"]), "push", 4)
-    assert level.angles == (0.0, 90.0, 180.0, 270.0)  # halves one above the other are pushed the same way
-    with pytest.raises(UsageError, match=r"symmetry\.0: the deck gives half of the structure"):
-        direction_question(read_deck(written(tmp_path), ["symmetry=[{y: 2}]"]), "push", 4)
+    alone = "load_cases={push: {live: [{acceleration: [1, 0, 0]}]}}"
+    with pytest.raises(UsageError, match="symmetry: the deck gives half of the structure"):
+        question(tmp_path, [alone, "symmetry=[{y: 2}]"], case="push", directions=4)
 
 
 def test_both_act_with_cosine_and_sine(tmp_path: Path) -> None:
@@ -133,12 +130,11 @@ def test_a_table_named_by_an_included_file_is_found(tmp_path: Path) -> None:
     (tmp_path / "below" / "forces.csv").write_text("group,index,fx,fy,fz\nblock,0,0,7,0\n", encoding="utf-8")
     case = "load_cases: {rows: {live: [{table: forces.csv}]}}\n"
     (tmp_path / "below" / "rows.yaml").write_text(case, encoding="utf-8")
-    question(tmp_path, loads=("push", "top"))
-    text = (tmp_path / "block.yaml").read_text(encoding="utf-8")
+    text = written(tmp_path).read_text(encoding="utf-8")
     path = tmp_path / "main.yaml"
     path.write_text(text + "include: [below/rows.yaml]\n", encoding="utf-8")
     deck = read_deck(path)
-    asked = two_loads_question(deck, build_model(deck), ("rows", "push"), 0.0, 90.0, 3)
+    asked = question_of(deck, options(loads=("rows", "push"), directions=3))
     model = build_model(read_deck(path, override_texts(asked.settings[0])))
     (found,) = [one for one in model.load_cases if one.name == asked.case]
     assert found.live_load[0] == pytest.approx([0, 7, 0, 0, 0, 0])

@@ -9,10 +9,10 @@ import pytest
 from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
-from mbla.sweeps.fragility import Fragility
+from mbla.sweeps.fragility import fragility_json, fragility_of
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.tables.write_tables import TableFiles, write_tables
+from mbla.sweeps.tables.write_tables import Conclusion, TableFiles, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample
 from tests.sweeps.tables.synthetic import RUN, table
 
@@ -68,10 +68,8 @@ def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (column,) = [each for each in table().columns if each.name == "load_factor"]
-    none = np.zeros(1)
-    fragility = [Fragility(column, {}, {}, 1, 0, np.array([0.2]), none.astype(int), 0, none, none, 0.95, "random")]
-    write_tables(tmp_path / "wall.out", False, RUN, table(), TableFiles(), fragility)
+    found = fragility_json(fragility_of(table(), "load_factor", (0.2,), 0.95))
+    write_tables(tmp_path / "wall.out", RUN, table(), TableFiles(), Conclusion(record={"fragility": found}))
     return tmp_path / "wall.out"
 
 

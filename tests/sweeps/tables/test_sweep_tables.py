@@ -17,11 +17,11 @@ import xarray
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Values
-from mbla.sweeps.fragility import fragility_json, fragility_of
+from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_of
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, SweepRun, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
-from mbla.sweeps.tables.write_tables import TableFiles, refuse_tables, table_names, write_tables
+from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
 from tests.sweeps.tables.synthetic import (
     FRICTION,
     LEFT_OUT,
@@ -33,13 +33,13 @@ from tests.sweeps.tables.synthetic import (
     table,
 )
 
-ALL = TableFiles(parquet=True, hdf5=True, others=("journal.csv",))
+ALL = TableFiles(parquet=True, hdf5=True)
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("sweep") / "wall.out"
-    write_tables(folder, False, RUN, table(), ALL)
+    write_tables(folder, RUN, table(), ALL, Conclusion())
     return folder
 
 
@@ -143,42 +143,30 @@ def test_xarray_opens_the_file_along_the_axes_of_the_design(folder: Path) -> Non
 
 def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, tmp_path: Path) -> None:
     record = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
-    assert record["files"] == ["journal.csv", "sweep.csv", "sweep.h5", "sweep.json", "sweep.parquet"]
-    assert sorted(path.name for path in folder.iterdir()) == sorted(table_names(ALL))
+    names = ["sweep.csv", "sweep.h5", "sweep.json", "sweep.parquet"]
+    assert record["files"] == sorted(ALL.names) == sorted(path.name for path in folder.iterdir()) == names
     (tmp_path / "sweep.h5").write_bytes(b"mine")
     with pytest.raises(FileError, match=r"sweep\.h5: exists already"):
-        write_tables(tmp_path, False, RUN, table(), ALL)
-    assert [path.name for path in tmp_path.iterdir()] == ["sweep.h5"]
-    write_tables(tmp_path, True, RUN, table(), ALL)
+        refuse_tables(tmp_path, ALL, replace=False)
+    write_tables(tmp_path, RUN, table(), ALL, Conclusion())
     assert same_tables(read_sweep_table(tmp_path), table())
 
 
 def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
-    record = write_tables(tmp_path, False, RUN, table(), TableFiles(), found)
+    conclusion = Conclusion(record={"fragility": fragility_json(found)}, texts={FRAGILITY: fragility_csv(found)})
+    record, _ = write_tables(tmp_path, RUN, table(), TableFiles(), conclusion)
     assert [each["at"] for each in record["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
     assert "sweep_fragility.csv" in record["files"]
     frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
     assert frame["below"].tolist() == [2, 0]  # that which does not stand, and the tiny one
     assert frame["unknown"].tolist() == [0, 1]
-    left = _only(tmp_path, "sweep_fragility.csv")
-    refuse_tables(left, TableFiles(), replace=False)
-    with pytest.raises(FileError, match=r"sweep_fragility\.csv: exists already"):
-        refuse_tables(left, TableFiles(), replace=False, fragility=True)
 
 
 def test_parquet_without_its_extra_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(UsageError, match=r"pip install 'mbla\[tables\]'"):
         refuse_tables(tmp_path, TableFiles(parquet=True), replace=False)
-
-
-def _only(folder: Path, name: str) -> Path:
-    """The folder with that file alone."""
-    for path in folder.iterdir():
-        if path.name != name:
-            path.unlink()
-    return folder
 
 
 # --- files that are none ------------------------------------------------------------------------------------------
@@ -232,7 +220,7 @@ def _without_state(folder: Path) -> None:
 def test_a_file_that_is_no_table_is_refused_in_one_line(
     tmp_path: Path, change: Callable[[Path], None], words: str
 ) -> None:
-    write_tables(tmp_path, False, RUN, table(), TableFiles())
+    write_tables(tmp_path, RUN, table(), TableFiles(), Conclusion())
     read_sweep_table(tmp_path)
     change(tmp_path)
     with pytest.raises(FileError, match=words) as caught:
@@ -268,7 +256,7 @@ def test_keys_and_types_of_the_record() -> None:
     full = table()
     found = fragility_json(fragility_of(full, "load_factor", (0.2, 0.4), 0.95))
     run = SweepRun(**{**vars(RUN), "notices": (Notice("warning", "some", "words"),)})
-    record = json.loads(json_line(sweep_json(run, full, found, ("sweep.csv",))))
+    record = json.loads(json_line(sweep_json(run, full, {"fragility": found}, ("sweep.csv",))))
     described = {key.path: key for key in SWEEP_RECORD}
     seen = set()
     for path, value in paths(record):

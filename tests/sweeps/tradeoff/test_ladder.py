@@ -10,7 +10,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import UsageError
 from mbla.sweeps.plan import Plain
-from mbla.sweeps.tradeoff.ladder import Rung, fitted, given_knobs, named_ladder, named_rungs, usual_ladder
+from mbla.sweeps.tradeoff.ladder import Rung, given_knobs, ladder_of, named_rungs
 from tests.line import BLOCK
 
 
@@ -36,9 +36,9 @@ def test_the_reference_has_the_true_friction_cone(
     path: Path, overrides: tuple[str, ...], added: dict[str, Plain]
 ) -> None:
     """And a solver that takes it."""
-    reference, draft = named_ladder(read_deck(path, overrides), overrides, [Rung("accuracy: draft")])
+    reference, draft = ladder_of(read_deck(path, overrides), overrides, [Rung("accuracy: draft")])
     assert reference.name == "accuracy: reference"
-    assert reference.set == {"analysis.accuracy": "reference", **added}
+    assert reference.settings == {"analysis.accuracy": "reference", **added}
     assert draft == Rung("accuracy: draft")
 
 
@@ -47,8 +47,8 @@ def test_presets_are_free_of_the_knobs_that_the_deck_sets_by_itself(path: Path) 
     fixed = ("analysis.gap=1e-2",)
     deck = read_deck(path, fixed)
     assert given_knobs(deck, fixed) == ("tolerance",)  # the user wants the other one so
-    standard = usual_ladder(deck, fixed)[0]
-    assert standard.settings(deck, fixed) == {"analysis": {"gap": 1e-2, "accuracy": "standard"}}
+    standard = ladder_of(deck, fixed, [])[0]
+    assert standard.settings == {"analysis": {"gap": 1e-2, "accuracy": "standard"}}
 
 
 def test_what_does_not_apply_is_the_same_or_is_another_model(path: Path) -> None:
@@ -58,7 +58,7 @@ def test_what_does_not_apply_is_the_same_or_is_another_model(path: Path) -> None
         Rung("again", {"analysis.accuracy": "standard"}),
         Rung("points", {"contacts.points.per_edge": 3}),
     ]
-    found = fitted(read_deck(path), (), rungs)
+    found = ladder_of(read_deck(path), (), rungs)[1:]
     assert [rung.unfit for rung in found] == ["", "must be auto, mbla, clarabel or highs", "the same as own", ""]
     assert [rung.model for rung in found] == ["", "", "", "contacts"]
 
@@ -74,13 +74,13 @@ def test_every_combination_of_knobs_then_settings() -> None:
         "tolerance: 1e-8, solver: clarabel",
         "fast",
     ]
-    assert rungs[1].set == {"analysis.tolerance": 1e-6, "analysis.solver": "clarabel"}
-    assert rungs[4].set == {"analysis.accuracy": "draft", "a.b": [1, 2]}
+    assert rungs[1].settings == {"analysis.tolerance": 1e-6, "analysis.solver": "clarabel"}
+    assert rungs[4].settings == {"analysis.accuracy": "draft", "a.b": [1, 2]}
 
 
 def test_commas_inside_of_brackets_part_nothing() -> None:
     rungs = named_rungs(["blocks.0.wall.unit=[1,2,3],[2,3,4]"], [])
-    assert [rung.set for rung in rungs] == [{"blocks.0.wall.unit": [1, 2, 3]}, {"blocks.0.wall.unit": [2, 3, 4]}]
+    assert [rung.settings for rung in rungs] == [{"blocks.0.wall.unit": [1, 2, 3]}, {"blocks.0.wall.unit": [2, 3, 4]}]
 
 
 @pytest.mark.parametrize("text", ["analysis.tolerance", "=1", "a.b=", "a.b=1,,2"])

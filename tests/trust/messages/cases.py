@@ -42,8 +42,8 @@ from mbla.solution.linear_algebra.cholesky import factorization
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 from mbla.solution.settings import SolverSettings
 from mbla.sweeps.engine import child
-from mbla.sweeps.engine.connection import Connection, refuse_missing
-from mbla.sweeps.engine.engine import EngineOptions
+from mbla.sweeps.engine.cluster import Connection
+from mbla.sweeps.engine.engine import EngineOptions, check_options
 from mbla.sweeps.engine.supervised import SupervisedRunner
 from mbla.sweeps.journal import Journal
 from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
@@ -200,7 +200,7 @@ def result_of_several_load_cases(folder: Path, patch: Patch) -> object:
 @brings("extra-missing")
 def cluster_without_dask(folder: Path, patch: Patch) -> None:
     patch.setattr(importlib.util, "find_spec", lambda name: None)
-    refuse_missing()
+    check_options(EngineOptions(scheduler="tcp://stone:8786"))
 
 
 @brings("no-mechanism")
