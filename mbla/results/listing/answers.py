@@ -8,19 +8,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from mbla.deck.suggestions import listed
 from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
 from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
-from mbla.results.outcome import angle_at, angle_bounds, associative_of, extent_of, reaction_of, result_of
+from mbla.results.outcome import (
+    angle_at,
+    angle_bounds,
+    associative_of,
+    extent_of,
+    least_and_greatest,
+    reaction_of,
+    result_of,
+)
 from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
-from mbla.solution.solution import Mechanics, Status
+from mbla.solution.solution import Status
 
 
 def reaction_json(case: CaseResult) -> dict[str, Any] | None:
@@ -41,23 +47,19 @@ def reaction_json(case: CaseResult) -> dict[str, Any] | None:
 
 def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     """The reaction, its bounds, and what it falls from, one to a line; nothing where no support gives way."""
-    settlement, checks = case.load_case.settlement, case.checks
+    settlement, value = case.load_case.settlement, reaction_of(case)
     if settlement is None:
         return []
-    value, unit = reaction_of(case), reaction_unit(model, settlement)
-    lines = []
+    unit, lines = reaction_unit(model, settlement), []
     if value is not None:
         value = _or_nothing(settlement, value)
-        words = f"{number(value)} {unit}   ({number(value / settlement.unit)} of {_of(settlement)})"
-        lines += entry("reaction of the support", words)
-        if value < 0.0:
-            pushed = "turned" if settlement.turns else "pushed"
-            lines += entry("", f"negative: the structure withstands; the support must be {pushed} the way it gives")
-    if np.isfinite(checks.kinematic_bound) and np.isfinite(checks.static_bound):
-        ends = (settlement.reaction(checks.kinematic_bound), settlement.reaction(checks.static_bound))
-        lines += entry("associative, its bounds", f"{' .. '.join(f'{end:.8g}' for end in ends)} {unit}")
+        pushed = "; negative: the support must be pushed the way it gives" if value < 0.0 else ""
+        lines += entry("reaction of the support", f"{number(value)} {unit}{pushed}")
+    low, high = bound_figures(case)
+    lines += entry("associative, its bounds", f"{low} .. {high} {unit}")
     lines += entry("one at rest", f"{number(settlement.reference)} {unit}   (many may be possible)")
-    return lines + entry("load factor counts", f"its loss, in {number(settlement.unit)} {unit}: {_of(settlement)}")
+    of = "the dead load of the free blocks" + " times its mean distance from the axis" * settlement.turns
+    return lines + entry("load factor counts", f"its loss, in {number(settlement.unit)} {unit}: {of}")
 
 
 NOTHING = 1e-9
@@ -67,11 +69,6 @@ NOTHING = 1e-9
 def _or_nothing(settlement: Settlement, reaction: float) -> float:
     """A reaction, zero where it is one but for rounding."""
     return 0.0 if abs(reaction) <= NOTHING * settlement.unit else reaction
-
-
-def _of(settlement: Settlement) -> str:
-    what = "the dead load of the free blocks"
-    return f"{what} times its mean distance from the axis" if settlement.turns else what
 
 
 def reaction_unit(model: Model, settlement: Settlement) -> str:
@@ -97,9 +94,9 @@ def answer_value(load_case: LoadCase, load_factor: float) -> float:
     return load_factor if load_case.tilt is None else angle_at(load_case.tilt, load_factor)
 
 
-def answer_figure(load_case: LoadCase, mechanics: Mechanics | None) -> str:
-    """The answer of forces and mechanism in six digits; ``-`` where there are none."""
-    return "-" if mechanics is None else number(answer_value(load_case, mechanics.load_factor))
+def answer_figure(load_case: LoadCase, load_factor: float) -> str:
+    """The answer in six digits; ``-`` where there is none."""
+    return number(answer_value(load_case, load_factor))
 
 
 def status_name(status: Status) -> str:
@@ -131,24 +128,22 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
     several = any(extent_of(model, case) is not None for case in cases)
     rows = []
     for case in cases:
-        own = answer_figure(case.load_case, result_of(case))
+        own, associative = (
+            answer_figure(case.load_case, np.nan if found is None else found.load_factor)
+            for found in (result_of(case), associative_of(case))
+        )
         figures = [own if head == answer_head(model, case.load_case) else "" for head in answers]
-        ends = extent_figures(model, case) if several else ()
-        rows.append([*figures, *ends, answer_figure(case.load_case, associative_of(case))])
+        rows.append([*figures, *(extent_figures(model, case) if several else ()), associative])
     return [*answers, *(LEAST_AND_GREATEST if several else ()), "associative"], rows
 
 
 LEAST_AND_GREATEST = ("least found", "greatest found")
 
 
-def extent_figures(model: Model, case: CaseResult) -> tuple[str, str]:
+def extent_figures(model: Model, case: CaseResult) -> list[str]:
     """The least and the greatest answer that were found, six digits; the answer twice where it is the only one."""
-    own, extent = result_of(case), extent_of(model, case)
-    if own is None or extent is None:
-        figure = answer_figure(case.load_case, own)
-        return figure, figure
-    figures = [answer_figure(case.load_case, replace(own, load_factor=end)) for end in in_order(case.load_case, extent)]
-    return figures[0], figures[1]
+    ends = in_order(case.load_case, least_and_greatest(model, case))
+    return [answer_figure(case.load_case, end) for end in ends]
 
 
 def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, float]:
@@ -165,7 +160,7 @@ def digits(value: float) -> str:
 
 
 MOST_NAMED = 5
-"""positions without a load factor that are named, and axles whose places are"""
+"""positions without a load factor that are named"""
 
 
 def series_lines(model: Model, series: Series) -> list[str]:
@@ -196,19 +191,12 @@ def worst_words(model: Model, series: Series) -> str:
 
 
 def standing_words(model: Model, position: TravelPosition) -> str:
-    """``at (1.2, 0.5, 3) m``; of a vehicle its first axle, the others by how far they are along the path."""
+    """``at (1.2, 0.5, 3) m``; of a vehicle its first axle, and which of the axles are on the path."""
     length, axles = model.units.length, len(position.points)
     if axles == 1:
         return f"at {vector(position.point)} {length}"
-    others = [f"{place:.4g}" for place in position.distances[1:MOST_NAMED].tolist()]
-    others += ["..."] if axles > MOST_NAMED else []
     words = f"first axle at {vector(position.point)} {length}, {position.distance:.4g} {length} along the path"
-    words += f", the others at {', '.join(others)} {length}"
-    acting = (np.flatnonzero(position.acting) + 1).tolist()
-    if len(acting) == axles:
-        return words
-    which = f"axle {acting[0]} is" if len(acting) == 1 else f"axles {listed([str(axle) for axle in acting], 'and')} are"
-    return f"{words}; of {axles} only {which} on the path"
+    return f"{words}; axles on the path: {_acting(position)} of {axles}"
 
 
 def spread_over_positions(series: Series) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from mbla.results.listing.answers import (
     settlement_lines,
     status_name,
 )
-from mbla.results.listing.text import MOST_ROWS, counted, entry, number, sentence, small, table
+from mbla.results.listing.text import MOST_ROWS, counted, entry, long_table, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
     RESIDUALS,
@@ -30,7 +30,7 @@ from mbla.results.outcome import (
     result_of,
 )
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Mechanics, ModelSize, PathPoint, ProgramRecord, Solution, Status
+from mbla.solution.solution import Mechanics, ModelSize, ProgramRecord, Solution, Status
 from mbla.solution.verification.verify_points import tolerances
 
 
@@ -81,21 +81,18 @@ def _angle(case: CaseResult) -> list[str]:
     """A tilting table: the angle, and those between which it is proved to lie."""
     if case.load_case.tilt is None:
         return []
-    lines = entry("angle", f"{digits(angle_of(case))} degrees")
     low, high = angle_bounds(case)
-    if np.isnan(low) and np.isnan(high):
-        return lines
+    lines = entry("angle", f"{digits(angle_of(case))} degrees")
     return lines + entry("angle, associative bounds", f"{digits(low)} .. {digits(high)} degrees")
 
 
 def _bracket(case: CaseResult) -> list[str]:
     """Polyhedral friction: the factor with the inscribed and the circumscribed polyhedron."""
-    solution = case.solution
-    if solution.outer is None:
+    inner, outer = case.solution.associative, case.solution.outer
+    if inner is None or outer is None:
         return []
-    inner = "-" if solution.associative is None else digits(solution.associative.load_factor)
-    outer = f"{digits(solution.outer.load_factor)}   ({solution.sides} sides; the cone lies between)"
-    return entry("inscribed polyhedron", inner) + entry("circumscribed polyhedron", outer)
+    words = f"{digits(outer.load_factor)}   ({case.solution.sides} sides; the cone lies between)"
+    return entry("inscribed polyhedron", digits(inner.load_factor)) + entry("circumscribed polyhedron", words)
 
 
 def _bounds(case: CaseResult) -> list[str]:
@@ -157,32 +154,21 @@ def size_words(size: ModelSize) -> str:
     return ", ".join(words)
 
 
-def verification_verdict(case: CaseResult) -> str:
-    """``passed`` is said of an answer; of a case that has none only that its status is confirmed."""
-    if not case.checks.verified:
-        return "NOT PASSED"
-    if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
-        return f"confirmed: {status_name(case.status)}"
-    return "passed" if case.solution.mechanics is not None else "nothing contradicts the status"
-
-
-def _verification_words(case: CaseResult) -> str:
-    """The same with what was recomputed."""
-    told = verification_verdict(case)
-    if case.checks.verified and case.status is Status.NO_EQUILIBRIUM:
-        return f"{told}, recomputed from the motion in which the dead load falls"
-    if case.checks.verified and case.solution.lock is not None and case.status is Status.UNBOUNDED:
-        return f"{told}, recomputed from forces that carry any multiple of the live load"
-    recomputed = case.checks.verified and case.solution.mechanics is not None
-    return f"{told}: everything recomputed from model, contacts and solution" * recomputed or told
-
-
 def _verification(case: CaseResult) -> list[str]:
-    lines = entry("verification", _verification_words(case))
-    if case.checks.verified:
-        return lines
-    told = (case.solution.reason,)
-    return lines + [line for text in case.checks.failures if text not in told for line in sentence(text, "    ")]
+    """``passed`` is said of an answer; of a case that has none only that its status is confirmed."""
+    told, recomputed = "NOT PASSED", ""
+    if case.checks.verified and case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        told = f"confirmed: {status_name(case.status)}"
+        if case.status is Status.NO_EQUILIBRIUM:
+            recomputed = ", recomputed from the motion in which the dead load falls"
+        elif case.solution.lock is not None:
+            recomputed = ", recomputed from forces that carry any multiple of the live load"
+    elif case.checks.verified and case.solution.mechanics is not None:
+        told, recomputed = "passed", ": everything recomputed from model, contacts and solution"
+    elif case.checks.verified:
+        told = "nothing contradicts the status"
+    failures = [] if case.checks.verified else [text for text in case.checks.failures if text != case.solution.reason]
+    return entry("verification", told + recomputed) + [line for text in failures for line in sentence(text, "    ")]
 
 
 METHODS = {
@@ -274,31 +260,19 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
     path = case.solution.path
     if not path:
         return []
-    peak = max(path, key=lambda point: point.load_factor)
-    last = path[-1]
+    top = max(range(len(path)), key=lambda row: path[row].load_factor)
+    peak, last = path[top], path[-1]
     highest, ended = (load_factor_words(model, case.load_case, point.load_factor) for point in (peak, last))
     says = f"Load path of {counted(len(path), 'step')}"
     if peak.load_factor - last.load_factor > BELOW_PEAK * abs(peak.load_factor):
         says += f": its peak, {highest} at step {peak.step}, is a limit point; it ended below, at {ended}."
     else:
         says += f": it rose to {ended}, the last at which the structure was seen to stand."
-    shown = _steps_that_matter(path)
+    evenly = np.linspace(0, len(path) - 1, min(MOST_ROWS - 1, len(path))).astype(int).tolist()
+    shown = [path[row] for row in sorted({*evenly, top})]
     rows = [
         [str(point.step), number(point.load_factor), str(point.open), str(point.slide), small(point.residual)]
         for point in shown
     ]
-    lines = ["", *sentence(says), *table(["step", "load factor", "points open", "sliding", "residual"], rows)]
-    more = len(path) - len(shown)
-    return lines + (sentence(f"and {counted(more, 'step')} more; the result files hold them all") if more else [])
-
-
-def _steps_that_matter(path: Sequence[PathPoint]) -> list[PathPoint]:
-    """First, peak and last step, and those at which modes change, evenly thinned where they are many."""
-    peak = max(range(len(path)), key=lambda i: path[i].load_factor)
-    changes = [i for i in range(1, len(path)) if (path[i].open, path[i].slide) != (path[i - 1].open, path[i - 1].slide)]
-    kept = {0, peak, len(path) - 1}
-    room = MOST_ROWS - len(kept)
-    others = [i for i in changes if i not in kept]
-    if len(others) > room:
-        others = [others[i * len(others) // room] for i in range(room)]
-    return [path[i] for i in sorted(kept | set(others))]
+    head = ["step", "load factor", "points open", "sliding", "residual"]
+    return ["", *sentence(says), *long_table(head, rows, len(path))[1:]]

@@ -13,7 +13,7 @@ from mbla.contacts.glue import solid_sizes
 from mbla.contacts.notices import glue_words
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions.steps import ReductionStep, StepState
 from mbla.results.listing.places import label_words
 from mbla.results.listing.text import (
     MOST_ROWS,
@@ -183,30 +183,14 @@ FOUND = {
 
 
 def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:
-    """A row for each reduction, in the order in which they are applied; nothing where none was looked for."""
-    if not steps:
-        return []
-    rows = [["none", "", *_sizes(steps[0].before)]]
-    rows += [[step.name, found_words(step), *_sizes(step.after)] for step in steps]
-    head = ["reduction", "found", "unknowns", "cones", "entries", "largest program"]
-    told = (
-        "Each row says what is left to solve with the live load after the reduction: velocities, friction cones (in a "
-        "plane pairs of half-lines), entries of the equilibrium matrices, velocities of the largest program. "
-        "Contact points inside of glued bodies are never set up, and not counted."
-    )
-    return [*table(head, rows, left=2), *sentence(told)]
-
-
-def found_words(step: ReductionStep) -> str:
-    """What a reduction found, or why nothing."""
-    if step.state is not StepState.APPLIED:
-        return str(step.state.value)
-    what, became = FOUND[step.name]
-    return f"{counted(step.found, what)} {became}"
-
-
-def _sizes(size: ProgramSize) -> list[str]:
-    return [str(size.unknowns), str(size.cones), str(size.entries), str(size.largest)]
+    """A line for each reduction that found something, in the order in which they are applied."""
+    lines = []
+    for step in steps:
+        if step.state is StepState.APPLIED:
+            what, became = FOUND[step.name]
+            left = f"{step.after.unknowns} of {step.before.unknowns} velocities left, {step.after.cones} cones"
+            lines += entry(f"reduction, {step.name}", f"{counted(step.found, what)} {became}; {left}")
+    return lines
 
 
 def notice_lines(notices: Sequence[Notice], title: str = "Remarks") -> list[str]:

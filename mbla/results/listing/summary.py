@@ -14,12 +14,7 @@ from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, told_cases
-from mbla.solution.solution import Status
 
-CAUSES = ("isolated-blocks", "unsupported-parts")
-"""Warnings that stand before the load cases: the verdicts on these follow from them."""
-CAUSES_OF_A_FALL = ("near-misses",)
-"""Those that do where a load case has no equilibrium: a contact that is missed may be all that it lacks."""
 HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
 
 
@@ -39,29 +34,16 @@ def warning_lines(results: Results) -> list[str]:
     return lines + sentence(HINT)
 
 
-def cause_lines(results: Results) -> list[str]:
-    """For the terminal: what has to be known before any figure, which follows from it."""
-    causes = _causes(results)
-    return [line for notice in results.notices if notice.identifier in causes for line in sentence(str(notice))]
-
-
-def _causes(results: Results) -> tuple[str, ...]:
-    falls = any(case.status is Status.NO_EQUILIBRIUM for case in results.cases)
-    return (*CAUSES, *CAUSES_OF_A_FALL) if falls else CAUSES
-
-
 def warning_summary(results: Results) -> list[str]:
-    """For the terminal: in full what is told neither above nor in the words of its case, then all identifiers."""
+    """For the terminal: in full what the words of its case do not tell, then all identifiers."""
     warnings = warnings_of(results)
-    if not warnings:
-        return []
     own = [notice for case in results.cases for notice in case_notices(case)]
-    before = _causes(results)
-    told = [notice for notice in warnings if notice.identifier not in before and (not notice.case or notice in own)]
+    told = [notice for notice in warnings if not notice.case or notice in own]
     lines = [line for notice in told for line in sentence(str(notice))]
     counts = Counter(warning.identifier for warning in warnings)
     named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())
-    return lines + sentence(f"{counted(len(warnings), 'warning')}: {named}; mbla explain ID says more")
+    says = f"{counted(len(warnings), 'warning')}: {named}; mbla explain ID says more"
+    return lines + sentence(says) if warnings else []
 
 
 # --- What the terminal shows of a run: the model in a line, status and answer of each case, then words --------------
@@ -78,7 +60,7 @@ def summary_lines(results: Results) -> list[str]:
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
     told = told_cases(results.cases)
-    lines = [counts, *cause_lines(results), *_table(results.model, told)]
+    lines = [counts, *_table(results.model, told)]
     for case in told:
         lines += _in_words(results, case)
     for series in series_of(results.cases):

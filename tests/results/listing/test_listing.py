@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.errors import Message, Notice
+from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
@@ -148,14 +148,3 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
     lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
     assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
     assert lines[2].split() == ["tilted", "solved", angle, "-"]
-
-
-def test_what_a_fall_may_come_from_is_told_before_it() -> None:
-    """A contact that is missed explains a lack of equilibrium, and is a remark like others where there is none."""
-    results = tower_results()
-    missed = replace(results, notices=(Notice("warning", "near-misses", "1 pair of bodies nearly touch"),))
-    for cases, first in ((results.cases, True), (results.cases[:1], False)):
-        lines = summary_lines(replace(missed, cases=cases))
-        at = [line.startswith("  warning [near-misses]") for line in lines].index(True)
-        assert (at == 1) is first
-        assert sum("[near-misses]" in line for line in lines) == 1

@@ -28,6 +28,6 @@ def test_what_a_negative_reaction_means(tmp_path: Path, sense: str, negative: bo
     path.write_text(ARCH.replace("SENSE", sense))
     results = run(path, RunOptions())
     lines = settlement_lines(results.model, results.cases[0])
-    told = [line for line in lines if "negative: the structure withstands" in line]
+    told = [line for line in lines if "negative: the support must be pushed" in line]
     assert len(told) == negative
     assert ("-" in lines[0].split("N")[0]) == negative
