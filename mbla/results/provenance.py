@@ -21,7 +21,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck, read_deck
 from mbla.deck.include import confined
 from mbla.deck.sections.accuracy import knobs_of
-from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import FileError, Notice
 from mbla.model.geometry.geometry import companions
 from mbla.model.model import Model
@@ -84,14 +83,15 @@ def _version(library: str) -> str:
 def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
     """Analysis settings in effect, by name, for the result files."""
     analysis = deck.analysis
+    knobs = knobs_of(analysis)
     words = {
         "flow_rule": analysis.flow_rule,
         "contact_model": analysis.contact_model,
         "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
         "accuracy": analysis.accuracy,
         "solver": analysis.solver,
-        "tolerance": f"{settings.tolerance:g}",
-        **_knobs_in_words(analysis, settings),
+        **{name: f"{getattr(settings, name):g}" for name in ("tolerance", "gap", "residual")},
+        **{name: str(getattr(knobs, name)).lower() for name in ("range", "peak", "standing")},
         "max_iterations": str(settings.max_iterations),
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
@@ -102,35 +102,16 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         if parameters is not None:
             words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
     if not analysis.reductions:
-        words["reductions"] = _on(analysis.reductions)
+        words["reductions"] = "false"
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words
-
-
-def _knobs_in_words(analysis: AnalysisSection, settings: SolverSettings) -> dict[str, str]:
-    """What accuracy sets, and the deck may set by itself, where it has an effect."""
-    knobs = knobs_of(analysis)
-    words = {}
-    if analysis.contact_model == "concave" and analysis.friction_cone == "circular":
-        words["gap"] = f"{settings.gap:g}"
-    if analysis.flow_rule in ("non_associative", "dilatancy") and analysis.scheme != "published":
-        words["residual"] = f"{settings.residual:g}"
-    if analysis.contact_model == "concave" and analysis.flow_rule != "associative":
-        words["range"] = _on(knobs.range)
-        if analysis.flow_rule == "non_associative":
-            words["peak"] = _on(knobs.peak)
-    return words | {"standing": _on(knobs.standing)}
 
 
 def threads_in_words(cases: Sequence[CaseResult]) -> str:
     """Threads that factorisations of cone programs ran on, whatever was asked for: all are serial."""
     used = {program.factorization for case in cases for program in case.solution.programs} - {""}
     return f"1; factorisations by {', '.join(sorted(used))} are serial" if used else "1"
-
-
-def _on(switch: bool) -> str:
-    return "true" if switch else "false"
 
 
 def _points_in_words(deck: Deck) -> str:

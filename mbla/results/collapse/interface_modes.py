@@ -3,7 +3,7 @@
 The faces of a hinge touch at its closed points, which lie on its axis unless they slide too: with dilatancy one end
 lifts more than the other, and the axis through their mean leaves the interface. The hinge reaches then from the closed
 point that lies first along the axis to that which lies last, one and the same where it turns about a corner. Where it
-crushes, its axis crosses the interface beside the closed points and reaches from boundary to boundary.
+crushes, its axis crosses the interface beside the closed points and reaches as far as these.
 
 Two rigid bodies move against each other by one velocity v of body b relative to a at the centroid c of the interface
 and one rotation ω; the velocity at a point x of it is v + ω × (x − c). What that is called is decided by ratios of the
@@ -65,35 +65,18 @@ def hinge_ends(
 
     is_open    : (n_points,)
     points, directions : (n_interfaces, 3) of the axes, nan where there is no hinge
-    crushed    : (n_interfaces,) the axis runs beside the closed points
+    crushed    : (n_interfaces,) the axis runs beside the closed points, as far as these
     """
-    owner = contacts.interface_of_point
-    hinge = np.isfinite(points[:, 0])
-    closed = np.flatnonzero(hinge[owner] & ~crushed[owner] & ~is_open)
-    across, crossings = _crossings(contacts, points, directions, hinge & crushed)
-    places, owners = np.concatenate([contacts.points[closed], crossings]), np.concatenate([owner[closed], across])
+    closed = np.flatnonzero(np.isfinite(points[:, 0])[contacts.interface_of_point] & ~is_open)
+    owners, places = contacts.interface_of_point[closed], contacts.points[closed]
+    along = np.einsum("ij,ij->i", places - points[owners], directions[owners])
+    on_axis = points[owners] + along[:, None] * directions[owners]
+    places = np.where(crushed[owners, None], on_axis, places)
     ends = np.full((len(contacts), 2, 3), np.nan)
-    order = np.lexsort((np.einsum("ij,ij->i", places - points[owners], directions[owners]), owners))
+    order = np.lexsort((along, owners))
     rows, first, count = np.unique(owners[order], return_index=True, return_counts=True)
     ends[rows, 0], ends[rows, 1] = places[order[first]], places[order[first + count - 1]]
     return ends
-
-
-def _crossings(
-    contacts: Contacts, points: FloatArray, directions: FloatArray, chosen: BoolArray
-) -> tuple[IntArray, FloatArray]:
-    """Where axes cross the outer boundary of their interfaces: interface and place, (n,) and (n, 3)."""
-    owner = contacts.interface_of_point
-    place = np.arange(len(owner)) - contacts.point_start[owner]
-    rows = np.flatnonzero(chosen[owner] & (place < contacts.outline[owner]))
-    here = owner[rows]
-    following = np.where(place[rows] + 1 == contacts.outline[here], contacts.point_start[here], rows + 1)
-    across = np.cross(contacts.normals[here], directions[here])
-    one, other = (np.einsum("ij,ij->i", contacts.points[end] - points[here], across) for end in (rows, following))
-    cut = (one * other <= 0.0) & (one != other)
-    share = (one[cut] / (one[cut] - other[cut]))[:, None]
-    start, stop = contacts.points[rows[cut]], contacts.points[following[cut]]
-    return here[cut], start + share * (stop - start)
 
 
 # --- What each interface does in a mechanism ------------------------------------------------------------------------

@@ -52,7 +52,7 @@ def _keys() -> Iterator[tuple[str, Key]]:
             elif row["kind"] == "stored":
                 yield from ((of, key) for key in _stored(path, row["unit"], row["words"]))
             else:
-                yield of, Key(path, row["kind"], row["words"], row["unit"] or "1")  # type: ignore[arg-type]
+                yield of, Key(path, row["kind"], row["words"], row["unit"] or "1")
 
 
 def _expanded(path: str) -> Iterator[str]:

@@ -12,33 +12,35 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files
 from itertools import product
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from mbla.deck.units import Units
 from mbla.solution.solution import PROVED_STANDING
 
 Kind = Literal["float", "int", "bool", "byte", "text"]
-UnitKind = Literal[
-    "1",
-    "time",
-    "length",
-    "area",
-    "volume",
-    "density",
-    "mass",
-    "degree",
-    "radian",
-    "stress",
-    "force",
-    "moment",
-    "load",
-    "per_length",
-    "velocity",
-    "rotation",
-    "velocities",
-    "motion",
-    "displacement",
-]
+UnitKind: TypeAlias = str
+UNITS: dict[UnitKind, str] = {
+    "1": "1",
+    "time": "s",
+    "length": "{length}",
+    "area": "{length}2",
+    "volume": "{length}3",
+    "density": "{mass}/{length}3",
+    "mass": "{mass}",
+    "degree": "degree",
+    "radian": "rad",
+    "stress": "{force}/{length}2",
+    "force": "{force}",
+    "moment": "{force} {length}",
+    "per_length": "1/{length}",
+    "load": "{force}; {force} {length}",
+    "velocity": "1/{force}",
+    "rotation": "1/({force} {length})",
+    "velocities": "1/{force}; 1/({force} {length})",
+    "motion": "1; 1/{length}",
+    "displacement": "{length}; 1",
+}
+"""kinds of units, in those of a deck"""
 HALVES: dict[UnitKind, tuple[UnitKind, UnitKind]] = {
     "load": ("force", "moment"),
     "velocities": ("velocity", "rotation"),
@@ -142,28 +144,7 @@ def flag(name: str, words: str, dims: str = "") -> Quantity:
 
 def unit_text(kind: UnitKind, units: Units) -> str:
     """The unit in those of a deck."""
-    length, force = units.length, units.force
-    return {
-        "1": "1",
-        "time": "s",
-        "length": length,
-        "area": f"{length}2",
-        "volume": f"{length}3",
-        "density": f"{units.mass}/{length}3",
-        "mass": units.mass,
-        "degree": "degree",
-        "radian": "rad",
-        "stress": f"{force}/{length}2",
-        "force": force,
-        "moment": f"{force} {length}",
-        "per_length": f"1/{length}",
-        "load": f"{force}; {force} {length}",
-        "velocity": f"1/{force}",
-        "rotation": f"1/({force} {length})",
-        "velocities": f"1/{force}; 1/({force} {length})",
-        "motion": f"1; 1/{length}",
-        "displacement": f"{length}; 1",
-    }[kind]
+    return UNITS[kind].format(length=units.length, force=units.force, mass=units.mass)
 
 
 ANSWERS = {
@@ -210,7 +191,7 @@ def quantity_of(row: dict[str, str], told: str = "") -> Quantity:
         name=row["name"],
         kind=row["kind"],  # type: ignore[arg-type]
         words=row["words"],
-        unit=row["unit"] or "1",  # type: ignore[arg-type]
+        unit=row["unit"] or "1",
         dims=tuple(row["dims"].split()),
         place=row["place"],
         index_of=dimension if kind == "index" else "",
