@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import fcntl
 import os
-import re
 from pathlib import Path
 
 import pytest
@@ -18,12 +16,8 @@ from mbla.results.disk import (
     lock_path,
     locked,
     temporary_path,
-    write_whole,
     writing_whole,
 )
-from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.plot import plot_results
-from tests.results.synthetic import tower_results
 
 
 @pytest.fixture(autouse=True)
@@ -69,19 +63,6 @@ def test_a_process_of_another_user_is_alive(
     assert new.exists() is exists
 
 
-def test_a_file_is_written_with_its_folders(tmp_path: Path) -> None:
-    write_whole(tmp_path / "a" / "b" / "c.txt", b"whole")
-    assert (tmp_path / "a" / "b" / "c.txt").read_bytes() == b"whole"
-    assert [path.name for path in (tmp_path / "a" / "b").iterdir()] == ["c.txt"]
-
-
-def test_the_temporary_name_has_the_suffix(tmp_path: Path) -> None:
-    with writing_whole(tmp_path / "c.svg") as temporary:
-        assert temporary.suffix == ".svg"
-        assert temporary.parent == tmp_path
-        temporary.touch()
-
-
 def fail_half_way(path: Path, error: BaseException) -> None:
     with writing_whole(path) as temporary:
         temporary.write_text("half")
@@ -118,21 +99,6 @@ def test_errors_name_the_file_and_not_the_temporary_one(tmp_path: Path) -> None:
     with pytest.raises(FileError) as raised:
         write_where_nothing_can_be(path)
     assert str(raised.value) == f"{path}: No such file or directory"
-
-
-def test_a_folder_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="is a folder"):
-        write_whole(tmp_path, b"")
-
-
-def test_pictures_that_cannot_be_drawn_leave_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def missing() -> None:
-        raise UsageError("extra-missing", "pictures need an extra that is not installed")
-
-    monkeypatch.setattr("mbla.results.pictures.page.matplotlib_parts", missing)
-    with pytest.raises(UsageError, match="extra"):
-        plot_results(tower_results(), tmp_path / "pictures", "tower", PictureOptions())
-    assert not list(tmp_path.iterdir())
 
 
 def test_nobody_holds_a_lock_that_was_left_behind(tmp_path: Path) -> None:
@@ -179,14 +145,6 @@ def test_a_lock_on_a_file_that_is_gone_is_taken_again(
         assert (holder(path) or "").startswith(f"process {os.getpid()} ")
 
 
-def test_a_file_that_another_put_in_its_place_is_left_alone(tmp_path: Path) -> None:
-    path = tmp_path / "deck.h5"
-    with locked(path):
-        lock_path(path).unlink()
-        lock_path(path).write_text("another's", encoding="utf-8")
-    assert lock_path(path).read_text(encoding="utf-8") == "another's"
-
-
 @pytest.mark.parametrize("required", [True, False])
 def test_a_system_without_locks_refuses_what_needs_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, required: bool
@@ -199,14 +157,3 @@ def test_a_system_without_locks_refuses_what_needs_one(
         entered = True
     assert entered is not required
     assert not list(tmp_path.iterdir())
-
-
-def test_what_the_system_refuses_is_said_in_its_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
-        raise OSError(errno.EIO, os.strerror(errno.EIO))
-
-    monkeypatch.setattr(fcntl, "flock", broken)
-    path = tmp_path / "deck.h5"
-    words = re.escape(f"{lock_path(path)}: {os.strerror(errno.EIO)}")
-    with pytest.raises(FileError, match=words), locked(path, required=False):
-        pytest.fail("held")

@@ -15,7 +15,7 @@ from mbla.deck.sections.analysis import APPLIES
 from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES
-from mbla.results.explanations import FIGURES, explanations, find_explanations, sections
+from mbla.results.explanations import explanations, find_explanations, sections
 from mbla.results.findings import REMARKS_THAT_WARN, WITHOUT_REASON
 from mbla.results.listing.figures import residual_rows
 from mbla.solution.solution import Standing, Status
@@ -159,11 +159,6 @@ def test_every_entry_is_complete() -> None:
             text = getattr(entry, part)
             assert text.endswith("."), (entry.identifier, part)
             assert "$" not in text, (entry.identifier, part)
-
-
-def test_every_figure_is_named() -> None:
-    texts = (PACKAGE / "results" / "messages.toml").read_text(encoding="utf-8")
-    assert [name for name in FIGURES if not re.search(rf"\${name}\b", texts)] == []
 
 
 # --- the command ---------------------------------------------------------------------------------------------------

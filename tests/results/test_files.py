@@ -52,11 +52,6 @@ def test_nothing_is_in_place_before_the_end(tmp_path: Path) -> None:
     assert out.names == ("arch.h5",)
 
 
-def test_folder_is_created_with_its_parents(tmp_path: Path) -> None:
-    run(tmp_path / "a" / "b")
-    assert (tmp_path / "a" / "b" / "arch.h5").read_text() == "new"
-
-
 def test_live_file_grows_under_its_own_name(tmp_path: Path) -> None:
     with OutputFolder(tmp_path, "arch") as out:
         stream = out.open_live("arch.sta")
@@ -73,20 +68,6 @@ def test_earlier_result_is_refused_and_untouched(tmp_path: Path, suffix: str) ->
         run(tmp_path)
     assert str(earlier) in str(caught.value)
     assert content(tmp_path) == {earlier.name: "old"}
-
-
-def test_result_of_another_deck_is_not_refused(tmp_path: Path) -> None:
-    run(tmp_path, stem="wall")
-    run(tmp_path, stem="arch")
-    assert {"arch.h5", "wall.h5"} <= set(content(tmp_path))
-
-
-def test_force_replaces(tmp_path: Path) -> None:
-    run(tmp_path, text="old")
-    run(tmp_path, force=True, text="new")
-    assert content(tmp_path)["arch.h5"] == "new"
-    assert content(tmp_path)["arch.sta"] == "new"
-    assert temporaries(tmp_path) == []
 
 
 def test_file_of_another_deck_with_the_same_name_is_refused(tmp_path: Path) -> None:
@@ -116,14 +97,6 @@ def test_list_of_earlier_files_cannot_name_others(tmp_path: Path, listed: Any) -
     assert earlier_files(tmp_path, "arch") == ()
 
 
-@pytest.mark.parametrize("suffix", ["vtu", "pvd", "py", "html", "svg", "pdf", "png", "gif", "mp4"])
-def test_every_kind_of_file_beside_the_result_is_its_own(tmp_path: Path, suffix: str) -> None:
-    name = f"arch_push_x.{suffix}"
-    (tmp_path / name).write_text("written by a run")
-    (tmp_path / "arch.json").write_text(json.dumps({"files": [name]}))
-    assert earlier_files(tmp_path, "arch") == (name,)
-
-
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"files": null}'])
 def test_damaged_list_of_earlier_files_is_no_list(tmp_path: Path, text: str) -> None:
     (tmp_path / "arch.json").write_text(text)
@@ -137,13 +110,6 @@ def test_failed_run_leaves_the_earlier_result(tmp_path: Path, error: type[BaseEx
     with pytest.raises(error):
         fail(tmp_path, error)
     assert content(tmp_path) == before
-
-
-def test_failed_run_leaves_nothing_where_there_was_nothing(tmp_path: Path) -> None:
-    folder = tmp_path / "a" / "arch.out"
-    with pytest.raises(RuntimeError):
-        fail(folder, RuntimeError)
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("failing", range(5))
@@ -183,21 +149,6 @@ def test_unwritten_file_is_an_error_that_names_it(tmp_path: Path) -> None:
     assert content(tmp_path) == {}
 
 
-def test_errors_of_the_system_name_the_file_and_keep_their_cause(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(self: Path, data: bytes) -> None:
-        raise OSError(28, "No space left on device")
-
-    with OutputFolder(tmp_path, "arch") as out:
-        monkeypatch.setattr(Path, "write_bytes", full)
-        with pytest.raises(FileError, match=r"arch\.h5: No space left on device") as caught:
-            out.write_text("arch.h5", "x")
-        monkeypatch.undo()
-        out._names.clear()
-    assert isinstance(caught.value.__cause__, OSError)
-
-
 def other_writer(out: OutputFolder) -> None:
     """A writer of another stage, with a FileError of its own."""
     with out.writing("arch_x.vtu") as path:
@@ -215,12 +166,6 @@ def test_error_of_another_writer_names_the_file_not_the_temporary(tmp_path: Path
     assert PREFIX not in str(caught.value)
 
 
-def test_file_where_the_folder_should_be(tmp_path: Path) -> None:
-    (tmp_path / "arch.out").write_text("mine")
-    with pytest.raises(FileError, match=r"arch\.out"):
-        run(tmp_path / "arch.out")
-
-
 def test_folder_where_a_file_should_be(tmp_path: Path) -> None:
     (tmp_path / "arch.h5").mkdir()
     with pytest.raises(FileError, match="is a folder"):
@@ -231,13 +176,6 @@ def test_folder_where_a_file_should_be(tmp_path: Path) -> None:
 def test_only_plain_names(tmp_path: Path, name: str) -> None:
     with OutputFolder(tmp_path, "arch") as out, pytest.raises(ValueError, match="plain file name"):
         out.path(name)
-
-
-def test_no_file_is_written_twice(tmp_path: Path) -> None:
-    with OutputFolder(tmp_path, "arch") as out:
-        out.write_text("arch.h5", "x")
-        with pytest.raises(ValueError, match="twice"):
-            out.write_text("arch.h5", "y")
 
 
 # --- killed runs --------------------------------------------------------------------------------------------------
@@ -282,16 +220,6 @@ def test_complete_result_of_a_killed_process_stays(tmp_path: Path) -> None:
     assert content(tmp_path) == {"arch.sta": "killed", "arch.h5": "killed", "arch.lst": "killed"}
 
 
-def test_temporaries_of_living_processes_and_other_machines_are_left_alone(tmp_path: Path) -> None:
-    with OutputFolder(tmp_path, "arch") as first:
-        first.write_text("arch.h5", "x")
-        other = tmp_path / f"{PREFIX}elsewhere-{os.getpid()}-new-wall.h5"
-        other.write_text("x")
-        run(tmp_path, stem="wall")
-    assert other.exists()
-    assert (tmp_path / "arch.h5").exists()
-
-
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a process that can be killed")
 def test_first_run_that_was_killed_is_in_nobodys_way(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-c", textwrap.dedent(KILLED), str(tmp_path), "1"], check=False)
@@ -332,34 +260,6 @@ def test_an_interruption_leaves_the_earlier_result_or_the_new_one(
         monkeypatch.undo()
         now = content(tmp_path)
         assert now == before or (now["arch.h5"], now["arch.sta"], len(now)) == ("new", "new", 3)
-
-
-def test_what_cannot_be_removed_after_the_end_does_not_undo_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run(tmp_path, text="old")
-    unlink = Path.unlink
-
-    def refused(self: Path, missing_ok: bool = False) -> None:
-        if "-earlier-" in self.name:
-            raise OSError(5, "Input/output error")
-        unlink(self, missing_ok)
-
-    monkeypatch.setattr(Path, "unlink", refused)
-    run(tmp_path, force=True, text="new")
-    monkeypatch.undo()
-    assert (content(tmp_path)["arch.h5"], content(tmp_path)["arch.sta"]) == ("new", "new")
-
-
-def test_a_list_of_earlier_files_that_cannot_be_read_is_an_error(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    run(tmp_path)
-
-    def refused(self: Path) -> bytes:
-        raise OSError(5, "Input/output error")
-
-    monkeypatch.setattr(Path, "read_bytes", refused)
-    with pytest.raises(FileError, match=r"arch\.json: Input/output error"):
-        run(tmp_path, force=True)
 
 
 # --- two at once ----------------------------------------------------------------------------------------------------

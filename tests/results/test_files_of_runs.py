@@ -17,13 +17,10 @@ from mbla.cli.check import check
 from mbla.deck import read_deck
 from mbla.results.hdf5.layout import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.outcome import result_of
 from mbla.results.record.json_record import check_json, results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.record.keys import RECORD
 from mbla.results.record.quantity import STORED
-from mbla.results.tables.formats import table_csv
-from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
 from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import full_results
@@ -122,17 +119,3 @@ def test_every_dataset_is_described(folder: Path, name: str) -> None:
             )
             assert set(dataset.attrs) - standard == of_text | not_verified
             assert tuple(dimension.label for dimension in dataset.dims) == field.dims
-
-
-@pytest.mark.parametrize("name", DECKS)
-def test_tables_say_what_the_cases_say(folder: Path, name: str) -> None:
-    results = read_results_hdf5(folder / f"{name}.h5")
-    tables = tables_of(results)
-    cases = tables["cases"]
-    assert cases["case"].tolist() == [case.load_case.name for case in results.cases]
-    assert cases["status"].tolist() == [case.status.value for case in results.cases]
-    assert np.isnan(cases["load_factor"]).tolist() == [result_of(case) is None for case in results.cases]
-    assert len(tables["blocks"]) == len(results.cases) * len(results.model.blocks)
-    assert len(tables["series"]) == sum(case.load_case.travel is not None for case in results.cases)
-    for table in tables.values():
-        assert table_csv(table).count("\r\n") >= len(table) + 1

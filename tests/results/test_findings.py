@@ -14,9 +14,8 @@ from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.extremes.outcome import Scene, results_of
-from tests.extremes.shapes import PEBBLE, SLENDER
+from tests.extremes.shapes import SLENDER
 from tests.extremes.weights import SIDE_BY_SIDE
-from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import full_results, standing_at, tower_results
 
 
@@ -58,17 +57,6 @@ def test_failures_and_remarks() -> None:
     assert [notice.severity for notice in found_notices(case)] == ["warning", "warning", "notice", "warning"]
 
 
-def test_a_failure_that_is_the_reason_is_told_once() -> None:
-    case = replace(push(), status=Status.NOT_VERIFIED)
-    reason = "the correction ended without a solution"
-    case = replace(
-        case,
-        solution=replace(case.solution, reason=reason),
-        checks=replace(case.checks, failures=(Message("not-verified", reason),)),
-    )
-    assert identifiers(case) == ["not-verified"]
-
-
 def test_what_is_claimed_but_not_verified() -> None:
     case = full_results().cases[0]
     assert {"range-not-verified", "peak-not-verified"}.isdisjoint(identifiers(case))
@@ -92,21 +80,6 @@ def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
 
     assert severities(locked, cases[1]) == ["notice"]
     assert severities(locked, locked) == ["warning", "warning"]
-
-
-def test_what_is_said_twice_is_one_notice() -> None:
-    """Two failures in the same words; a remark that is the reason of a case without an answer."""
-    case = replace(push(), checks=replace(push().checks, failures=(Message("penetration", "it leaks"),) * 2))
-    assert len(found_notices(case)) == 1
-    solution = replace(
-        push().solution,
-        reason="it rains",
-        remarks=(Message("law-missed", "it rains"), Message("law-missed", "it snows")),
-    )
-    stopped = replace(push(), status=Status.NOT_VERIFIED, solution=solution)
-    assert [notice.message for notice in found_notices(stopped)] == ["push_x: it rains", "push_x: it snows"]
-    solved = replace(push(), solution=solution)
-    assert [notice.message for notice in found_notices(solved)] == ["push_x: it rains", "push_x: it snows"]
 
 
 def slender(width: float, friction: float, rule: str = "associative", contact_model: str = "convex") -> Results:
@@ -188,16 +161,6 @@ def test_a_heavy_block_at_rest_makes_no_load_factor_next_to_nothing() -> None:
     assert verdict(results.model, case) == "collapses at 0.4 g, verified"
 
 
-def test_a_pebble_tips_on_the_slab_below_it() -> None:
-    """Its interface is a millionth of the slab's, its weight 2e-19 of it: it has a unit of force of its own."""
-    results = results_of(Scene("pebble", "", PEBBLE, ("parameters.a=1.0e-6", "analysis.flow_rule=associative")))
-    (case,) = results.cases
-    assert case.checks.verified
-    assert case.solution.mechanics is not None
-    assert case.solution.mechanics.load_factor == pytest.approx(0.4, rel=1e-6)
-    assert said_of(results, "magnitudes-far-apart") == []
-
-
 def test_ends_of_a_range_that_rounding_could_have_parted_are_one_figure() -> None:
     """At friction 1e-6 they lie 3e-11 apart, one part in thirty thousand, and forces tell 2e-9 from nothing."""
     results = slender(0.5, 1e-6, "non_associative", "concave")
@@ -217,9 +180,3 @@ def test_friction_that_is_next_to_none_is_named_where_a_case_is_not_settled(fric
     notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
     assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
     assert all("friction of 1e-09 is next to none" in notice.message for notice in notices)
-
-
-def test_without_contacts_no_magnitudes_are_compared() -> None:
-    results = tower_results()
-    case = replace(results.cases[0], status=Status.NOT_VERIFIED)
-    assert magnitude_notices(results.model, without_contacts(results.contacts), case, doubtful=False) == []

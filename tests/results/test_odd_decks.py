@@ -20,7 +20,6 @@ from mbla.results.notebook.run import Run
 from mbla.results.outcome import result_of
 from mbla.results.pictures.options import KINDS, PictureOptions
 from mbla.results.pictures.plot import plot_results
-from mbla.results.pictures.scene import scene_of
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.report.report import report_html
@@ -269,28 +268,6 @@ def test_words_and_records(name: str) -> None:
     compared = compare_results(run.records, run.records)
     assert not compared.differing
     check_words(comparison_text(compared, ("A.h5", "B.h5")))
-
-
-@pytest.mark.parametrize("rule", ["non_associative", "associative"])
-def test_blocks_that_only_guides_hold(rule: str) -> None:
-    """What turns both ways about a hinge, and carries its dead load, has no joint that could resist the live load."""
-    text, _ = DECKS["hinge"]
-    run = mbla.run(text, set=[f"analysis.flow_rule={rule}", "analysis.force_ranges=true"])
-    assert run.load_factor == pytest.approx(0, abs=1e-9)
-    assert run.verified
-
-
-def test_a_structure_without_dead_load() -> None:
-    """No weight, no friction: any push moves it. Steps without a scale of forces would overflow."""
-    assert run_of("weightless_unloaded").load_factor == pytest.approx(0, abs=1e-9)
-
-
-@pytest.mark.parametrize(("name", "count"), [("hangs", 1), ("one_block", 0)])
-def test_a_picture_of_forces_says_what_it_leaves_out(name: str, count: int) -> None:
-    """A joint in tension has no point of application, so that its force is not drawn among the others."""
-    records = run_of(name).records
-    words = scene_of(records, records.cases[0], PictureOptions(), "forces").words_of("forces")[-1]
-    assert ("not drawn: 1 joint in tension" in words) == (count == 1)
 
 
 @pytest.mark.parametrize("name", DECKS)

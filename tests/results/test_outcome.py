@@ -39,12 +39,6 @@ def test_a_structure_without_equilibrium_does_not_stand_whatever_was_assessed() 
     assert standing_of([with_standing(YES), FALLEN]) == "no"
 
 
-def test_equilibrium_alone_is_not_called_standing() -> None:
-    """A bar pressed between two walls is in equilibrium; whether it stands is another question."""
-    assert SOLVED.solution.associative is not None
-    assert standing_of([SOLVED]) is None
-
-
 @pytest.mark.parametrize("status", list(Status))
 def test_only_solved_and_approximate_cases_have_a_result(status: Status) -> None:
     found = result_of(replace(SOLVED, status=status))

@@ -11,7 +11,6 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.listing.listing import listing
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
-from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 
 ARCH = """\
 mbla: 1
@@ -56,23 +55,6 @@ def test_reactions_at_both_springers_carry_the_weight(results: Results) -> None:
     free = results.model.free
     weight = -results.cases[0].load_case.dead_load[free, 2].sum()
     assert sum(vertical) == pytest.approx(weight, rel=1e-3)
-
-
-def test_mesh_files_hold_the_structure(folder: Path, results: Results) -> None:
-    blocks = folder / "arch.out" / "arch_push_x_blocks.vtu"
-    assert vtk_volumes(blocks) == pytest.approx(results.model.blocks.volumes)
-    last = folder / "arch.out" / "arch_push_x_frame_002.vtu"
-    assert vtk_volumes(last) == pytest.approx(results.model.blocks.volumes)
-    forces = vtk_array(read_vtk(folder / "arch.out" / "arch_push_x_contacts.vtu").GetPointData(), "global_forces")
-    assert np.isfinite(forces).all()
-    assert len(forces) == len(results.contacts.points)
-
-
-def test_status_file_has_every_iteration(folder: Path, results: Results) -> None:
-    lines = (folder / "arch.out" / "arch.sta").read_text(encoding="utf-8").splitlines()
-    iterations = [line for line in lines[2:] if not line.startswith("#")]
-    assert len(iterations) == len(results.cases[0].solution.iterations) > 5
-    assert {len(line) for line in iterations} == {len(lines[1])}
 
 
 def test_the_arch_falls_in_three_parts_that_turn_about_their_hinges(results: Results) -> None:

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.model.model import Tilt
-from mbla.results.exit_status import differences, exit_code
-from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.listing.answers import standing_words, worst_words
+from mbla.results.exit_status import differences
+from mbla.results.listing.answers import standing_words
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import angle_bounds, angle_of
 from mbla.results.record.json_record import results_json
-from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, factor_of, series_of, told_cases
-from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from tests.results.synthetic import standing_at, tower_results
@@ -70,12 +64,6 @@ def test_a_load_factor_for_each_position_and_the_worst(results: Results) -> None
     assert series.worst is series.cases[0]  # of equal ones the first
 
 
-def test_positions_without_collapse_are_no_failure(results: Results) -> None:
-    assert [case.status for case in results.cases[:5]].count(Status.UNBOUNDED) == 3
-    assert results.exit_code == 0
-    assert exit_code(results.cases[1:4]) == 5
-
-
 def test_the_worst_is_not_claimed_where_a_position_has_no_result(results: Results) -> None:
     cases = (results.cases[0], replace(results.cases[4], status=Status.NOT_VERIFIED))
     (series,) = series_of(cases)
@@ -83,26 +71,6 @@ def test_the_worst_is_not_claimed_where_a_position_has_no_result(results: Result
     assert not series.complete
     lines = " ".join(" ".join(summary_lines(replace(results, cases=cases))).split())
     assert "the worst position is not known, for there is no load factor at crane@5" in lines
-
-
-def test_listing_json_and_file_say_the_same(results: Results, folder: Path) -> None:
-    record = json.loads(json_line(results_json(results)))
-    (series,) = record["series"]
-    assert series["worst"]["case"] == "crane@1"
-    assert series["worst"]["point"] == [8.0, 0.25, 3.0]
-    assert [position["status"] for position in series["positions"]][1:4] == ["unbounded"] * 3
-    assert series["positions"][2]["load_factor"] is None
-    case = record["cases"][-1]
-    assert case["angle_bounds"][0] <= case["angle"] * (1 + 1e-9)
-    assert case["angle_bounds"][1] >= case["angle"] * (1 - 1e-9)
-    assert all(each["angle"] is None and each["angle_bounds"] is None for each in record["cases"][:5])
-    text = " ".join(listing(results).split())
-    assert "Travelling load crane" in text
-    assert "worst at position 1 of 5, at (8, 0.25, 3) m" in text
-    assert "degrees of tilt, verified" in text
-    again = read_results_hdf5(folder / "beam.out" / "beam.h5")
-    assert json.loads(json_line(results_json(again))) == record
-    assert verify_file(folder / "beam.out" / "beam.h5")[1] == ()
 
 
 def test_the_angle(results: Results) -> None:
@@ -136,21 +104,6 @@ def test_cases_by_name(folder: Path) -> None:
     assert [case.load_case.name for case in one.cases] == ["crane@5"]
     with pytest.raises(UsageError, match="it has crane, table"):
         run(folder / "beam.yaml", RunOptions(cases=("crane@9",), force=True))
-
-
-def test_no_position_that_any_load_brings_down_is_said_so() -> None:
-    case = tower_results().cases[0]
-    cases = []
-    for i in range(3):
-        travel = standing_at(i + 1, 3, np.array([1.0 * i, 0, 0]), 1.5 * i)
-        load_case = replace(case.load_case, name=f"train@{i + 1}", travel=travel)
-        cases.append(replace(case, load_case=load_case, status=Status.UNBOUNDED))
-    (series,) = series_of(cases)
-    words = "train: no multiple of the load brings the structure down at any position"
-    assert worst_words(tower_results().model, series) == words
-    for count, told in ((2, "the 2 positions solved"), (1, "the 1 position solved")):
-        (some,) = series_of(cases[:count])
-        assert worst_words(tower_results().model, some) == f"{words} among {told}"
 
 
 def train(statuses: Sequence[Status], factors: Sequence[float]) -> tuple[CaseResult, ...]:
@@ -233,15 +186,6 @@ def test_a_vehicle_beyond_the_end_of_its_path(tmp_path: Path) -> None:
     assert (tmp_path / "vehicle_beside_its_path.lst").read_text().count("Load case lorry@") == 12
     run(deck, RunOptions(folder=tmp_path, force=True))
     assert not list(tmp_path.glob("*lorry@01*"))
-
-
-def test_an_angle_that_was_not_found_has_no_bounds() -> None:
-    """A tilt whose angle no tangent gives, and a case without an associative answer."""
-    tilt = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 6)), math.nan, False, 1.0)
-    case = tower_results().cases[0]
-    tilted = replace(case, load_case=replace(case.load_case, tilt=tilt))
-    for each in (tilted, replace(tilted, solution=replace(tilted.solution, associative=None)), case):
-        assert np.isnan(angle_bounds(each)).all()
 
 
 def test_cases_come_in_the_order_of_the_deck() -> None:

@@ -27,13 +27,6 @@ def test_columns_stand_under_their_names() -> None:
     assert len(line) == len(HEADER)
 
 
-def test_values_that_do_not_exist_keep_the_columns() -> None:
-    nan = float("nan")
-    line = status_line("push_x", IterationRecord(1, 0, nan, nan, nan, nan, nan, 0.0))
-    assert len(line) == len(HEADER)
-    assert line.split()[3] == "nan"
-
-
 def test_every_line_is_flushed(tmp_path: Path) -> None:
     path = tmp_path / "arch.sta"
     with path.open("w", encoding="utf-8") as stream:

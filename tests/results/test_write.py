@@ -1,8 +1,6 @@
 import json
-from dataclasses import replace
 from pathlib import Path
 
-import meshio
 import pytest
 
 from mbla.deck.content import OutputSection
@@ -10,7 +8,6 @@ from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import listing
 from mbla.results.results import Results
-from mbla.results.vtu.mesh_files import write_model_vtu
 from mbla.results.write import write_outputs, write_results
 from tests.results.synthetic import same, tower_results
 
@@ -51,19 +48,3 @@ def test_files_agree_with_each_other(tmp_path: Path, results: Results) -> None:
 def test_without_vtu_there_is_none(tmp_path: Path, results: Results) -> None:
     write_outputs(results, tmp_path, "tower", False, OutputSection(vtu=False, frames=3, plots=False))
     assert names(tmp_path) == {"tower.h5", "tower.lst", "tower.json"}
-
-
-def test_case_that_moves_nothing_has_one_frame(tmp_path: Path, results: Results) -> None:
-    case = results.cases[1]
-    still = replace(case, solution=replace(case.solution, certificate=None))
-    write_outputs(
-        replace(results, cases=(still,)), tmp_path, "tower", False, OutputSection(vtu=True, frames=5, plots=False)
-    )
-    assert [name for name in sorted(names(tmp_path)) if "frame" in name] == ["tower_fall_frame_000.vtu"]
-
-
-def test_model_alone(tmp_path: Path, results: Results) -> None:
-    with OutputFolder(tmp_path, "tower_check") as out:
-        write_model_vtu(results, out)
-    assert names(tmp_path) == {f"tower_check_{kind}.vtu" for kind in ("blocks", "contacts", "interfaces", "supports")}
-    assert not meshio.read(tmp_path / "tower_check_blocks.vtu").point_data["displacement"].any()

@@ -11,7 +11,7 @@ import pytest
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.results.collapse.clusters import ENOUGH, FEW, clusters_of
-from mbla.results.collapse.cracks import LEAST, touching_pairs, yield_lines
+from mbla.results.collapse.cracks import touching_pairs, yield_lines
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.record.json_record import results_json
@@ -130,13 +130,6 @@ def test_a_line_leads_through_the_joints_with_as_few_corners_as_will_do(rises: l
         assert line.inclination == pytest.approx(0, abs=1e-6)
         assert line.off == pytest.approx(0, abs=1e-9)
         assert line.length == pytest.approx(SIDE - 1)
-
-
-def test_few_joints_are_no_line_of_their_own() -> None:
-    bodies, rectangles = [(i, LEAST + i) for i in range(LEAST)], [(i, i + 1, 0, 1, 1) for i in range(LEAST)]
-    parts = np.repeat([0, 1], LEAST)
-    assert len(yield_lines(horizontal_contacts(bodies, rectangles), parts, 0)) == 1
-    assert not yield_lines(horizontal_contacts(bodies[1:], rectangles[1:]), parts, 0)
 
 
 def test_a_facade_says_what_falls_and_along_which_line(tmp_path: Path) -> None:

@@ -197,23 +197,6 @@ def test_hinges_of_two_clusters_are_one_line_only_where_their_axes_are_one(edge:
     assert failure.hinge_lines[0].direction == pytest.approx([0, 1, 0])  # of the slab against the base
 
 
-@pytest.mark.parametrize(("degrees", "lines"), [(1.0, 1), (4.0, 2)])
-def test_hinges_askew_to_each_other_are_two_lines(degrees: float, lines: int) -> None:
-    model, contacts = tower_model(), horizontal_contacts([[0, 1], [0, 1]], [(0, 1, 0, 0.4, 1), (0, 1, 0.6, 1, 1)])
-    motion = np.zeros((3, 6))
-    motion[1] = [*np.cross([0, 1, 0], model.blocks.centroids[1] - [1, 0, 1]), 0, 1, 0]
-    velocities = contact_velocities(model, contacts, motion)
-    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
-    mechanics = Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
-    collapse = collapse_of(model, contacts, model.load_cases[0], mechanics)
-    directions = collapse.interfaces.hinge_directions.copy()
-    directions[1] = [np.sin(np.radians(degrees)), np.cos(np.radians(degrees)), 0]
-    points = np.tile([1.0, 0.5, 1.0], (2, 1))  # both through one point
-    turned = replace(collapse.interfaces, hinge_directions=directions, hinge_points=points)
-    failure = failure_of(model, contacts, replace(collapse, interfaces=turned), mechanics)
-    assert len(failure.hinge_lines) == lines
-
-
 # --- Mechanisms whose class is known, solved or put together by hand ------------------------------------------------
 
 
@@ -245,12 +228,6 @@ def classes_of(deck: str | Path) -> list[str]:
 )
 def test_a_block(height: float, live: str, expected: str) -> None:
     assert classes_of(BLOCK.format(height=height, live=live)) == [expected]
-
-
-def test_an_arch_of_four_hinges() -> None:
-    """Three parts hinge on each other and on the springers."""
-    deck = BENCHMARKS["arch_20_voussoirs"].read_text(encoding="utf-8")
-    assert classes_of(deck) == ["hinging"]
 
 
 def test_a_wall_in_bond_pushed_in_its_plane() -> None:

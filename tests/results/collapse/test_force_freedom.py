@@ -113,15 +113,6 @@ def test_what_is_guided_or_without_contact_is_not_judged() -> None:
     assert "guided" in str(force_freedom(line.model, line.contacts, solution.mechanics, 3))
 
 
-def test_what_is_too_large_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    line = line_of(BEAM)
-    solution, _, _ = verified(line)
-    assert solution.mechanics is not None
-    monkeypatch.setattr("mbla.results.collapse.force_freedom.MOST_EQUATIONS", 2)
-    moved = replace(line.model, title="another")  # what is kept of the model is not asked
-    assert "more than 2 equations" in str(force_freedom(moved, line.contacts, solution.mechanics, 2))
-
-
 def test_without_contacts_there_is_nothing_to_determine() -> None:
     contacts = without_contacts(tower_contacts())
     assert force_freedom(tower_model(), contacts, tower_mechanics(), 3) == "there are no contacts"
@@ -176,13 +167,6 @@ def test_associative_flow_has_the_same_load_factor_with_the_rest_fixed(deck: str
     mechanics = solved(line)
     smaller, _ = with_rest_fixed(line, mechanics)
     assert solved(smaller).load_factor == pytest.approx(mechanics.load_factor, rel=1e-6)
-
-
-def test_some_of_these_have_something_to_leave_out() -> None:
-    line = line_of_file(DECKS / "tutorials/wall.yaml", ASSOCIATIVE)
-    mechanics = solved(line)
-    _, left = with_rest_fixed(line, mechanics)
-    assert left < len(line.model.free) / 2
 
 
 def test_fixing_what_moves_does_change_it() -> None:

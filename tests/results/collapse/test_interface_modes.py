@@ -114,13 +114,6 @@ def test_an_associative_hinge_that_slides_keeps_its_axis_at_the_edge() -> None:
     assert motion.hinge_points[0] == pytest.approx(EDGE)
 
 
-def test_faces_that_part_in_parallel_are_no_hinge_whatever_their_points_say() -> None:
-    mechanics = turning(BED, (0, 0, 0), (0, 0, 1))
-    modes = mechanics.modes.copy()
-    modes[0] = STICK
-    assert InterfaceMode(int(motion_of(replace(mechanics, modes=modes)).modes[0])) is InterfaceMode.OPEN
-
-
 @pytest.mark.parametrize(("speed", "together"), [(0.9e-4, True), (1.1e-4, False)])
 def test_blocks_move_together_below_a_share_of_the_fastest_contact(speed: float, together: bool) -> None:
     """The brick creeps on the ground while the tower falls."""
@@ -143,12 +136,6 @@ def test_what_follows_does_not_depend_on_which_body_is_called_a() -> None:
     assert other.hinge_points[0] == pytest.approx(EDGE)
     assert other.rotation[0] == pytest.approx([0, -1, 0])
     assert other.hinge_directions[0] == pytest.approx([0, -1, 0])
-
-
-def test_a_hinge_reaches_along_the_edge_on_which_it_stays_closed() -> None:
-    ends = motion_of(turning(EDGE, (0, 2, 0))).hinge_ends
-    assert ends[0] == pytest.approx(np.array([[1, 0, 1], [1, 1, 1]]))
-    assert np.isnan(ends[1]).all()
 
 
 def test_a_hinge_about_a_corner_has_no_length() -> None:

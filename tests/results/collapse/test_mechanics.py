@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from mbla.contacts import find_contacts
 from mbla.contacts.contacts import Contacts
-from mbla.deck import read_deck
-from mbla.model import build_model
 from mbla.model.model import Joint, Model
 from mbla.results.collapse.mechanics import (
     dissipated_by_joint,
@@ -25,7 +21,6 @@ from mbla.results.collapse.mechanics import (
 )
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.forces import work_lines
-from mbla.results.record.mechanism_json import mechanism_json
 from mbla.solution.solution import Mechanics
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
 
@@ -60,24 +55,6 @@ def test_reactions_balance_the_loads(model: Model, contacts: Contacts, mechanics
     load = load_on_structure(model, model.load_cases[0], 0.5)
     assert load[:3] == pytest.approx([10, 0, -20])
     assert total + load == pytest.approx(np.zeros(6), abs=1e-12)
-
-
-def test_reaction_does_not_depend_on_the_order_of_bodies(
-    model: Model, contacts: Contacts, mechanics: Mechanics
-) -> None:
-    """The same bed described from the tower's side: bodies and normal swapped, forces unchanged in the turned frame."""
-    turned = contacts.frames.copy()
-    turned[:4] = [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
-    bodies = contacts.bodies.copy()
-    bodies[0] = [1, 0]
-    forces = mechanics.contact_forces.copy()
-    forces[:4, 1] *= -1  # tangent 1 stays, the force on the other body is opposite
-    swapped = replace(contacts, bodies=bodies, frames=turned)
-    before = support_reactions(model, contacts, mechanics.contact_forces)
-    after = support_reactions(model, swapped, forces)
-    for one, other in zip(before, after, strict=True):
-        assert one.support == other.support
-        assert one.wrench == pytest.approx(other.wrench)
 
 
 def test_many_fixed_blocks_are_summed_by_group() -> None:
@@ -135,27 +112,11 @@ def test_outside_of_a_curved_chain() -> None:
     assert (along[[0, -1]] > 0.9).all()
 
 
-def test_outside_of_an_arch_of_thick_voussoirs() -> None:
-    """Voussoirs are wedges: their centroids may lie farther out than the joints between them."""
-    arch = build_model(read_deck(Path("decks/benchmarks/closed_forms/spreading_arch.yaml")))
-    contacts = find_contacts(arch, read_deck(Path("decks/benchmarks/closed_forms/spreading_arch.yaml")).contacts)
-    sides = curvature_sides(arch, contacts)
-    from_centre = contacts.centroids - [2, 0.5, 0]
-    chain = np.flatnonzero(np.linalg.norm(sides, axis=1) > 0)
-    assert len(chain) == 27
-    assert (np.einsum("ij,ij->i", sides, from_centre)[chain] > 0).all()
-
-
 def test_a_pile_that_leans_over_has_no_outside() -> None:
     """Its joints lie on a curve, but are parallel: no voussoirs, no intrados."""
     model, contacts = chain([[0.1 * i**2, 0, i] for i in range(6)])
     joints = np.array([[0.1 * (i + 0.5) ** 2, 0, i + 0.5] for i in range(5)])
     assert not curvature_sides(model, replace(contacts, centroids=joints)).any()
-
-
-def test_straight_chain_has_no_outside() -> None:
-    model, contacts = chain([[i, 0, 0] for i in range(5)])
-    assert not curvature_sides(model, replace(contacts, centroids=np.array([[i + 0.5, 0, 0] for i in range(4)]))).any()
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------
@@ -227,20 +188,6 @@ def test_shares_of_joint_laws_and_groups_sum_to_the_whole() -> None:
     assert groups["base"] == groups["tower"] == (0, 0)
 
 
-@pytest.mark.parametrize("units", [1.0, 1e6])
-def test_work_is_free_of_the_unit_of_force(units: float) -> None:
-    """Forces times 1e6 and velocities by 1e-6, as the same structure in other units gives."""
-    mechanics = sliding()
-    scaled = replace(
-        mechanics,
-        contact_forces=units * mechanics.contact_forces,
-        contact_velocities=mechanics.contact_velocities / units,
-        mechanism=mechanics.mechanism / units,
-    )
-    case = replace(CASE, dead_load=units * CASE.dead_load, live_load=units * CASE.live_load)
-    assert work_of(MODEL, CONTACTS, case, scaled).friction == pytest.approx([0, 0.65])
-
-
 def words(model: Any, contacts: Any, mechanics: Mechanics) -> str:
     work = work_of(model, contacts, CASE, mechanics)
     return " ".join(" ".join(work_lines(model, contacts, CASE, mechanics, work)).split())
@@ -253,10 +200,6 @@ def test_work_in_words() -> None:
     assert "strong 83.3 16.7 0.0" in words(MODEL, contacts, sliding())  # that law has cohesion
     model = replace(MODEL, joints={**MODEL.joints, "dry": Joint("dry", 0.65, cohesion=3.0)})
     assert "68.4 % friction, 31.6 % cohesion" in words(model, CONTACTS, sliding(3.0))
-
-
-def test_no_shares_where_no_load_does_work() -> None:
-    assert words(MODEL, CONTACTS, replace(sliding(), load_factor=0.0)) == ""
 
 
 @pytest.mark.parametrize(
@@ -276,25 +219,3 @@ def test_a_dead_load_that_drives_is_a_source_too(factor: float, shares: str) -> 
         mechanics, load_factor=factor, mechanism=mechanism, contact_velocities=np.zeros_like(mechanics.contact_forces)
     )
     assert shares in words(MODEL, CONTACTS, falling)
-
-
-def test_mechanism_in_the_record() -> None:
-    record = mechanism_json(MODEL, CONTACTS, CASE, tower_mechanics(), 3)
-    assert {name: record[name] for name in ("open", "slide", "stick")} == {"open": 2, "slide": 0, "stick": 6}
-    assert record["interfaces"] == {"stick": 1, "slide": 0, "open": 0, "hinge": 1, "twist": 0, "crush": 0}
-    assert (record["hinges"], record["moving_parts"], record["moving_blocks"]) == (1, 1, 1)
-    assert (record["reach"], record["moving_weight_share"]) == ("global", 0.5)
-    assert record["parts"] == [
-        {
-            "part": 1,
-            "blocks": 1,
-            "groups": {"tower": 1},
-            "weight": pytest.approx(10),
-            "motion": "turns",
-            "axis_point": pytest.approx([1, 0.5, 1]),
-            "direction": [0, 1, 0],
-        }
-    ]
-    assert record["work"]["live"] == pytest.approx(0.5)
-    assert record["work"]["dead"] == pytest.approx(-0.5)
-    assert record["work"]["groups"]["tower"]["dead"] == pytest.approx(-0.5)

@@ -46,23 +46,6 @@ def test_blocks_that_turn_together_are_one_part() -> None:
     assert part.axis_point == pytest.approx([1, 0.5, 3])
 
 
-def test_two_parts_are_numbered_by_weight() -> None:
-    model, contacts = stack(6)
-    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
-    parts = rigid_parts(model, contacts, motion)
-    assert parts.tolist() == [0, 2, 2, 1, 1, 1]
-    first, second = part_motions(model, parts, motion)
-    assert first.turns
-    assert not second.turns
-    assert second.direction == pytest.approx([1, 0, 0])
-
-
-def test_a_part_that_falls_back_to_rest_joins_the_supports() -> None:
-    """Blocks at rest above a moving one form one part with the supports, whatever they touch."""
-    model, contacts = stack(4)
-    assert rigid_parts(model, contacts, rigid(model, [1], (0, 0, 0), (0, 0, 0), (1.0, 0, 0))).tolist() == [0, 1, 0, 0]
-
-
 def test_nothing_moves_nothing_but_rest() -> None:
     model, contacts = stack(3)
     still = np.zeros((3, 6))
@@ -96,15 +79,6 @@ def test_blocks_without_contact_move_alone() -> None:
     assert rigid_parts(model, apart, motion).tolist() == [0, 2, 1]
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
-def test_parts_are_free_of_the_size_of_the_mechanism(scale: float) -> None:
-    model, contacts = stack(6)
-    motion = rigid(model, [1, 2], (0, 0, 1), (0, 0, 0), (1.0, 0, 0)) + rigid(model, [3, 4, 5], (1, 0.5, 3), (0, 1, 0))
-    parts = rigid_parts(model, contacts, scale * motion)
-    assert parts.tolist() == [0, 2, 2, 1, 1, 1]
-    assert part_motions(model, parts, scale * motion)[0].axis_point == pytest.approx([1, 0.5, 3])
-
-
 def test_a_turn_too_slight_for_its_size_is_a_travel() -> None:
     model, contacts = stack(3)
     for rotation, turns in ((1e-3, False), (0.1, True)):
@@ -119,18 +93,6 @@ def test_share_of_the_weight_that_moves_and_its_name() -> None:
     assert moving_share(model, np.array([0, 1, 0])) == pytest.approx(0.5)  # the base is fixed and does not count
     assert moving_share(replace(model, fixed=np.ones(3, dtype=bool)), np.zeros(3, dtype=np.int64)) == 0.0
     assert [reach(share) for share in (0.0, 0.1, 0.3, 0.5, 1.0)] == ["local", "local", "partial", "global", "global"]
-
-
-def test_many_parts_are_shortened_and_counted() -> None:
-    n = 40
-    model, contacts = stack(n)
-    motion = np.zeros((n, 6))
-    motion[1:, 0] = np.arange(1.0, n)  # each slides on the one below
-    parts = rigid_parts(model, contacts, motion)
-    lines = part_lines(model, part_motions(model, parts, motion))
-    assert len(part_motions(model, parts, motion)) == n - 1
-    assert "and 19 more" in lines[-1]
-    assert max(map(len, lines)) <= WIDTH
 
 
 def test_long_lists_of_blocks_give_way_to_the_rest_of_the_row() -> None:

@@ -92,15 +92,6 @@ def test_eccentricity_on_an_outline_that_turns_inwards() -> None:
     assert thrust.eccentricity == pytest.approx([0.25])
 
 
-def test_points_on_one_line() -> None:
-    contacts = horizontal_contacts([[0, 1]], [(0, 4, 0.5, 0.5, 0)])
-    forces = np.zeros((4, 3))
-    forces[:2, 0] = [1.0, 3.0]
-    thrust = thrust_of(tower_model(), replace(contacts, point_areas=np.ones(4)), forces)
-    assert thrust.points[0] == pytest.approx([3, 0.5, 0])
-    assert thrust.eccentricity == pytest.approx([0.5])
-
-
 def test_thrust_line_of_an_arch_reaches_its_edge_at_the_four_hinges() -> None:
     line = line_of(ARCH)
     mechanics = mechanics_of(solution_of(line))

@@ -120,12 +120,6 @@ def test_metres_and_millimetres_are_the_same(tmp_path: Path, two: Results) -> No
         assert all(np.abs(change.change).max() <= 1e-5 * case.load for change in case.reactions)
 
 
-def test_a_joint_law_in_other_units_that_is_not_the_same(tmp_path: Path, two: Results) -> None:
-    first = two
-    second = results_of(tmp_path, MILLIMETRES, "joints.dry.cohesion=2 kPa", name="b")
-    assert compare_results(first, second).model.joints == ("dry: cohesion 1000 in A, 2000 in B",)
-
-
 def test_blocks_in_another_order_are_matched_by_place(tmp_path: Path, two: Results) -> None:
     lines = TWO.splitlines(keepends=True)
     lines[5], lines[6] = lines[6], lines[5]
@@ -172,15 +166,6 @@ def test_another_flow_rule(tmp_path: Path) -> None:
     assert not case.differs  # one block on a level ground slides at the friction, with dilatancy or without
     # with it the motion rises by μ: tan φ = 0.3
     assert case.mechanism.angle == pytest.approx(math.degrees(math.atan(0.3)), abs=1e-2)
-
-
-def test_a_case_of_one_file_only(tmp_path: Path, two: Results) -> None:
-    first, second = two, results_of(tmp_path, TWO, cases=("push",))
-    found = compare_results(first, second)
-    assert found.only == (("pull",), ())
-    assert found.differing == 1
-    assert "pull: in A only" in comparison_text(found, ("a.h5", "b.h5"))
-    assert compare_results(second, first).only == ((), ("pull",))
 
 
 def test_a_case_that_is_not_verified(tmp_path: Path) -> None:
@@ -262,41 +247,6 @@ def test_files_that_cannot_be_compared(tmp_path: Path, capsys: pytest.CaptureFix
             assert words in captured.err
             assert len(captured.err.splitlines()) == 1
     assert main(["diff", str(good), str(good), "--tolerance", "-1"]) == 2
-
-
-def test_a_structure_that_was_moved_as_a_whole(tmp_path: Path, two: Results) -> None:
-    """Matched by name, every block elsewhere; factors, mechanisms and modes are the same."""
-    moved = TWO.replace("[0, 0, 0]", "[9, 0, 0]").replace("max: [1, 1, 1]", "max: [10, 1, 1]")
-    moved = moved.replace("min: [0, 0, 1], max: [1, 1, 2.2]", "min: [9, 0, 1], max: [10, 1, 2.2]")
-    moved = moved.replace("min: [3, 0, 0], max: [4, 1, 1]", "min: [12, 0, 0], max: [13, 1, 1]")
-    moved = moved.replace('"3.5 m"', '"12.5 m"')
-    found = compare_results(two, results_of(tmp_path, moved, name="b"))
-    assert found.differing == 0
-    assert found.model.matched_by == "name"
-    assert found.model.moved == ("pile[0]", "pile[1]", "other[0]")
-    assert all(case.mechanism.angle == pytest.approx(0.0, abs=1e-3) for case in found.cases)
-    assert all(case.modes is not None and not case.modes.interfaces for case in found.cases)
-
-
-def test_one_block_more_leaves_the_others_comparable(tmp_path: Path, two: Results) -> None:
-    """A brick of 0.05 m3 beside 3.2 m3; one as large as all others together is too much to compare motions."""
-    for size, comparable in ((0.37, True), (1.5, False)):
-        extra = f"{{group: extra, material: stone, min: [7, 0, 0], max: [{7 + size}, {size}, {size}]}}"
-        text = TWO.replace("contacts:", f"  - box: {extra}\ncontacts:")
-        found = compare_results(two, results_of(tmp_path, text, name=f"b{comparable}"))
-        assert found.model.only == ((), ("extra[0]",))
-        assert found.model.comparable is comparable
-
-
-def test_a_block_of_another_name_far_off_is_not_the_same(tmp_path: Path, two: Results) -> None:
-    """Half a block away: another block, not the same one moved."""
-    other = TWO.replace(
-        "{group: other, material: stone, min: [3, 0, 0], max: [4, 1, 1]}",
-        "{group: new, material: stone, min: [3.5, 0, 0], max: [4.5, 1, 1]}",
-    )
-    other = other.replace("group: other, index: 0", "group: new, index: 0").replace('"3.5 m"', '"4 m"')
-    found = compare_results(two, results_of(tmp_path, other, name="b"))
-    assert found.model.only == (("other[0]",), ("new[0]",))
 
 
 def test_the_angle_is_that_of_velocities_all_over_the_blocks(two: Results) -> None:

@@ -10,7 +10,7 @@ import pytest
 from mbla.model.model import Ground
 from mbla.results.diff.comparison import Comparison, compare_results
 from mbla.results.diff.matching import factors_between, match_models
-from mbla.results.diff.words import MOST_LINES, comparison_text
+from mbla.results.diff.words import comparison_text
 from tests.results.synthetic import tower_results
 
 
@@ -28,15 +28,6 @@ def text_of(comparison: Comparison) -> str:
 
 def with_case(same: Comparison, **changes: object) -> Comparison:
     return replace(same, cases=(replace(same.cases[0], **changes), *same.cases[1:]))  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("more", [0, 5])
-def test_of_a_long_diff_the_rest_is_counted(same: Comparison, more: int) -> None:
-    lines = tuple(f"+line {i + 1} of the deck" for i in range(MOST_LINES + more))
-    text = text_of(replace(same, deck_diff=lines))
-    assert f"+line {MOST_LINES} of the deck" in text
-    assert (f"+line {MOST_LINES + 1} of the deck" in text) is False
-    assert ("and 5 more lines; --json has them all" in text) is (more > 0)
 
 
 def test_without_a_motion_there_is_no_angle() -> None:

@@ -14,8 +14,6 @@ from mbla.deck.units import Units
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import Results
-from tests.results.changed_files import change
-from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import full_results, same, tower_results
 
 
@@ -66,21 +64,6 @@ def test_the_full_results_leave_no_field_at_its_default() -> None:
                 assert getattr(record, field.name) is not None, field.name
 
 
-def test_lists_that_are_empty_come_back(tmp_path: Path, results: Results) -> None:
-    bare = replace(
-        results,
-        model=replace(results.model, grounds=(), notices=(), title=""),
-        contacts=without_contacts(results.contacts),
-        cases=(),
-        notices=(),
-        settings={},
-        time={},
-    )
-    path = tmp_path / "bare.h5"
-    path.write_bytes(write_results_hdf5(bare))
-    assert same(read_results_hdf5(path), bare)
-
-
 def test_ragged_reports_come_back(tmp_path: Path, results: Results) -> None:
     report = replace(
         results.contacts.report,
@@ -103,29 +86,6 @@ def test_units_of_the_deck_come_back_and_label_the_data(tmp_path: Path, results:
     with h5py.File(path) as file:
         assert file["model/vertices"].attrs["units"] == b"mm"
         assert file["contacts/areas"].attrs["units"] == b"mm2"
-
-
-def test_same_results_give_same_bytes_but_for_the_date(results: Results, image: bytes) -> None:
-    assert write_results_hdf5(results) == image
-    assert write_results_hdf5(replace(results, created="2026-01-01T00:00:00+00:00")) != image
-
-
-def test_what_follows_from_the_mechanism_is_there_for_others(path: Path, results: Results) -> None:
-    with h5py.File(path) as file:
-        case = file["cases/push_x"]
-        assert case["parts"][()].tolist() == [0, 1, 0]
-        assert case["interfaces/modes"][()].tolist() == [3, 0]
-        assert case["interfaces/hinge_points"][0].tolist() == [1, 0.5, 1]
-        assert case["interfaces/hinge_directions"][0].tolist() == [0, 1, 0]
-        assert np.isnan(case["interfaces/hinge_points"][1]).all()
-        assert case["interfaces/rotations"].attrs["units"] == b"1/(N m)"
-
-
-def test_what_follows_from_the_mechanism_is_found_anew(path: Path, results: Results) -> None:
-    """So that a file cannot contradict itself there."""
-    change(path, "cases/push_x/parts", 7)
-    change(path, "cases/push_x/interfaces/modes", 2)
-    assert same(read_results_hdf5(path), results)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import random
 from pathlib import Path
 from typing import Any
@@ -185,20 +184,6 @@ def test_flipped_bits_are_refused_or_change_nothing(path: Path, image: bytes, re
         except FileError:
             continue
     assert unnoticed < 20
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
-def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    for name, words in (("missing.h5", "No such file"), (".", "is a folder"), ("pipe", "is not a regular file")):
-        with pytest.raises(FileError, match=words) as caught:
-            read_results_hdf5(tmp_path / name)
-        assert "synchronously" not in str(caught.value)
-
-
-def test_a_file_with_a_wrong_superblock_is_damaged(path: Path, image: bytes) -> None:
-    path.write_bytes(image[:8] + b"\xff" * 40 + image[48:])
-    assert refused(path).startswith(f"{path}: damaged: ")
 
 
 def test_a_dataset_elsewhere_or_none_at_all_is_refused(path: Path, image: bytes) -> None:

@@ -68,18 +68,6 @@ def test_every_group_opens_with_named_dimensions_units_and_values(path: Path) ->
     assert seen > 250
 
 
-def test_the_file_opens_as_a_tree(path: Path) -> None:
-    results = full_results()
-    mechanics = results.cases[0].solution.mechanics
-    assert mechanics is not None
-    with xarray.open_datatree(path, engine="h5netcdf") as tree:
-        assert {node.path.lstrip("/") for node in tree.subtree} == {"", *groups_of(path)}
-        assert tree["cases/push_x/contact_forces"].dims == ("point", "direction")
-        assert np.array_equal(tree["cases/push_x/contact_forces"].values, mechanics.contact_forces)
-        assert tree["model"].sizes["block"] == len(results.model.blocks)
-        assert not any("phony" in str(name) for node in tree.subtree for name in node.sizes)
-
-
 def test_no_dataset_has_the_name_of_a_dimension_that_it_sees() -> None:
     """netCDF takes it for the coordinate of that dimension."""
     scales = {

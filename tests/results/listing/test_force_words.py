@@ -1,9 +1,7 @@
 import numpy as np
-import pytest
 
 from mbla.results.listing.forces import force_range_lines, lock_lines
-from mbla.results.listing.text import MOST_ROWS
-from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_mechanics, tower_model
+from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
 
 MODEL, CONTACTS = tower_model(), tower_contacts()
 
@@ -31,17 +29,3 @@ def test_ranges_of_normal_forces_say_which_are_unique() -> None:
     assert "1 of 2 are unique" in words(lines)
     assert lines[-2].split()[-3:] == ["2", "unlimited", "10"]
     assert lines[-1].split()[-3:] == ["10", "10", "10"]
-
-
-@pytest.mark.parametrize("interfaces", [MOST_ROWS, MOST_ROWS + 5])
-def test_long_tables_say_how_much_they_leave_out(interfaces: int) -> None:
-    lower = np.array([[i, 0, 0] for i in range(interfaces)] + [[0, 0, 1]], float)
-    upper = lower + 1
-    upper[-1] = [interfaces, 1, 2]
-    model = tower_model()
-    model = type(model)(**{**vars(model), "blocks": cuboids(lower, upper, ["plinth"] * interfaces + ["beam"])})
-    contacts = horizontal_contacts(
-        [[i, interfaces] for i in range(interfaces)], [(i, i + 1, 0, 1, 1) for i in range(interfaces)]
-    )
-    lines = lock_lines(model, contacts, np.ones((4 * interfaces, 3)))
-    assert ("and 5 more" in lines[-1]) == (interfaces > MOST_ROWS)

@@ -55,18 +55,6 @@ def test_no_status_but_solved_reads_as_a_plain_collapse(results: Results) -> Non
         assert "0.5 g, verified" not in listing(with_case(results, status=status))
 
 
-def test_a_fall_is_told_as_any_other_failure(results: Results) -> None:
-    """The tower turns about its edge, pushed by nothing but its weight: by no load, and with no work known."""
-    certificate = np.zeros((3, 6))
-    certificate[1] = results.cases[0].solution.mechanics.mechanism[1]  # type: ignore[union-attr]
-    case = results.cases[1]
-    changed = replace(case, solution=replace(case.solution, certificate=certificate))
-    found = section(listing(replace(results, cases=(changed,))), "Load case fall")
-    assert "1 of 2 free blocks moves as one rigid part" in found
-    assert "base[0]/tower[0] 1/0 (1, 0, 1) 1 +y +x" in " ".join(found.split())
-    assert "nan" not in found
-
-
 def test_the_table_has_the_least_and_the_greatest_where_a_case_has_several() -> None:
     ranged = with_case(RESULTS, checks={"lower": 0.45, "upper": 0.52}).cases[0]
     heads, rows = answer_columns(MODEL, [FIRST, ranged, RESULTS.cases[1]])
@@ -86,23 +74,6 @@ def summary(results: Results) -> str:
     lines = summary_lines(results)
     assert max(map(len, lines)) <= WIDTH
     return " ".join(" ".join(lines).split())
-
-
-def test_associative_flow_needs_no_second_column(results: Results) -> None:
-    cases = tuple(replace(case, solution=replace(case.solution, flow_rule="associative")) for case in results.cases)
-    assert summary_lines(replace(results, cases=cases))[1].split() == ["load", "case", "status", "load", "factor"]
-
-
-@pytest.mark.parametrize("status", [Status.NOT_VERIFIED, Status.TIME_LIMIT, Status.ITERATION_LIMIT])
-def test_a_value_that_is_no_result_is_not_in_the_table(results: Results, status: Status) -> None:
-    first = results.cases[0]
-    checks = replace(first.checks, kinematic_bound=0.4, failures=(Message("yield-violation", "residual 0.1"),))
-    unsure = replace(results, cases=(replace(first, status=status, checks=checks),))
-    assert re.search(r"[A-Z ]+ +- +0\.5$", summary_lines(unsure)[2])
-    text = summary(unsure)
-    assert "no load factor; the best iterate, 0.5 g" in text
-    assert "no more than 0.4 g" in text
-    assert "hinge" not in text
 
 
 def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:

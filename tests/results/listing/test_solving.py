@@ -19,7 +19,6 @@ from mbla.results.listing.figures import (
     solver_lines,
     solver_words,
 )
-from mbla.results.listing.listing import listing
 from mbla.results.listing.model_words import FOUND, reduction_lines
 from mbla.results.listing.text import MOST_ROWS, WIDTH
 from mbla.results.record.json_record import results_json
@@ -79,16 +78,6 @@ def test_each_name_once_in_the_order_of_the_programs() -> None:
     )
 
 
-def test_the_listing_says_it_in_one_line_where_one_solver_took_all() -> None:
-    lines = listing(
-        with_programs(("associative", "mbla", "qdldl"), ("reverse", "mbla", "qdldl"), ("exact step", "", ""))
-    ).splitlines()
-    assert [line for line in lines if "condensed interior point" in line] == [
-        line for line in lines if line.split() == ["solver", "mbla", "(condensed", "interior", "point,", "qdldl)"]
-    ]
-    assert not any("other programs" in line for line in lines)
-
-
 def test_a_case_without_cone_programs_has_no_solver() -> None:
     results = with_programs(("exact step", "", ""))
     assert solver_lines(results.cases[0].solution) == []
@@ -129,10 +118,6 @@ def test_a_line_says_what_was_found_and_what_is_left() -> None:
     ]
 
 
-def test_nothing_is_said_where_nothing_was_looked_for() -> None:
-    assert reduction_lines(()) == []
-
-
 # ---  ---------------------------------------------------------------------------------------------------------------
 
 
@@ -142,10 +127,6 @@ CASE = tower_results().cases[0]
 
 def lines_of(*path: PathPoint) -> list[str]:
     return path_lines(MODEL, replace(CASE, solution=replace(CASE.solution, path=path)))
-
-
-def test_no_path_no_lines() -> None:
-    assert lines_of() == []
 
 
 def test_a_long_path_is_thinned_but_keeps_peak_and_ends() -> None:

@@ -1,8 +1,4 @@
-from typing import Any
-
-import pytest
-
-from mbla.results.listing.text import WIDTH, counted, entry, number, sentence, shortened, small, table, vector
+from mbla.results.listing.text import WIDTH, counted, entry, number, sentence, small, table, vector
 
 
 def test_sentences_are_broken_at_the_width() -> None:
@@ -32,13 +28,6 @@ def test_wide_tables_shorten_their_first_column() -> None:
     assert max(map(len, lines)) <= WIDTH
     assert "..xx" in lines[1]
     assert "end" in lines[1]
-
-
-@pytest.mark.parametrize(
-    ("text", "width", "expected"), [("arch", 4, "arch"), ("abcdefghij", 6, "ab..ij"), ("abcdefghij", 7, "ab..hij")]
-)
-def test_shortened_keeps_both_ends(text: str, width: int, expected: Any) -> None:
-    assert shortened(text, width) == expected
 
 
 def test_numbers() -> None:

@@ -48,13 +48,6 @@ def test_a_run_shows_its_table_and_one_picture(drawn: list[str]) -> None:
     assert bundle["text/plain"].startswith("<mbla run of tower.yaml")
 
 
-def test_a_case_shows_its_own(drawn: list[str]) -> None:
-    html = shown(Run(tower_results())["fall"])["text/html"]
-    assert drawn == ["fall.png"]
-    assert "no equilibrium" in html
-    assert "push_x" not in html
-
-
 def test_what_is_not_verified_stands_out(drawn: list[str]) -> None:
     results = tower_results()
     html = shown(Run(replace(results, cases=(replace(results.cases[0], status=Status.NOT_VERIFIED),))))["text/html"]
@@ -70,14 +63,6 @@ def test_without_pictures_the_table_is_there_with_the_reason(monkeypatch: pytest
     html = shown(Run(tower_results()))["text/html"]
     assert "no picture: pictures need an extra" in html
     assert "<td>push_x</td>" in html
-
-
-def test_many_cases_are_counted(drawn: list[str]) -> None:
-    results = tower_results()
-    html = shown(Run(replace(results, cases=results.cases * 20)))["text/html"]
-    assert html.count("<tr") == 1 + 30 + 1
-    assert "and 10 more" in html
-    assert len(drawn) == 1
 
 
 def test_pictures_as_notebooks_want_them(drawn: list[str], tmp_path: Path) -> None:

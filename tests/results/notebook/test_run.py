@@ -9,8 +9,8 @@ import pytest
 from mbla.errors import UsageError
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
-from mbla.solution.solution import Standing, StandingResult, Status
-from tests.results.synthetic import full_results, standing_at, tower_results
+from mbla.solution.solution import Status
+from tests.results.synthetic import standing_at, tower_results
 
 
 def one(status: Status = Status.SOLVED, **changes: Any) -> Run:
@@ -45,20 +45,6 @@ def test_no_other_status_has_a_figure(status: Status) -> None:
     assert case.record.solution.mechanics is not None
 
 
-def test_approximate_is_a_figure_but_not_verified() -> None:
-    case = one(Status.APPROXIMATE).cases[0]
-    assert case.load_factor == 0.5
-    assert not case.verified
-    assert "approximate" in case.reason
-
-
-def test_locked_in_forces_are_no_load_factor() -> None:
-    case = one(standing=StandingResult(Standing.SELF_STRESS, 1, "it hangs between walls")).cases[0]
-    assert np.isnan(case.load_factor)
-    assert not case.verified
-    assert "self-stress" in case.reason
-
-
 def test_case_without_equilibrium_has_its_motion() -> None:
     case = Run(tower_results()).case("fall")
     assert case.certificate is not None
@@ -86,11 +72,6 @@ def test_travelling_load_has_that_of_its_worst_position() -> None:
     assert run.pictured.name == "train_2"
 
 
-def test_travelling_load_with_a_position_unknown_has_none() -> None:
-    with pytest.raises(UsageError, match="train"):
-        _ = Run(travelling([0.7, 0.4], Status.NOT_VERIFIED)).load_factor
-
-
 def test_run_of_several_cases() -> None:
     run = Run(tower_results())
     assert len(run) == 2
@@ -115,22 +96,6 @@ def test_run_without_cases() -> None:
     assert "<table>" in run._repr_html_()
     with pytest.raises(UsageError, match="0 load cases"):
         _ = run.load_factor
-
-
-def test_settlement_has_its_reaction() -> None:
-    results = full_results()
-    case = replace(results.cases[0], solution=replace(results.cases[0].solution, standing=None))
-    run = Run(replace(results, cases=(case,)))
-    assert run.cases[0].reaction == pytest.approx(30.0 - 0.5 * 20.0)
-    assert run.cases[0].range == (0.45, 0.52)
-
-
-def test_tables_as_frames() -> None:
-    frames = Run(tower_results()).to_frames(["cases", "blocks"])
-    assert list(frames) == ["cases", "blocks"]
-    assert frames["cases"]["load_factor"].tolist()[0] == 0.5
-    with pytest.raises(UsageError, match="stones"):
-        Run(tower_results()).to_frames(["stones"])
 
 
 def test_the_associative_load_factor_and_the_view_of_the_only_case() -> None:

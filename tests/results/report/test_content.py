@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.figures import residual_rows
-from mbla.results.listing.text import Block, entry, heading, sentence, table
+from mbla.results.listing.text import Block, entry, sentence, table
 from mbla.results.report.content import blocks_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
@@ -70,11 +70,6 @@ def test_a_sentence_with_a_colon_is_the_caption_of_its_table() -> None:
     assert blocks_of(lines) == [Block("table", "Hinges", (("a/b", "1"), ("c/d", "2")), ("interface", "at"), 1)]
 
 
-def test_tables_that_follow_each_other_stay_apart() -> None:
-    first, second = table(["a"], [["1"]]), table(["a"], [["1"]])
-    assert len(blocks_of([*first, *second])) == 2
-
-
 def test_entries_gather_and_take_their_details_along() -> None:
     lines = [*entry("status", "solved"), *entry("stands", "yes"), *sentence("of itself", "    "), *entry("  x", "1")]
     assert blocks_of(lines) == [Block("entries", rows=(("status", "solved"), ("stands", "yes\nof itself"), ("x", "1")))]
@@ -84,12 +79,3 @@ def test_wrapped_lines_are_one_again() -> None:
     words = "word " * 60 + "end"
     assert blocks_of(sentence(words)) == [Block("paragraph", words)]
     assert blocks_of(entry("name", words)) == [Block("entries", rows=(("name", words),))]
-
-
-def test_cells_that_the_listing_shortens_are_whole() -> None:
-    long = "block" * 30
-    assert blocks_of(table(["name", "x"], [[long, "1"]])) == [Block("table", "", ((long, "1"),), ("name", "x"), 1)]
-
-
-def test_headings_and_lines_of_no_element() -> None:
-    assert blocks_of([*heading("Model"), "  plain", ""]) == [Block("title", "Model"), Block("paragraph", "plain")]

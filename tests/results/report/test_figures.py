@@ -114,12 +114,6 @@ def test_what_the_machine_cannot_draw_is_said_in_its_place(monkeypatch: pytest.M
     assert found.missing.startswith("pictures need OpenGL")
 
 
-def test_without_cases_there_is_no_picture_of_the_model() -> None:
-    found = model_figures(replace(tower_results(), cases=()))
-    assert found.pictures == ()
-    assert found.missing == ""
-
-
 @pytest.mark.parametrize("positions", [1, 3])
 def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -> None:
     results = tower_results()

@@ -76,22 +76,6 @@ def test_the_page_is_never_wider_than_the_screen(opened: Visit) -> None:
         assert any(inner > outer for inner, outer, _ in tables)  # so that something was there to overflow
 
 
-def test_the_deck_opens(opened: Visit) -> None:
-    text = opened.page.locator("#deck pre").first
-    assert not text.is_visible()
-    opened.page.locator("#deck summary").first.click()
-    assert text.is_visible()
-    assert EVIL in text.inner_text()
-
-
-def test_the_contents_lead_to_their_sections(opened: Visit) -> None:
-    opened.page.locator("nav a", has_text="Deck").click()
-    assert opened.page.url.endswith("#deck")
-    top = opened.page.locator("#deck").bounding_box()
-    assert top is not None
-    assert -1 <= top["y"] < 800
-
-
 def contrast(first: str, second: str) -> float:
     """Contrast of two colours, https://www.w3.org/TR/WCAG21/#dfn-contrast-ratio."""
 
@@ -182,26 +166,9 @@ def test_a_view_begins_when_it_is_seen_and_turns(with_views: Visit) -> None:
     assert np.abs(before - after).max() > 50
 
 
-def test_no_more_views_are_alive_than_a_browser_draws(with_views: Visit) -> None:
-    page = with_views.page
-    for i in range(MANY):
-        page.locator(f"#case-{i + 1}-view").scroll_into_view_if_needed()
-        page.wait_for_selector(f"#case-{i + 1}-view {ALIVE}")
-    assert 1 <= page.locator(ALIVE).count() <= 6
-    assert page.locator(f"#case-1-view {ALIVE}").count() == 0
-    page.locator("#case-1-view").scroll_into_view_if_needed()
-    page.wait_for_selector(f"#case-1-view {ALIVE}")
-
-
 def test_views_ask_for_nothing_and_complain_of_nothing(with_views: Visit) -> None:
     assert with_views.errors == []
     assert all(url.startswith(("data:", "blob:")) for url in with_views.requests)
     assert with_views.page.title().startswith(EVIL)
     sizes = with_views.page.evaluate("[document.documentElement.scrollWidth, window.innerWidth]")
     assert sizes[0] <= sizes[1]
-
-
-def test_the_library_is_there_once(with_views: Visit) -> None:
-    scripts = with_views.page.evaluate("[...document.scripts].map(script => script.text.length)")
-    assert sum(length > 1_000_000 for length in scripts) == 1
-    assert len(scripts) == 3 + MANY

@@ -1,4 +1,4 @@
-"""Every column of the tables of blocks, interfaces, points and cases, worked out once more by plain loops."""
+"""Every column of the tables of blocks, interfaces and points, worked out once more by plain loops."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from mbla.deck.sections.selectors import POSITIONS
-from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
@@ -227,55 +226,11 @@ def point_rows(results: Results) -> list[dict[str, Any]]:
     return rows
 
 
-def case_rows(results: Results) -> list[dict[str, Any]]:
-    rows = []
-    for case in results.cases:
-        solution, checks, mechanics = case.solution, case.checks, forces_and_motion(case)
-        row: dict[str, Any] = {"case": case.load_case.name, "status": case.status.value, "reason": solution.reason}
-        row |= {"verified": checks.verified, "failures": "; ".join(checks.failures)}
-        row |= {"remarks": "; ".join(solution.remarks), "flow_rule": solution.flow_rule, "scheme": solution.scheme}
-        row["contact_model"] = solution.contact_model
-        row["load_factor"] = mechanics.load_factor if mechanics and figures(case) == "result" else np.nan
-        row["best_iterate_load_factor"] = (
-            mechanics.load_factor if mechanics and figures(case) == "best_iterate" else np.nan
-        )
-        for name in ("static_bound", "kinematic_bound", "gap", "equilibrium_residual", "yield_violation"):
-            row[name] = getattr(checks, name)
-        for name in ("tension_violation", "penetration", "complementarity_residual", "slip_residual", "live_power"):
-            row[name] = getattr(checks, name)
-        row["power_balance"], row["peak_load_factor"] = checks.power_balance, checks.peak_load_factor
-        row["range_lower"], row["range_upper"] = (
-            (checks.lower, checks.upper) if figures(case) == "result" else (np.nan, np.nan)
-        )
-        ends = [checks.lower, checks.upper, *(solution.spread or ())] if figures(case) == "result" else []
-        known = [end for end in (row["load_factor"], *ends) if not np.isnan(end)] or [np.nan]
-        row["least_load_factor"], row["greatest_load_factor"] = min(known), max(known)
-        row["spread_lower"], row["spread_upper"] = solution.spread or (np.nan, np.nan)
-        row["programs"] = len(solution.programs)
-        row["iterations"] = sum(program.iterations for program in solution.programs)
-        row["seconds"], row["solver_seconds"] = solution.seconds, sum(program.seconds for program in solution.programs)
-        row["figures"] = figures(case)
-        rows.append(row)
-    return rows
-
-
-EXPECTED = {"blocks": block_rows, "interfaces": interface_rows, "points": point_rows, "cases": case_rows}
+EXPECTED = {"blocks": block_rows, "interfaces": interface_rows, "points": point_rows}
 ELSEWHERE = {
     "blocks": ("parts", *POSITIONS),
     "interfaces": ("modes", "eccentricity", "torsion_use", "hinge_points", "hinge_directions"),
     "points": ("friction_use",),
-    "cases": (
-        *(
-            "standing",
-            "factor_unique",
-            "associative_load_factor",
-            "angle",
-            "reaction_",
-            "moving_",
-            "tolerance_requested",
-        ),
-        *(f"{mode.name.lower()}_interfaces" for mode in InterfaceMode),
-    ),
 }
 """what follows by more than arithmetic; tested with what computes it and in test_tables.py"""
 

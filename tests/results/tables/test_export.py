@@ -15,7 +15,6 @@ from pyarrow import parquet
 
 from mbla.cli import main
 from mbla.deck.units import Units
-from mbla.errors import FileError
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, Formats, export_results, tables_of
@@ -84,23 +83,6 @@ def test_parquet_reads_back_with_units(results: Results, folder: Path, name: str
         assert notes[b"unit"].decode() == column.unit_in(table.units)
         assert notes[b"description"].decode() == column.words
     assert schema.metadata[b"deck"] == b"tower.yaml"
-
-
-def test_only_what_is_asked_for(results: Results, tmp_path: Path) -> None:
-    paths = export_results(results, tmp_path, "t", Formats(), ["fall"], ["blocks", "cases"])
-    assert [path.name for path in paths] == ["t_blocks.csv", "t_cases.csv"]
-    assert set(pandas.read_csv(tmp_path / "t_blocks.csv")["case"]) == {"fall"}
-
-
-def test_files_that_are_there_are_kept(results: Results, tmp_path: Path) -> None:
-    (tmp_path / "t_points.csv").write_text("mine")
-    with pytest.raises(FileError, match=r"t_points\.csv: exists already"):
-        export_results(results, tmp_path, "t", Formats())
-    assert [path.name for path in tmp_path.iterdir()] == ["t_points.csv"]
-    assert (tmp_path / "t_points.csv").read_text() == "mine"
-    export_results(results, tmp_path, "t", Formats(), force=True)
-    assert len(list(tmp_path.iterdir())) == len(TABLES)
-    assert (tmp_path / "t_points.csv").read_text().startswith("case,")
 
 
 def test_the_command_writes_beside_the_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
