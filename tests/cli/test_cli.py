@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
-from mbla.program.resultants import assemble_convex, convex_form
-from tests.line import BLOCK, WALL, line_of
+from tests.line import BLOCK
 
 TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)
 
@@ -146,45 +145,6 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     assert {path.suffix for path in deck.with_suffix(".out").iterdir()} == {".vtu"}
 
 
-def test_check_counts_the_program_of_interface_resultants(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The unknowns and cones of the conditions, of torsion here, beside those of the points."""
-    _, (record,), _ = run_json(capsys, "check", deck, "--json", "--set", "analysis.contact_model=convex")
-    (needs,) = record["needs"].values()
-    line = line_of(BLOCK, "analysis.contact_model=convex")
-    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    (program,) = (convex_form(convex).cone_program,)
-    n_cones = program.n_cones + sum(size > 1 for size in program.further_cones)
-    assert needs["unknown_velocities"] == len(convex.program.dead_load) > 6
-    assert (needs["cones"], needs["matrix_entries"]) == (n_cones, program.matrix.nnz)
-    assert needs["half_lines"] == program.n_half_lines + program.further_cones.count(1) > 0
-    (glued,) = needs["reductions"]
-    assert glued["after"]["unknowns"] == needs["unknown_velocities"]
-    assert glued["after"]["cones"] == n_cones
-
-
-@pytest.mark.parametrize(
-    ("units", "asked", "taken"),
-    [
-        (2, "auto", "clarabel"),
-        (20, "auto", "mbla"),
-        (2, "mbla", "mbla"),
-        (20, "clarabel", "clarabel"),
-        (2, "highs", "highs"),
-    ],
-)
-def test_check_says_which_solver_the_run_takes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], units: int, asked: str, taken: str
-) -> None:
-    path = tmp_path / "wall.yaml"
-    path.write_text(WALL, encoding="utf-8")
-    options = ["--json", "--set", f"parameters.n={units}", "--set", f"analysis.solver={asked}"]
-    _, (record,), _ = run_json(capsys, "check", path, *options)
-    assert record["needs"]["push"]["solver"] == taken
-    code, (record,), _ = run_json(capsys, "run", path, *options)
-    (case,) = record["cases"]
-    assert (code, case["solver"]["asked"], case["solver"]["used"][0]) == (0, asked, taken)
-
-
 def test_show_and_verify_read_the_result_file_alone(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["run", str(deck), "-q"])
     listing = (deck.with_suffix(".out") / "block.lst").read_text()
@@ -223,10 +183,3 @@ def test_an_internal_error_is_one_line(
     monkeypatch.setenv("MBLA_TRACEBACK", "1")
     assert main(["run", str(deck)]) == 1
     assert "Traceback" in capsys.readouterr().err
-
-
-def test_json_and_verbose_keep_the_listing_off_standard_output(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, records, err = run_json(capsys, "run", deck, "--json", "-v")
-    assert code == 0
-    assert len(records) == 1
-    assert err == (deck.with_suffix(".out") / "block.lst").read_text()

@@ -5,15 +5,13 @@ from __future__ import annotations
 import argparse
 import errno
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mbla import cli
-from mbla.cli import build_parser, wants_json
-from mbla.errors import LimitError
+from mbla.cli import build_parser
 from mbla.process.signals import Terminated
 from mbla.results.explanations import explanations
 from mbla.results.hdf5.result_file import write_results_hdf5
@@ -39,14 +37,6 @@ def commands() -> dict[str, argparse.ArgumentParser]:
         action.choices for action in build_parser()._actions if isinstance(action, argparse._SubParsersAction)
     )
     return {name: parser for name, parser in choices.items() if "--json" in parser.format_help()}
-
-
-def wrong_values() -> Iterator[tuple[str, ...]]:
-    """Every option that takes only some values, with one that it does not take."""
-    for name, parser in commands().items():
-        for action in parser._actions:
-            if action.option_strings and (action.choices or action.type not in (None, Path)):
-                yield (name, action.option_strings[-1], "," if action.dest == "table" else "-")
 
 
 @pytest.fixture(scope="module")
@@ -159,19 +149,12 @@ def test_arguments_that_are_missing_or_unknown(name: str, capsys: pytest.Capture
         assert failure(capsys, name, *arguments)["identifiers"] == ["command-line"]
 
 
-@pytest.mark.parametrize("arguments", list(wrong_values()), ids=" ".join)
-def test_every_option_with_a_wrong_value(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
-    record = failure(capsys, *arguments)
-    assert (record["exit_code"], record["identifiers"]) == (2, ["command-line"])
-
-
 @pytest.mark.parametrize(
     ("error", "status", "name"),
     [
-        *((KeyboardInterrupt(), 130, name) for name in commands()),
+        (KeyboardInterrupt(), 130, "run"),
         (Terminated(), 143, "show"),
         (MemoryError(), 7, "show"),
-        (LimitError("out-of-memory", "out of memory"), 7, "show"),
         (OSError(errno.EACCES, "Permission denied", "place"), 6, "show"),
         (ZeroDivisionError("float division by zero"), 1, "show"),
     ],
@@ -190,9 +173,3 @@ def test_whatever_ends_a_command(
     monkeypatch.setattr(cli, "refuse_too_low_limits", broken)
     files = {"diff": ["a", "b"], "explain": []}.get(name, ["a"])
     assert failure(capsys, name, *files)["exit_code"] == status
-
-
-def test_json_may_be_shortened_and_stands_before_the_files() -> None:
-    assert wants_json(["run", "--js", "a"])
-    assert not wants_json(["run", "--", "--json"])
-    assert not wants_json(["sweep", "-j", "2", "--j"])

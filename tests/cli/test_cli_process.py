@@ -89,16 +89,6 @@ def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: P
     assert title in listing
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
-def test_a_file_name_that_is_no_text_is_refused(tmp_path: Path) -> None:
-    name = os.fsdecode(bytes(tmp_path) + b"/q\xff.yaml")
-    written(Path(name), BLOCK)
-    done = mbla("run", name, "--json", stdout=subprocess.PIPE)
-    assert done.returncode == json.loads(done.stdout)["exit_code"] == 6
-    assert b"not UTF-8" in done.stderr
-    assert len(list(tmp_path.iterdir())) == 1
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_standard_output_that_takes_nothing(deck: Path) -> None:
     main(["run", str(deck), "-q"])
@@ -117,12 +107,3 @@ def test_a_reader_that_goes_away_is_no_error_of_ours(deck: Path) -> None:
     os.close(write_end)
     assert done.returncode == 6
     assert done.stderr == b""
-
-
-def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
-    gone = tmp_path / "gone"
-    gone.mkdir()
-    command = f"cd {gone} && rmdir {gone} && exec {sys.executable} -m mbla check x.yaml"
-    done = subprocess.run(["sh", "-c", command], capture_output=True, check=False)
-    assert done.returncode == 6
-    assert b"the current folder does not exist" in done.stderr

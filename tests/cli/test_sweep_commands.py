@@ -10,10 +10,7 @@ from typing import Any
 
 import pytest
 
-from mbla.cli import main, sweep_commands
-from mbla.cli.sweep_commands import NAMED_FAILURES, _Reporter
-from mbla.sweeps.plan import Outcome, Task
-from mbla.sweeps.words import Progress
+from mbla.cli import main
 from tests.line import BLOCK
 
 SWEEP = "mbla_sweep: 1\ndeck: block.yaml\nparameters: {mu: {values: [0.4, 0.5]}}\n"
@@ -49,17 +46,6 @@ def test_a_faulty_sweep_file_is_told_as_an_object_too(
     assert not sweep.with_suffix(".out").exists()
 
 
-def test_a_faulty_base_deck_is_told_under_the_name_of_the_sweep(
-    sweep: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (sweep.parent / "block.yaml").write_text(BLOCK + "surplus: 1\n", encoding="utf-8")
-    code, record, lines = failure(capsys, "sweep", sweep, "--json")
-    assert code == record["exit_code"] == 3
-    assert record["sweep"] == "friction.yaml"
-    assert record["errors"] == lines
-    assert "block.yaml" in lines[0]
-
-
 @pytest.mark.parametrize("gone", ["closed", "broken"])
 def test_a_sweep_goes_on_where_nobody_reads_what_it_says(
     sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, gone: str
@@ -87,43 +73,3 @@ def test_a_dry_run_tells_the_points_and_writes_nothing(sweep: Path, capsys: pyte
     assert (code, lines) == (0, [])
     assert (record["sweep"], record["different"], len(record["keys"])) == ("friction.yaml", 2, 2)
     assert not sweep.with_suffix(".out").exists()
-
-
-def told(monkeypatch: pytest.MonkeyPatch, *, terminal: bool) -> tuple[_Reporter, list[str], list[str]]:
-    """A reporter, the lines that it says, and those that it writes over each other."""
-    said: list[str] = []
-    rewritten: list[str] = []
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal, raising=False)
-    monkeypatch.setattr(sweep_commands, "say", lambda text, _: said.append(text))
-    monkeypatch.setattr(sweep_commands, "rewrite_line", rewritten.append)
-    monkeypatch.setattr(sweep_commands, "clear_line", lambda _: None)
-    return _Reporter(), said, rewritten
-
-
-def test_of_many_points_that_fail_the_first_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    reporter, said, rewritten = told(monkeypatch, terminal=False)
-    progress = Progress(100)
-    for number in range(1, NAMED_FAILURES + 5):
-        reporter(progress, Task("key", number, {}), Outcome("key", "failed", 1, "no disk", {}, 1, 0.1))
-    assert said == [
-        *(f"mbla: point {number} failed: no disk" for number in range(1, NAMED_FAILURES + 1)),
-        "mbla: more points failed: the journal has their reasons",
-    ]
-    assert rewritten == []
-
-
-def test_progress_is_a_bar_on_a_terminal_and_a_line_now_and_then_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    progress, solved = Progress(4, earlier=1), Outcome("key", "done", 0, "", {}, 1, 0.1)
-    reporter, said, rewritten = told(monkeypatch, terminal=True)
-    reporter(progress, None, None)
-    progress.add(failed=False, seconds=1.0)
-    reporter(progress, Task("key", 1, {}), solved)
-    assert said == []
-    assert rewritten == ["[........................] 0 of 4 points", "[######..................] 1 of 4 points"]
-    reporter, said, rewritten = told(monkeypatch, terminal=False)
-    reporter(progress, None, None)
-    reporter(progress, Task("key", 1, {}), solved)
-    monkeypatch.setattr(sweep_commands, "BETWEEN_LINES", 0.0)
-    reporter(progress, Task("key", 1, {}), solved)
-    assert said == ["mbla: 4 points to solve, 1 are in the journal", "mbla: 1 of 4 points"]
-    assert rewritten == []

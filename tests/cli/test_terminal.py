@@ -5,15 +5,11 @@ from __future__ import annotations
 import os
 import pty
 import struct
-import sys
 import termios
 from fcntl import ioctl
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
-from mbla.cli import decks
 from mbla.cli.terminal import WIDTH, clear_line, line_width, rewrite_line
 
 
@@ -37,24 +33,3 @@ def test_a_line_is_never_wider_than_the_terminal(monkeypatch: pytest.MonkeyPatch
 def test_what_is_no_terminal_has_a_width_too(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stderr", None)
     assert line_width() == WIDTH
-
-
-def shown(monkeypatch: pytest.MonkeyPatch, module: Any, *, terminal: bool = True) -> list[str]:
-    """Texts that a module writes over each other."""
-    texts: list[str] = []
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal, raising=False)
-    monkeypatch.setattr(module, "rewrite_line", texts.append)
-    return texts
-
-
-def test_iterations_of_a_load_case(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts = shown(monkeypatch, decks)
-    show = decks._progress()
-    assert show is not None
-    show("push", SimpleNamespace(program=2, iteration=7, load_factor=0.123456789))  # type: ignore[arg-type]
-    assert texts == ["push: program 2, iteration 7, load factor 0.123457"]
-
-
-def test_nothing_off_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    shown(monkeypatch, decks, terminal=False)
-    assert decks._progress() is None

@@ -3,8 +3,6 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-import pytest
-
 from mbla.deck import read_deck
 from mbla.errors import Message
 from tests.deck.decks import BLOCK, changed, faults, write
@@ -56,14 +54,6 @@ def test_what_both_define_names_both_places(tmp_path: Path) -> None:
     ]
 
 
-def test_two_included_files_may_not_define_the_same(tmp_path: Path) -> None:
-    write(tmp_path, "materials: {brick: {density: 1}}\n", "a.yaml")
-    write(tmp_path, "materials: {brick: {density: 1}}\n", "b.yaml")
-    assert faults(write(tmp_path, INCLUDING.replace("more.yaml", "a.yaml, b.yaml"))) == [
-        "b.yaml:1:13 materials.brick: is defined in a.yaml:1:13 too"
-    ]
-
-
 def test_version_may_stand_in_each_file_but_not_differ(tmp_path: Path) -> None:
     write(tmp_path, "mbla: 1\n", "more.yaml")
     path = write(tmp_path, INCLUDING)
@@ -106,12 +96,6 @@ def test_link_out_of_the_folder(tmp_path: Path) -> None:
     ]
 
 
-def test_link_within_the_folder(tmp_path: Path) -> None:
-    target = write(tmp_path, "materials: {brick: {density: 1}}\n", "library/bricks.yaml")
-    (tmp_path / "more.yaml").symlink_to(target)
-    assert "brick" in read_deck(write(tmp_path, INCLUDING)).content.materials
-
-
 def test_cycles(tmp_path: Path) -> None:
     path = write(tmp_path, INCLUDING)
     write(tmp_path, "include: [deck.yaml]\n", "more.yaml")
@@ -120,23 +104,9 @@ def test_cycles(tmp_path: Path) -> None:
     assert faults(path) == ["more.yaml:1:11 include[0] = more.yaml: includes itself"]
 
 
-def test_links_that_go_round(tmp_path: Path) -> None:
-    (tmp_path / "more.yaml").symlink_to(tmp_path / "more.yaml")
-    (message,) = faults(write(tmp_path, INCLUDING))
-    assert message.startswith("deck.yaml:3:11 include[0] = more.yaml: cannot be ")
-
-
 def test_pipe(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "more.yaml")
     assert faults(write(tmp_path, INCLUDING)) == ["deck.yaml:3:11 include[0] = more.yaml: is not a regular file"]
-
-
-def test_text_that_is_no_deck(tmp_path: Path) -> None:
-    path = write(tmp_path, INCLUDING)
-    write(tmp_path, "", "more.yaml")
-    assert faults(path) == ["more.yaml:1:1 is empty: a deck is a mapping that begins with mbla: 1"]
-    (tmp_path / "more.yaml").write_bytes(b"a: \xff\n")
-    assert faults(path) == ["more.yaml:1:4 byte 0xFF is not UTF-8: save the deck as UTF-8"]
 
 
 def test_number_of_files_is_limited(tmp_path: Path) -> None:
@@ -144,13 +114,6 @@ def test_number_of_files_is_limited(tmp_path: Path) -> None:
         write(tmp_path, f"include: [f{number + 1}.yaml]\n", f"f{number}.yaml")
     (message,) = faults(write(tmp_path, INCLUDING.replace("more.yaml", "f0.yaml")))
     assert "at most 100 are read" in message
-
-
-@pytest.mark.parametrize("entry", ["7", "[more.yaml]", "{file: more.yaml}"])
-def test_entries_that_are_no_names(tmp_path: Path, entry: str) -> None:
-    assert faults(write(tmp_path, INCLUDING.replace("[more.yaml]", f"[{entry}]")))[0].startswith(
-        "deck.yaml:3:11 include[0]"
-    )
 
 
 def test_what_an_included_file_supplies_is_not_missing(tmp_path: Path) -> None:

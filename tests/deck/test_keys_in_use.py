@@ -15,11 +15,8 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.sections.supports import Support
 from mbla.model.geometry import READERS
-from mbla.model.loads.kinds import LOAD_KINDS
 from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
-
-MODEL = Path(__file__).parents[1] / "model"
 
 UNUSED: dict[str, str] = {
     "AnalysisSection": "force_ranges gap interior max_iterations peak proximal range reductions residual "
@@ -33,10 +30,6 @@ UNUSED: dict[str, str] = {
     "SymmetryPlane": "z",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""
-
-LOAD_TESTS = dict.fromkeys(("gravity", "acceleration", "force", "moment"), "test_load_case")
-READER_TESTS = {"meshio_files": (".vtu", ".msh", ".ply"), "compas_json": (".json",), "gltf": (".gltf", ".glb")}
-"""Test files of those that are not tested in a file of their own name."""
 
 
 @pytest.fixture(scope="module")
@@ -71,17 +64,3 @@ def test_every_built_in_joint_law_is_in_a_deck(contents: list[DeckContent]) -> N
 def test_every_kind_of_geometry_file_is_in_a_deck(contents: list[DeckContent]) -> None:
     used = {Path(item.mesh.file).suffix.lower() for each in contents for item in each.blocks if item.mesh is not None}
     assert set(READERS) - {".glb"} == used  # .glb is .gltf in one binary file: tests/model/geometry/test_gltf.py
-
-
-@pytest.mark.parametrize("kind", EXACTLY_ONE[Load])
-def test_every_kind_of_load_has_a_test_file(kind: str) -> None:
-    assert kind in LOAD_KINDS or kind in ("loads", "travel", "tilt")  # these make a case, or stand for other loads
-    name = {"loads": "test_load_case"}.get(kind, LOAD_TESTS.get(kind, f"test_{kind}"))
-    assert f"{{{kind}: " in (MODEL / "loads" / f"{name}.py").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize("extension", READERS)
-def test_every_reader_has_a_test_file(extension: str) -> None:
-    name = next((file for file, extensions in READER_TESTS.items() if extension in extensions), extension[1:])
-    text = (MODEL / "geometry" / f"test_{name}.py").read_text(encoding="utf-8")
-    assert extension in text

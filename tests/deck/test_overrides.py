@@ -45,18 +45,9 @@ def test_lists_and_mappings(path: Path) -> None:
     assert (content.joints["dry"].friction, content.joints["dry"].cohesion) == (0.7, 5.0)
 
 
-def test_section_that_the_deck_leaves_to_its_defaults(path: Path) -> None:
-    assert read_deck(path, ["analysis.published.slope=0.1"]).content.analysis.published.slope == 0.1
-
-
 def test_name_with_a_dot(tmp_path: Path) -> None:
     path = write(tmp_path, BLOCK.replace("stone", "stone.v2"))
     assert read_deck(path, ["materials.stone.v2.density=5"]).content.materials["stone.v2"].density == 5.0
-
-
-def test_new_load_case_as_a_whole(path: Path) -> None:
-    cases = read_deck(path, ["load_cases.pull={live: [{acceleration: [-1, 0, 0]}]}"]).content.load_cases
-    assert list(cases) == ["push", "pull"]
 
 
 def test_place_is_the_override(path: Path) -> None:
@@ -106,11 +97,6 @@ def test_faults_of_deck_and_overrides_together(tmp_path: Path) -> None:
         "--set:2:20 contacts.tolerance = 2: must be <= 0.1",
         "deck.yaml:6:20 materials.stone.density = -1: must be > 0",
     ]
-
-
-def test_override_mends_a_fault(tmp_path: Path) -> None:
-    path = write(tmp_path, changed("density: 2000", "density: -1"))
-    assert read_deck(path, ["materials.stone.density=1"]).content.materials["stone"].density == 1.0
 
 
 def test_a_path_of_very_many_keys_is_refused_at_once() -> None:

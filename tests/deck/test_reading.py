@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import errno
-import gc
 from pathlib import Path
 
 import pytest
@@ -10,7 +8,7 @@ from hypothesis import strategies as st
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError, Fault, Message, Place
-from tests.deck.decks import BLOCK, changed, faults, write
+from tests.deck.decks import BLOCK, changed, write
 
 COMPLETE = """mbla: 1                                  # deck format version, required
 title: Running-bond wall with an opening, pushed in its plane
@@ -145,14 +143,6 @@ def test_hash_depends_on_the_texts_alone(tmp_path: Path) -> None:
     assert len({first.sha256, *(deck.sha256 for deck in others)}) == 5
 
 
-def test_hash_changes_with_an_included_text(tmp_path: Path) -> None:
-    path = write(tmp_path, changed("units:", "include: [more.yaml]\nunits:"))
-    write(tmp_path, "output: {frames: 5}\n", "more.yaml")
-    first = read_deck(path).sha256
-    write(tmp_path, "output: {frames: 6}\n", "more.yaml")
-    assert read_deck(path).sha256 != first
-
-
 def test_file_beside_the_deck(tmp_path: Path) -> None:
     deck = read_deck(write(tmp_path, FRAGMENTS))
     found = write(tmp_path, "v 0 0 0\n", "crossvault.obj")
@@ -187,20 +177,6 @@ def test_file_named_in_an_included_deck_is_beside_that_deck(tmp_path: Path) -> N
     assert deck.resolve_file(("blocks", 0, "mesh", "file"), "vault.obj") == found.resolve()
 
 
-def test_collector_runs_again_after_reading(tmp_path: Path) -> None:
-    path = write(tmp_path, BLOCK)
-    read_deck(path)
-    assert gc.isenabled()
-    faults(path, "parameters.mu=x")
-    assert gc.isenabled()
-
-
-def test_fault_without_units_is_not_lost(tmp_path: Path) -> None:
-    assert faults(write(tmp_path, changed("length: m,", "length: [m],"))) == [
-        "deck.yaml:3:17 units.length = [m]: must be m, mm, cm, ft or in"
-    ]
-
-
 PIECES = st.sampled_from(
     [*BLOCK.split(" "), "[", "]", "{", "}", "true", "-1", ".nan", "~", "=mu", '"=mu"', "x: 1", "\n", "- "]
 )
@@ -222,19 +198,3 @@ def _faults(path: Path) -> tuple[Fault, ...]:
     except DeckError as error:
         return error.faults or (Fault(Place("", 0, 0), "", Message("not-yaml", "")),)
     return ()
-
-
-def test_file_that_may_not_be_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = write(tmp_path, FRAGMENTS)
-    write(tmp_path, "v 0 0 0\n", "crossvault.obj")
-    deck = read_deck(path)
-
-    def refuse(self: Path, mode: str) -> None:
-        raise PermissionError(errno.EACCES, "Permission denied")
-
-    monkeypatch.setattr(Path, "open", refuse)
-    with pytest.raises(DeckError) as caught:
-        deck.resolve_file(("blocks", 1, "mesh", "file"), "crossvault.obj")
-    assert str(caught.value) == (
-        f"{path}:10:49 blocks[1].mesh.file = crossvault.obj: cannot be opened: Permission denied"
-    )

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from mbla.deck import read_deck
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
-from mbla.deck.references import SIDE_FILES, find, groups, side_files
+from mbla.deck.references import SIDE_FILES, side_files
 from mbla.deck.suggestions import did_you_mean, listed
 from tests.deck.decks import BLOCK, changed, faults, write
 
@@ -39,19 +39,6 @@ def test_names_are_compared_even_where_sections_are_broken(tmp_path: Path, secti
     messages = faults(write(tmp_path, BLOCK.replace("materials:\n  stone: {density: 2000}", section)))
     assert any("must be a mapping" in message for message in messages)
     assert len([message for message in messages if "unknown material" in message]) == ("stone:" not in section)
-
-
-def test_patterns() -> None:
-    data = {"a": [{"b": 1}, {"b": 2}, 3], "c": {"d": {"e": 4}, "f": [5]}}
-    assert list(find(data, ["a", "#", "b"])) == [(("a", 0, "b"), 1), (("a", 1, "b"), 2)]
-    assert list(find(data, ["c", "*", "e"])) == [(("c", "d", "e"), 4)]
-    assert list(find(data, ["c", "#"])) == []
-    assert list(find(data, ["a", "*"])) == []
-
-
-def test_groups_of_broken_items_do_no_harm() -> None:
-    assert list(groups({"blocks": [{"box": 5}, 3, {"box": {"group": 7}}, {"bx": {}}, {"wall": {}}]})) == ["wall"]
-    assert list(groups({"blocks": "none"})) == []
 
 
 DECK = {
@@ -101,26 +88,6 @@ def test_of_a_whole_deck() -> None:
     }
 
 
-def test_of_a_value_below_the_deck() -> None:
-    for path, name in side_files(DECK):
-        for length in range(len(path) + 1):
-            ((_, value),) = find_value(path[:length])
-            assert (path, name) in set(side_files(value, path[:length]))
-    assert list(side_files("a.obj", ("blocks", 0, "mesh", "units"))) == []
-    assert list(side_files("a.obj", ("blocks", 0, "mesh", "file", "more"))) == []
-
-
-def test_what_is_no_name_stands_for_no_file() -> None:
-    assert list(side_files({"blocks": [{"mesh": {"file": 7}}], "contacts": {"table": ["c.csv"]}})) == []
-
-
-def find_value(path: tuple[str | int, ...]) -> list[tuple[Any, Any]]:
-    value: Any = DECK
-    for key in path:
-        value = value[key]
-    return list(find(value, []))
-
-
 @pytest.mark.parametrize(
     ("word", "meant"),
     [("fricton", "friction"), ("Friction", "friction"), ("non-associative", "non_associative"), ("zzz", ""), ("", "")],
@@ -129,10 +96,6 @@ def test_did_you_mean(word: str, meant: str) -> None:
     assert did_you_mean(word, ["friction", "cohesion", "non_associative"]) == (
         f"; did you mean {meant}?" if meant else ""
     )
-
-
-def test_hostile_length() -> None:
-    assert did_you_mean("x" * 100_000, ["friction"] * 100) == ""
 
 
 def test_among_many_names() -> None:

@@ -1,24 +1,26 @@
-"""What the rules accept; what they refuse is in tests/invalid_decks.
+"""What the rules accept, and what is told of it; what they refuse is in tests/invalid_decks.
 
-What does not go with ``contact_model: convex`` is refused in one line each.
-
-A key that is given and has no effect is said to have none; one that has an effect is not.
+A key that is given and has no effect is said to have none; one that has an effect is not. One word for accuracy
+sets every knob; a knob that the deck gives wins.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
 from mbla.deck import read_deck
-from mbla.deck.section import EXACTLY_ONE, KINDS, RULES, Rule, Section
-from mbla.deck.sections.analysis import APPLIES, AnalysisSection
+from mbla.deck.section import RULES, Rule
+from mbla.deck.sections.accuracy import PRESETS, Accuracy, Knobs, knobs_of
+from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import DeckError, Finding
-from tests.deck.decks import changed, write
-from tests.line import BLOCK, line_of
+from tests import line
+from tests.deck.decks import BLOCK, changed, write
+from tests.line import line_of
 
 WALL = (
     "wall: {group: block, material: stone, unit: [0.4, 0.2, 0.175], length: 2, courses: 6, "
@@ -67,16 +69,6 @@ def test_box_of_a_group_that_several_items_make(tmp_path: Path) -> None:
     assert len(deck.content.blocks) == 2
 
 
-def test_exactly_one_names_keys_of_the_types() -> None:
-    for section, keys in EXACTLY_ONE.items():
-        assert issubclass(section, Section)
-        assert set(keys) <= set(section.model_fields)
-
-
-def test_long_lists_of_kinds_have_a_name() -> None:
-    assert set(KINDS) == {section for section, keys in EXACTLY_ONE.items() if len(keys) > 8}
-
-
 def test_every_rule_is_broken_by_a_faulty_deck(monkeypatch: pytest.MonkeyPatch) -> None:
     of_decks = {section: RULES[section] for section in RULES if section.__module__.startswith("mbla.deck.")}
     broken: set[Rule] = set()
@@ -97,23 +89,7 @@ def test_every_rule_is_broken_by_a_faulty_deck(monkeypatch: pytest.MonkeyPatch) 
     assert {check for checks in of_decks.values() for check in checks} == broken
 
 
-CONVEX = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {contact_model: convex}")
-
-
-@pytest.mark.parametrize(
-    "override",
-    [
-        "analysis.flow_rule=associative",
-        "analysis.scheme=proximal",
-        "analysis.solver=clarabel",
-        "contacts.points.per_edge=2",
-    ],
-)
-def test_what_goes_with_it(override: str) -> None:
-    assert line_of(CONVEX, override).deck.analysis.contact_model == "convex"
-
-
-WITHOUT = BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {}")
+WITHOUT = line.BLOCK.replace("analysis: {flow_rule: associative}", "analysis: {}")
 
 
 def idle(*overrides: str) -> list[str]:
@@ -150,5 +126,90 @@ def test_keys_that_are_not_given_are_not_mentioned() -> None:
     assert idle() == idle("analysis.flow_rule=associative") == []
 
 
-def test_every_entry_is_a_key() -> None:
-    assert set(APPLIES) <= set(AnalysisSection.model_fields)
+LIVE_2 = "    live: [{acceleration: [1, 0, 0]}]\n"
+
+
+def notices(folder: Path, text: str) -> list[str]:
+    path = write(folder, text)
+    return [str(notice).replace(f"{folder}/", "") for notice in read_deck(path).notices]
+
+
+def test_none_for_the_working_deck(tmp_path: Path) -> None:
+    assert notices(tmp_path, BLOCK) == []
+
+
+def test_gravity_in_metres_in_a_deck_in_millimetres(tmp_path: Path) -> None:
+    text = changed(LIVE_2, "    dead: [{gravity: [0, 0, -9.81]}]\n" + LIVE_2).replace("length: m", "length: mm")
+    assert notices(tmp_path, text) == [
+        "warning [gravity-unusual]: deck.yaml:16:22 load_cases.push.dead[0].gravity = [0, 0, -9.81]: "
+        "is 0.00981 m/s^2, not 9.81: its numbers are in mm/s^2"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("length", "gravity"),
+    [
+        ("m", "[0, 0, -9.80665]"),
+        ("m", "[0, -9.8, 0]"),
+        ("mm", "[0, 0, -9810]"),
+        ("ft", "[0, 0, -32.174]"),
+        ("mm", '[0, 0, "-9.81 m/s^2"]'),
+        ("m", "[6.94, 0, -6.94]"),
+        ("m", "[0, 0, 0]"),
+    ],
+)
+def test_usual_gravity(tmp_path: Path, length: str, gravity: str) -> None:
+    text = changed(LIVE_2, f"    dead: [{{gravity: {gravity}}}]\n" + LIVE_2).replace("length: m", f"length: {length}")
+    assert notices(tmp_path, text) == []
+
+
+def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
+    (notice,) = notices(tmp_path, changed(LIVE_2, "    live: [{gravity: [0, 0, -9.5]}]\n"))
+    assert notice.startswith(
+        "warning [gravity-unusual]: deck.yaml:16:22 load_cases.push.live[0].gravity = [0, 0, -9.5]"
+    )
+
+
+def test_names_that_nothing_uses(tmp_path: Path) -> None:
+    text = changed("{mu: 0.6}", "{mu: 0.6, nu: 1, xi: '=nu'}").replace(
+        "joints:\n", "  brick: {density: 1}\njoints:\n  wet: {friction: 1}\n"
+    )
+    assert notices(tmp_path, text) == [
+        "notice [parameter-unused]: deck.yaml:4:34 parameters.xi is not used",
+        "notice [material-unused]: deck.yaml:7:3 materials.brick is not used",
+        "notice [joint-unused]: deck.yaml:9:3 joints.wet is not used",
+    ]
+
+
+# One word sets every knob; a knob that the deck gives wins.
+
+
+OTHER: dict[str, Any] = {
+    "tolerance": 1e-5,
+    "gap": 1e-4,
+    "residual": 1e-5,
+    "forces": "solver",
+    "range": False,
+    "peak": False,
+    "standing": False,
+}
+"""A value of each knob that no preset has, or standard has not."""
+
+
+@pytest.mark.parametrize("accuracy", get_args(Accuracy))
+def test_a_preset_sets_every_knob(accuracy: Accuracy) -> None:
+    section = AnalysisSection(accuracy=accuracy, flow_rule="associative")
+    assert knobs_of(section) == PRESETS[accuracy]
+
+
+@pytest.mark.parametrize("knob", [field.name for field in fields(Knobs)])
+@pytest.mark.parametrize("accuracy", ["standard", "reference"])
+def test_a_knob_that_is_given_wins_and_turns_alone(accuracy: Accuracy, knob: str) -> None:
+    found = line_of(line.WALL, f"analysis.accuracy={accuracy}", f"analysis.{knob}={str(OTHER[knob]).lower()}")
+    assert asdict(knobs_of(found.deck.analysis)) == asdict(PRESETS[accuracy]) | {knob: OTHER[knob]}
+
+
+def test_a_draft_assesses_the_standing_where_its_claim_depends_on_it() -> None:
+    assert not knobs_of(AnalysisSection(accuracy="draft", flow_rule="associative")).standing
+    assert knobs_of(AnalysisSection(accuracy="draft", flow_rule="non_associative")).standing
+    assert not knobs_of(AnalysisSection(accuracy="draft", flow_rule="non_associative", standing=False)).standing

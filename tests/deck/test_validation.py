@@ -72,15 +72,6 @@ def test_fault_beside_an_unreadable_value_is_still_reported(tmp_path: Path) -> N
     ]
 
 
-def test_faults_in_a_mapping_whose_first_key_is_refused(tmp_path: Path) -> None:
-    assert faults(
-        write(tmp_path, changed("  stone: {density: 2000}", "  1: {density: 5}\n  stone: {density: -1}"))
-    ) == [
-        'deck.yaml:6:3 materials: a key must be text: write "1" in quotes',
-        "deck.yaml:7:20 materials.stone.density = -1: must be > 0",
-    ]
-
-
 def test_root_that_is_no_mapping_and_faulty_itself(tmp_path: Path) -> None:
     assert faults(write(tmp_path, "- .nan\n")) == [
         "deck.yaml:1:1 is not a mapping: a deck is a mapping that begins with mbla: 1",
@@ -93,20 +84,6 @@ def test_users_of_a_faulty_parameter_are_not_reported(tmp_path: Path) -> None:
         messages = faults(write(tmp_path, changed("{mu: 0.6}", f"{{mu: {value}}}")))
         assert len(messages) == 1
         assert "parameters.mu" in messages[0]
-
-
-def test_parameters_that_are_no_mapping(tmp_path: Path) -> None:
-    assert faults(write(tmp_path, changed("{mu: 0.6}", "0.6"))) == [
-        "deck.yaml:4:13 parameters = 0.6: must be a mapping: {key: value}",
-        'deck.yaml:8:19 joints.dry.friction = "=mu": unknown parameter mu; known: pi and e',
-    ]
-
-
-def test_missing_key_is_reported_where_its_mapping_begins(tmp_path: Path) -> None:
-    text = changed(f"  - {BOX}\n", "  - box:\n      group: block\n      material: stone\n      min: [0, 0, 0]\n")
-    assert faults(write(tmp_path, text)) == [
-        "deck.yaml:10:5 blocks[0].box.max: is missing: corner with the greatest coordinates"
-    ]
 
 
 @pytest.mark.parametrize("count", [MOST_WRONG // 4, MOST_WRONG])
@@ -124,15 +101,6 @@ def test_of_very_many_wrong_words_none_is_told(tmp_path: Path) -> None:
         "deck.yaml:1:1 more than 20,000 values are wrong: they are looked at no further"
     ]
     assert len(faults(write(tmp_path, f"{BLOCK}masses: [{items[:-6]}]\n"))) == MOST_FAULTS + 1
-
-
-@pytest.mark.parametrize("number", ["x", "-1", "true", '"1 s"', "[]"])
-def test_very_many_wrong_numbers_of_one_mapping(tmp_path: Path, number: str) -> None:
-    heights = f"{number}, " * (MOST_WRONG + 1)
-    column = f"column: {{material: stone, radius: 1, drum_heights: [{heights}]}}"
-    assert faults(write(tmp_path, changed(BOX, column))) == [
-        "deck.yaml:1:1 more than 20,000 values are wrong: they are looked at no further"
-    ]
 
 
 def test_a_signal_waits_until_the_validator_is_there() -> None:

@@ -22,11 +22,6 @@ def kind(path: Path) -> str:
     return path.stem.removeprefix("arch_from_")
 
 
-def test_there_is_a_deck_for_every_kind_of_file() -> None:
-    kinds = {"obj", "stl", "ply", "gltf", "compas", "dxf", "inp", "msh", "vtu", "tables", "generator"}
-    assert {kind(path) for path in DECKS} == kinds
-
-
 @pytest.mark.parametrize("path", DECKS, ids=kind)
 def test_volume_and_contacts_are_those_of_the_generator(path: Path) -> None:
     deck = read_deck(path)

@@ -16,7 +16,7 @@ import pytest
 from mbla.deck.content import Expectation
 from mbla.deck.include import read_files
 from mbla.solution.thresholds import GAP_TOLERANCE
-from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of, run_deck
+from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of
 
 EXIT_STATUS = {"solved": 0, "approximate": 4, "not_verified": 4, "no_equilibrium": 5, "unbounded": 5}
 
@@ -170,13 +170,6 @@ def test_in_a_process_of_its_own(name: str, status: int, tmp_path: Path) -> None
     assert json.loads(done.stdout)["exit_code"] == status
 
 
-def test_a_wrong_expectation_is_found() -> None:
-    path = path_of("tutorials/block")
-    outcome = run_deck(path, "--set", "expected.push_x.load_factor=0.401")
-    assert outcome.exit_status == 4
-    assert "not-as-expected" in outcome.output
-
-
 def test_the_peak_of_a_load_path_is_told_beside_what_is_left_after_it() -> None:
     """Verified by statics of its own; within a thousandth, which is how closely the path is followed."""
     (case, expectation), *_ = cases_of(path_of("benchmarks/closed_forms/plank_in_clamp"))
@@ -197,8 +190,3 @@ def test_a_locked_wedge_is_shown_to_be_locked() -> None:
     outcome = outcome_of(path_of("benchmarks/closed_forms/groove_locked"))
     assert outcome.record["cases"][0]["load_factor"] is None
     assert outcome.record["cases"][0]["verified"]
-
-
-def test_parts_that_stand_apart_are_solved_apart() -> None:
-    for case, _ in cases_of(path_of("benchmarks/closed_forms/two_piers")):
-        assert case["size"]["parts"] == 2

@@ -14,7 +14,6 @@ from tests.decks.make_pictures import (
     TABLE,
     DeckPicture,
     deck_path,
-    make_pictures,
     readme_block,
 )
 
@@ -34,8 +33,3 @@ def test_deck_has_the_load_case(picture: DeckPicture, tmp_path: Path) -> None:
 
 def test_the_sweep_of_the_readme_has_the_sample_that_its_picture_enlarges() -> None:
     assert readme_block("`door.yaml`, beside", DECKS / "sweeps" / "README.md").count(SAMPLE[0]) == 1
-
-
-def test_unknown_names_are_refused() -> None:
-    with pytest.raises(SystemExit, match="no picture wall"):
-        make_pictures(["wall"])

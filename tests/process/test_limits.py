@@ -6,18 +6,14 @@ import os
 import resource
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import mbla
 from mbla.cli import main
-from mbla.errors import LimitError
-from mbla.process.limits import MIB, VARIABLES, can_limit, limited, refuse_too_low_limits
-from mbla.results.provenance import threads_in_words
+from mbla.process.limits import VARIABLES, limited
 from tests.line import BLOCK
-from tests.results.synthetic import tower_results
 
 ASK = """
 import os, sys
@@ -41,22 +37,6 @@ def test_one_thread_unless_more_are_asked_for(arguments: list[str], given: dict[
     command = [sys.executable, "-c", ASK.format(names=VARIABLES), *arguments]
     done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=True)
     assert done.stdout.split("|")[-1].strip() == expected
-
-
-@pytest.mark.parametrize(
-    ("libraries", "words"),
-    [
-        (("qdldl", "superlu"), "1; factorisations by qdldl, superlu are serial"),
-        (("",), "1"),
-    ],
-)
-def test_what_came_of_the_threads_is_told(
-    libraries: tuple[str, ...], words: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("MKL_NUM_THREADS", "2")
-    case = tower_results().cases[0]
-    programs = tuple(replace(case.solution.programs[0], factorization=library) for library in libraries)
-    assert threads_in_words([replace(case, solution=replace(case.solution, programs=programs))]) == words
 
 
 def test_threads_that_cannot_be_used_are_not_passed_over(
@@ -115,12 +95,3 @@ def test_without_a_limit_there_is_none_in_the_block() -> None:
     with limited(1e12):
         assert resource.getrlimit(resource.RLIMIT_DATA)[0] == 10**12
     assert resource.getrlimit(resource.RLIMIT_DATA) == before
-
-
-def test_limits_of_other_systems_are_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(resource, "getrlimit", lambda _: (MIB, MIB))
-    with pytest.raises(LimitError, match="the limit of 1 MiB on address space"):
-        refuse_too_low_limits()
-    monkeypatch.setattr(sys, "platform", "win32")
-    refuse_too_low_limits()
-    assert not can_limit()

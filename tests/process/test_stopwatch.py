@@ -61,21 +61,3 @@ def test_a_stage_that_fails_is_timed_and_leaves_no_trace(clock: Clock) -> None:
             break_off()
         clock.now += 2.0
     assert stopwatch.seconds == {"inner": 1.0, "outer": 2.0}
-
-
-def test_a_stopwatch_inside_another_keeps_its_stages_to_itself(clock: Clock) -> None:
-    with timing() as outer:
-        with timing() as inner, stage("work"):
-            clock.now += 1.0
-        with stage("work"):
-            clock.now += 5.0
-    assert inner.seconds == {"work": 1.0}
-    assert outer.seconds == {"work": 5.0}
-
-
-def test_without_a_stopwatch_nothing_is_timed(clock: Clock) -> None:
-    with stage("before"):
-        clock.now += 1.0
-    with timing() as stopwatch:
-        pass
-    assert stopwatch.seconds == {}

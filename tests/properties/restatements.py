@@ -1,4 +1,4 @@
-"""The same mechanics stated in another way: place, direction, order, units, sizes of loads, ways of solving."""
+"""The same mechanics stated in another way: place, direction, order, sizes of loads, ways of solving."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts import Contacts
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import Load
-from mbla.deck.units import Units
 from mbla.model import build_model
 from mbla.model.solids.ragged import items_of_rows
-from tests.properties.rigid_motions import in_other_units, moved_scene, renumbered, with_forces
+from tests.properties.rigid_motions import moved_scene, renumbered, with_forces
 from tests.properties.scenes import Scene, Solved, with_analysis
 
 
@@ -64,16 +63,6 @@ def renumber(scene: Scene, _: Solved) -> Scene | None:
         return None
     order = np.random.default_rng(7).permutation(len(scene.model.blocks))
     return renumbered(scene, order)
-
-
-def millimetres(scene: Scene, _: Solved) -> Scene:
-    """Millimetres, kilonewtons, tonnes."""
-    return in_other_units(scene, Units("mm", "kN", "t"))
-
-
-def feet(scene: Scene, _: Solved) -> Scene:
-    """Feet and pounds."""
-    return in_other_units(scene, Units("ft", "lbf", "lb"))
 
 
 def taken(contacts: Contacts, rows: IntArray) -> Contacts:
@@ -153,7 +142,7 @@ def heavier(scene: Scene, _: Solved) -> Scene:
     """All densities, forces and strengths times 37: accelerations stay as they are."""
     blocks = scene.model.blocks
     blocks = replace(blocks, densities=37.0 * blocks.densities, added_masses=37.0 * blocks.added_masses)
-    return replace(scene, model=with_forces(replace(scene.model, blocks=blocks), 37.0, 37.0, 37.0, 1.0))
+    return replace(scene, model=with_forces(replace(scene.model, blocks=blocks), 37.0))
 
 
 def unreduced(scene: Scene, _: Solved) -> Scene:

@@ -1,4 +1,4 @@
-"""Models moved, turned, mirrored, renumbered and in other units: every array and vector of them in its own way."""
+"""Models moved, turned, mirrored, renumbered and under other loads: every array and vector of them in its own way."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.model.join import polyhedra_of
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
@@ -135,63 +134,24 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
     return replace(scene, model=model)
 
 
-def in_other_units(scene: Scene, units: Units) -> Scene:
-    """The same numbers of things in other units."""
-    old, model = scene.model.units, scene.model
-    length = METRES[old.length] / METRES[units.length]
-    force = NEWTONS[old.force] / NEWTONS[units.force]
-    mass = KILOGRAMS[old.mass] / KILOGRAMS[units.mass]
-    polyhedra = polyhedra_of(model.blocks)
-    polyhedra = replace(polyhedra, vertices=polyhedra.vertices * length)
-    blocks = rebuilt(model.blocks, polyhedra, scene.deck.contacts.tolerance)
-    blocks = replace(
-        blocks,
-        densities=model.blocks.densities * mass / length**3,
-        added_masses=model.blocks.added_masses * mass,
-        added_mass_points=model.blocks.added_mass_points * length,
-    )
-    motions = model.guides.motions.copy()
-    motions[:, :3] *= length
-    interfaces = model.interfaces
-    model = replace(
-        model,
-        units=units,
-        blocks=blocks,
-        grounds=tuple(replace(ground, point=ground.point * length) for ground in model.grounds),
-        mirrors=tuple((x, y, z, offset * length) for x, y, z, offset in model.mirrors),
-        guides=replace(model.guides, motions=motions),
-        interfaces=None if interfaces is None else replace(interfaces, corners=interfaces.corners * length),
-    )
-    model = with_forces(model, force, force * length, force / length**2, length)
-    points = scene.deck.contacts.points
-    spacing = None if points.spacing is None else points.spacing * length
-    points = points.model_copy(update={"spacing": spacing, "rounding": points.rounding * length})
-    scene = _moved_overrides(scene, length * np.eye(3), np.zeros(3))
-    return replace(with_section(scene, points=points), model=model)
-
-
-def with_forces(model: Model, force: float, moment: float, stress: float, length: float) -> Model:
-    """Loads and strengths times these factors; ``length`` only for the velocities of supports that turn."""
-    row = np.array([force] * 3 + [moment] * 3)
+def with_forces(model: Model, times: float) -> Model:
+    """Loads and strengths times a factor."""
     cases = []
     for case in model.load_cases:
         settlement, tilt = case.settlement, case.tilt
         if settlement is not None:
-            motions, size = settlement.motions.copy(), moment if settlement.turns else force
-            motions[:, :3] *= length if settlement.turns else 1.0
-            settlement = replace(
-                settlement, motions=motions, unit=settlement.unit * size, reference=settlement.reference * size
-            )
+            settlement = replace(settlement, unit=times * settlement.unit, reference=times * settlement.reference)
         if tilt is not None:
-            tilt = replace(tilt, fixed=tilt.fixed * row, turning=tilt.turning * row, across=tilt.across * row)
-        dead, live = case.dead_load * row, case.live_load * row
+            fixed, turning, across = (times * loads for loads in (tilt.fixed, tilt.turning, tilt.across))
+            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
+        dead, live = times * case.dead_load, times * case.live_load
         cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt))
     joints = {
         name: replace(
             joint,
-            cohesion=joint.cohesion * stress,
-            tensile_strength=joint.tensile_strength * stress,
-            compressive_strength=joint.compressive_strength * stress,
+            cohesion=times * joint.cohesion,
+            tensile_strength=times * joint.tensile_strength,
+            compressive_strength=times * joint.compressive_strength,
         )
         for name, joint in model.joints.items()
     }

@@ -37,8 +37,6 @@ TABLE = (
         turn=restatements.reflection,
     ),
     Transformation("renumber blocks", E_, "names carry nothing", restatements.renumber, any_flow=True),
-    Transformation("units mm, kN, t", E_, "a load factor has no unit", restatements.millimetres, any_flow=True),
-    Transformation("units ft, lbf, lb", E_, "a load factor has no unit", restatements.feet),
     Transformation(
         "reverse the order of interfaces", E_, "sums do not know their order", restatements.reverse_interfaces
     ),
