@@ -8,6 +8,7 @@ Sections and items of `blocks` stand in ``sections`` and ``items``, with their r
 from __future__ import annotations
 
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -141,23 +142,12 @@ def named_loads(deck: DeckContent) -> Iterator[Finding]:
                 yield Finding(
                     "load-misplaced", "must stand in the live loads of a load case itself", "loads", name, number, kind
                 )
-    for name in deck.loads:
-        chain = _way_back(name, deck.loads)
-        if chain is not None and name == min(chain):  # a cycle is told once, at its first name
-            yield Finding("load-misplaced", f"contains itself: {' > '.join([*chain, name])}", "loads", name)
-
-
-def _way_back(name: str, loads: dict[str, list[Load]]) -> list[str] | None:
-    """The shortest chain of named loads that leads from one back to itself; None if there is none."""
-    chains, seen = [[name]], {name}
-    for chain in chains:
-        for below in dict.fromkeys(load.loads for load in loads.get(chain[-1], []) if load.loads is not None):
-            if below == name:
-                return chain
-            if below not in seen:
-                seen.add(below)
-                chains.append([*chain, below])
-    return None
+    below = {name: [load.loads for load in loads if load.loads is not None] for name, loads in deck.loads.items()}
+    try:
+        TopologicalSorter(below).prepare()
+    except CycleError as error:
+        chain = error.args[1][::-1]
+        yield Finding("load-misplaced", f"contains itself: {' > '.join(chain)}", "loads", chain[0])
 
 
 @rule(DeckContent)

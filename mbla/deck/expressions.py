@@ -10,7 +10,6 @@ the names and nodes listed here is ever looked at, so that a deck from a strange
 from __future__ import annotations
 
 import ast
-import contextlib
 import math
 import operator
 import warnings
@@ -146,22 +145,14 @@ class Parameters:
     def _in_order(self) -> list[str]:
         """Parameters, each after those that it depends on; cycles, and what depends on them, are left out."""
         sorter = TopologicalSorter({name: self._needs.get(name, ()) for name in self._raw})
-        with contextlib.suppress(CycleError):  # what is not in one is given all the same
+        try:
             sorter.prepare()
+        except CycleError as error:  # what is not in one is given all the same
+            self._blame_cycle(error.args[1][:0:-1])
         order: list[str] = []
         while ready := sorter.get_ready():
             order += ready
             sorter.done(*ready)
-        left = self._raw.keys() - set(order)
-        seen: set[str] = set()
-        for name in (name for name in self._raw if name in left):
-            path: list[str] = []
-            while name not in seen:
-                seen.add(name)
-                path.append(name)
-                name = next(needed for needed in self._needs[name] if needed in left)
-            if name in path:
-                self._blame_cycle(path[path.index(name) :])
         return order
 
     def _settle(self, name: str) -> None:
@@ -178,7 +169,7 @@ class Parameters:
             self._failures[name] = error.message
 
     def _blame_cycle(self, names: list[str]) -> None:
-        """Report a cycle once, from the member that stands first in the deck."""
+        """Report a cycle from the member that stands first in the deck."""
         order = {name: position for position, name in enumerate(self._raw)}
         first = names.index(min(names, key=order.__getitem__))
         cycle = [*names[first:], *names[:first], names[first]]

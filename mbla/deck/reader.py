@@ -141,7 +141,7 @@ class _Builder:
         elif kind is yaml.MappingStartEvent:
             self.open({}, MappingMarks(mark), event)
         elif kind is yaml.AliasEvent:
-            message = f"aliases (*{shorten(event.anchor)}) are not allowed: {self.kind.alias}"
+            message = f"aliases (*{shorten(event.anchor)}) are not allowed: write the value out, or use a parameter"
             self.fault(mark, Message("yaml-not-allowed", message))
             self.document.reported.add(mark)
             self.put_value_or_key(None, mark)
@@ -194,7 +194,8 @@ class _Builder:
     def take_key(self, value: Any, text: str, mark: int) -> None:
         if text == "<<":
             self.leave_out()
-            self.fault(mark, Message("yaml-not-allowed", f"merge keys (<<) are not allowed: {self.kind.merge}"))
+            words = "merge keys (<<) are not allowed: write the values out, or use a parameter"
+            self.fault(mark, Message("yaml-not-allowed", words))
         elif not isinstance(value, str):
             self.leave_out()
             words = f'a key must be text: write "{shorten(text)}" in quotes' if text else "a key is missing"

@@ -19,27 +19,14 @@ class FileKind:
     name     : after ``a``, in a sentence
     begins   : key and value that such a file has first
     includes : its key `include` names files that are merged into it
-    large    : what to do with a file that is too large
-    alias    : what to write instead of an alias
-    merge    : what to write instead of a merge key
     """
 
     name: str
     begins: str
     includes: bool
-    large: str
-    alias: str
-    merge: str
 
 
-DECK = FileKind(
-    name="deck",
-    begins="mbla: 1",
-    includes=True,
-    large="put large geometry in a mesh file (`mesh: {file: ...}`)",
-    alias="write the value out, or use a parameter",
-    merge="use `include` or a parameter",
-)
+DECK = FileKind(name="deck", begins="mbla: 1", includes=True)
 MAX_BYTES = 16 * 1024 * 1024
 """Larger decks are refused: geometry of that size belongs in a mesh file."""
 # Every control character but tab, line feed and carriage return, and the two characters that Unicode never assigns.
@@ -139,8 +126,8 @@ def has_control_character(text: str) -> bool:
 def _decode(content: bytes, label: str, kind: FileKind) -> str:
     start = SourceText(label, "")
     if len(content) > MAX_BYTES:
-        limit = MAX_BYTES // 1024**2
-        raise _refusal(start, 0, Message("file-too-large", f"is larger than {limit} MB: {kind.large}"))
+        words = f"is larger than {MAX_BYTES // 1024**2} MB: put large geometry and tables in files of their own"
+        raise _refusal(start, 0, Message("file-too-large", words))
     if content.startswith(b"\x89HDF"):
         raise _refusal(start, 0, Message("not-utf-8", f"is an HDF5 file, not a {kind.name}: mbla show reads results"))
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):

@@ -2,56 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.quantities import PATTERNS
 from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.errors import Fault, Message, first_faults
-
-FOREIGN: Mapping[tuple[str, str], str] = {
-    ("supports", "stiffness"): "elastic supports are not taken: the collapse load of rigid blocks does not depend on "
-    "how stiff their supports are; leave it out, or let the support give way with load_cases.NAME.settlement",
-}
-"""Keys of other programs: (section, key of a mapping in that section, at any depth) -> why"""
-REPLACED: Mapping[KeyPath, str] = {
-    ("contacts", "refine"): "contacts.points.per_edge",
-    ("contacts", "inset"): "contacts.points.inset",
-}
-"""Keys of earlier versions: path of the key -> the key that says the same now"""
-GONE: Mapping[KeyPath, str] = {
-    ("analysis", "second_opinion"): "the proved bounds say how good the load factor is",
-    ("analysis", "form"): "the associative program is solved in velocities",
-    ("analysis", "path"): "the load path is followed where a peak is looked for, and listed",
-    ("analysis", "forces"): "contact forces of associative flow are those that prove its load factor from below",
-}
-"""Keys of earlier versions that nothing replaces -> what holds without them"""
-GONE_CHOICES: Mapping[tuple[KeyPath, str], str] = {
-    (("analysis", "scheme"), "path"): "is not a scheme any more: use auto, which takes half the time; where a peak is "
-    "looked for the load path is followed and listed",
-}
-"""Choices of earlier versions: path of the key and its value -> what to write now"""
-WAS_A_MAPPING: Mapping[KeyPath, str] = {
-    ("analysis", "reductions"): "is one switch now: write false in place of the mapping to leave nothing out",
-}
-"""Keys that were mappings in earlier versions -> what to write now"""
-
-
-def refusal(path: KeyPath) -> Message | None:
-    """Why a deck cannot have the key at a path; None where there is no more to say than that it is unknown."""
-    if path in REPLACED:
-        return Message("replaced-key", f"is not a key any more: write {REPLACED[path]}")
-    if path in GONE:
-        return Message("replaced-key", f"is not a key any more: leave it out, {GONE[path]}")
-    why = FOREIGN.get((str(path[0]), str(path[-1]))) if len(path) > 1 else None
-    return None if why is None else Message("key-of-another-program", why)
-
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
@@ -208,18 +169,12 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         meaning = description(root, path)
         return Message("missing-key", "is missing" + (f": {meaning}" if meaning else "")), False
     if kind == "extra_forbidden":
-        return (refusal(path) if root is DeckContent else None) or Message(
-            "unknown-key", _unknown_key(root, path)
-        ), True
+        return Message("unknown-key", _unknown_key(root, path)), True
     if kind in ("too_long", "too_short"):
         return Message("wrong-length", _length(context, _items(data, path))), False
-    if root is DeckContent and isinstance(value, dict) and path in WAS_A_MAPPING:
-        return Message("replaced-key", WAS_A_MAPPING[path]), False
     if kind in _TYPES:
         return _TYPES[kind].around(after=_remedy(kind, value)), is_key
     if kind == "literal_error":
-        if isinstance(value, str) and (path, value) in GONE_CHOICES:
-            return Message("replaced-key", GONE_CHOICES[path, value]), False
         allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
         hint = did_you_mean(value, allowed) if isinstance(value, str) and len(allowed) > 1 else ""
         return Message("unknown-choice", f"must be {listed(allowed)}{hint}"), False

@@ -57,7 +57,7 @@ def test_control_characters(tmp_path: Path, character: str) -> None:
 
 def test_size_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sources, "MAX_BYTES", len(BLOCK) - 1)
-    assert "put large geometry in a mesh file" in refusal(tmp_path, BLOCK.encode())
+    assert "put large geometry and tables in files of their own" in refusal(tmp_path, BLOCK.encode())
 
 
 @pytest.mark.parametrize(

@@ -41,14 +41,7 @@ class Sweep:
     """Fault for a key path such as ("parameters", "mu", "linear") with a message; finds place and value itself."""
 
 
-SWEEP_FILE = FileKind(
-    name="sweep file",
-    begins="mbla_sweep: 1",
-    includes=False,
-    large="say values as ranges or samples, or divide it into several sweeps",
-    alias="write the value out",
-    merge="write its keys out",
-)
+SWEEP_FILE = FileKind(name="sweep file", begins="mbla_sweep: 1", includes=False)
 
 
 def read_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
