@@ -13,7 +13,6 @@ from mbla.model.solids.blocks import BlockLabels, Blocks, no_labels
 from mbla.model.solids.defects import (
     Defect,
     Defects,
-    Extents,
     coordinate_defects,
     corner_defects,
     edge_defects,
@@ -25,7 +24,6 @@ from mbla.model.solids.defects import (
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces, can_be_split, find_facets, split_faces
 from mbla.model.solids.measures import (
     Edges,
-    FaceGeometry,
     count_pieces,
     face_geometry,
     faces_to_turn,
@@ -135,7 +133,7 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     polyhedra, turned = _oriented(polyhedra, find_edges(polyhedra), defects)
     volumes, _ = volumes_and_centroids(polyhedra)
     defects.add(size_defects(polyhedra, face_geometry(polyhedra), volumes, extents))
-    turned_faces = _turned_faces(polyhedra, turned, labels)
+    turned_faces = np.bincount(polyhedra.block_of_face[turned], minlength=len(polyhedra))
     polyhedra, bent = _without_bent_faces(polyhedra, defects, np.cbrt(volumes), tolerance)
     edges, faces = find_edges(polyhedra), face_geometry(polyhedra)
     volumes, centroids = volumes_and_centroids(polyhedra)
@@ -146,11 +144,19 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     if not defects.found:
         facets = find_facets(polyhedra, edges, faces, tolerance * sizes)
     blocks = _blocks(polyhedra, faces.normals, facets, convex, volumes, centroids, labels)
+    limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
+    rough = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[polyhedra.block_of_face])  # others are refused
+    owner = polyhedra.block_of_face[rough]
+    number, share = rough - polyhedra.face_start[owner], faces.deviations[rough] / sizes[owner]
+    fitted = "planar only within the tolerance, each taken as the plane fitted to its corners"
+    split_share = bent.deviations / sizes[bent.blocks]
     notices = (
-        *_unused_vertices(unused, labels),
-        *turned_faces,
-        *_bent_faces(polyhedra, faces, sizes, extents, labels),
-        *_faces_split(bent, sizes, labels),
+        *_counted("vertices-unused", unused, "vertex", "left out, used by no face,", labels),
+        *_counted("faces-turned-outwards", turned_faces, "face", "turned outwards", labels),
+        *_worst("faces-not-quite-planar", owner, number, share, fitted, labels),
+        *_worst(
+            "bent-faces-split", bent.blocks, bent.faces, split_share, "not planar and split into triangles", labels
+        ),
     )
     return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
 
@@ -226,56 +232,29 @@ def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
     return [replace(defect, block=int(blocks[defect.block])) for defect in found]
 
 
-def _unused_vertices(unused: IntArray, labels: Labels) -> list[Notice]:
-    blocks = np.flatnonzero(unused)
-    if not len(blocks):
-        return []
-    total = int(unused.sum())
-    words = f"{counted(total, 'vertex')} that no face uses {was(total)} left out in {_blocks_in_words(blocks, labels)}"
-    return [Notice("notice", "vertices-unused", words)]
+def _counted(identifier: str, numbers: IntArray, noun: str, words: str, labels: Labels) -> list[Notice]:
+    """``3 faces were turned outwards in 2 blocks (a[0], a[1])``, from how many things each block has, (n_blocks,)."""
+    blocks, total = np.flatnonzero(numbers), int(numbers.sum())
+    told = f"{counted(total, noun)} {was(total)} {words} in {_blocks_in_words(blocks, labels)}"
+    return [Notice("notice", identifier, told)] if len(blocks) else []
 
 
-def _turned_faces(polyhedra: Polyhedra, turned: BoolArray, labels: Labels) -> list[Notice]:
-    blocks = np.unique(polyhedra.block_of_face[turned])
-    if not len(blocks):
-        return []
-    total = int(turned.sum())
-    words = f"{counted(total, 'face')} {was(total)} turned outwards in {_blocks_in_words(blocks, labels)}"
-    return [Notice("notice", "faces-turned-outwards", words)]
-
-
-def _bent_faces(
-    polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, extents: Extents, labels: Labels
+def _worst(
+    identifier: str, blocks: IntArray, faces: IntArray, relative: FloatArray, words: str, labels: Labels
 ) -> list[Notice]:
-    limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
-    bent = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[polyhedra.block_of_face])  # others are refused
-    if not len(bent):
-        return []
-    block = polyhedra.block_of_face[bent]
-    relative = faces.deviations[bent] / sizes[block]
-    worst = int(np.argmax(relative))
-    number = int(bent[worst] - polyhedra.face_start[block[worst]])
-    which = f"{counted(len(bent), 'face')} of {_blocks_in_words(np.unique(block), labels)}"
-    words = (
-        f"{which} {'is' if len(bent) == 1 else 'are'} planar only within the tolerance; the worst, face {number} of "
-        f"{labels.name(int(block[worst]))}, by {relative[worst]:.2g} of the block size; each is taken as the plane "
-        "fitted to its corners"
-    )
-    return [Notice("notice", "faces-not-quite-planar", words)]
+    """What is said of faces, by the numbers of their blocks and in them, of which one leaves its plane most, (n,) each.
 
-
-def _faces_split(bent: BentFaces, sizes: FloatArray, labels: Labels) -> list[Notice]:
-    if not len(bent):
+    relative : by how much of the block size
+    """
+    if not len(blocks):
         return []
-    relative = bent.deviations / sizes[bent.blocks]
-    worst = int(np.argmax(relative))
-    which = f"{counted(len(bent), 'face')} of {_blocks_in_words(np.unique(bent.blocks), labels)}"
-    words = (
-        f"{which} {'is' if len(bent) == 1 else 'are'} not planar and {was(len(bent))} split into triangles; the worst, "
-        f"face {bent.faces[worst]} of {labels.name(int(bent.blocks[worst]))}, leaves its plane by "
-        f"{relative[worst]:.2g} of the block size"
+    worst, one = int(np.argmax(relative)), len(blocks) == 1
+    which = f"{counted(len(blocks), 'face')} of {_blocks_in_words(np.unique(blocks), labels)} {'is' if one else 'are'}"
+    told = (
+        f"{which} {words}; the worst, face {faces[worst]} of {labels.name(int(blocks[worst]))}, "
+        f"leaves its plane by {relative[worst]:.2g} of the block size"
     )
-    return [Notice("notice", "bent-faces-split", words)]
+    return [Notice("notice", identifier, told)]
 
 
 def _blocks_in_words(blocks: IntArray, labels: Labels) -> str:

@@ -52,8 +52,9 @@ class Picture:
         self.legend: list[str] = []
 
     def read(self, kind: str) -> Any:
-        """A file of the load case."""
-        return self.keep(simple.XMLUnstructuredGridReader(FileName=[str(self.folder / self.case["files"][kind])]))
+        """A file of the load case, or of all of them."""
+        name = RESULT["supports"] if kind == "supports" else self.case["files"][kind]
+        return self.keep(simple.XMLUnstructuredGridReader(FileName=[str(self.folder / name)]))
 
     def keep(self, source: Any) -> Any:
         """Updated, and deleted with the picture."""
@@ -69,20 +70,17 @@ class Picture:
         _set(shown, AmbientColor=colour, DiffuseColor=colour, EdgeColor=INK, Ambient=0.3, **properties)
         return shown
 
-    def ghost(self, opacity: float = 0.25) -> None:
-        """Edges of the blocks as built."""
-        self.draw(self.read("blocks"), "Wireframe", GREY, Opacity=opacity)
-
-    def supports(self) -> None:
-        """Ground planes; fixed and guided blocks are among the blocks."""
+    def around(self, opacity: float = 0.25) -> None:
+        """Edges of the blocks as built, if any are to be seen, and ground planes; other supports are blocks."""
+        if opacity:
+            self.draw(self.read("blocks"), "Wireframe", GREY, Opacity=opacity)
         if RESULT["supports"]:
-            source = simple.XMLUnstructuredGridReader(FileName=[str(self.folder / RESULT["supports"])])
-            self.draw(self.cells_with(self.keep(source), "kind", 0), "Surface", GREY, Opacity=0.6)
+            self.draw(self.cells_with(self.read("supports"), "kind", 0), "Surface", GREY, Opacity=0.6)
 
-    def cells_with(self, source: Any, name: str, low: int, high: int | None = None) -> Any:
-        """Cells with a value, or one between two."""
+    def cells_with(self, source: Any, name: str, value: int) -> Any:
+        """Cells with a value."""
         chosen = simple.Threshold(Input=source, Scalars=["CELLS", name])
-        chosen.LowerThreshold, chosen.UpperThreshold = low, low if high is None else high
+        chosen.LowerThreshold = chosen.UpperThreshold = value
         chosen.ThresholdMethod = "Between"
         return self.keep(chosen)
 
@@ -106,13 +104,13 @@ class Picture:
             glyph.GlyphTransform.Translate = [-1.0, 0.0, 0.0]
         return self.keep(glyph)
 
-    def colour(self, shown: Any, where: str, name: str, title: str, top: float) -> None:
-        """By a number from 0 to ``top``, with its bar."""
+    def colour(self, shown: Any, where: str, name: str, title: str) -> None:
+        """By a number from 0 to 1, with its bar."""
         simple.ColorBy(shown, (where, name))
         table = simple.GetColorTransferFunction(name)
         table.ApplyPreset("Viridis (matplotlib)", True)
         table.InvertTransferFunction()
-        table.RescaleTransferFunction(0.0, top)
+        table.RescaleTransferFunction(0.0, 1.0)
         table.NanColor = GREY
         self.bar(shown, table, title)
 
@@ -120,8 +118,7 @@ class Picture:
         """By a whole number of each cell; colours repeat where there are many."""
         simple.ColorBy(shown, ("CELLS", name))
         table = simple.GetColorTransferFunction(name)
-        table.InterpretValuesAsCategories = 1
-        table.AnnotationsInitialized = 1
+        table.InterpretValuesAsCategories = table.AnnotationsInitialized = 1
         table.Annotations = [text for i, label in enumerate(names) for text in (str(i), label)]
         colours = first + [PALETTE[i % len(PALETTE)] for i in range(len(names) - len(first))]
         table.IndexedColors = [part for colour in colours[: len(names)] for part in colour]
@@ -135,23 +132,23 @@ class Picture:
         _set(bar, WindowLocation="Lower Right Corner")
         shown.SetScalarBarVisibility(self.view, True)
 
-    def finish(self) -> None:
-        """Words and camera."""
-        lines = [line for text in (*self.case["words"], *self.legend) for line in textwrap.wrap(text, 100)]
-        text = self.keep(simple.Text(Text="\n".join(lines)))
-        shown = simple.Show(text, self.view)
-        _set(shown, Color=INK, FontSize=22, WindowLocation="Upper Left Corner", Justification="Left")
-        self.aim(len(lines))
-        simple.Render(self.view)
+    def by_part(self, source: Any, **properties: Any) -> None:
+        """Blocks by the part that they move with."""
+        parts = ["at rest", *(f"part {i + 1}" for i in range(self.case["parts"]))]
+        self.colour_by_number(self.draw(source, "Surface With Edges", **properties), "parts", parts, [STONE])
 
-    def aim(self, lines: int) -> None:
-        """Camera on all that is shown, with room above it for lines of words."""
+    def finish(self) -> None:
+        """Words, and the camera on all that is shown, with room above it for them."""
+        lines = [line for text in (*self.case["words"], *self.legend) for line in textwrap.wrap(text, 100)]
+        shown = simple.Show(self.keep(simple.Text(Text="\n".join(lines))), self.view)
+        _set(shown, Color=INK, FontSize=22, WindowLocation="Upper Left Corner", Justification="Left")
         self.view.CameraParallelProjection = 1
         self.view.CameraFocalPoint = [0.0, 0.0, 0.0]
         self.view.CameraPosition = self.case["look_from"]
         self.view.CameraViewUp = [0.0, 0.0, 1.0]
         simple.ResetCamera(self.view)
-        self.view.GetActiveCamera().Zoom(1.0 - 0.06 * lines)
+        self.view.GetActiveCamera().Zoom(1.0 - 0.06 * len(lines))
+        simple.Render(self.view)
 
     def close(self) -> None:
         """Free what it holds."""
@@ -164,17 +161,13 @@ def structure(picture: Picture) -> None:
     """Blocks by group, and supports."""
     shown = picture.draw(picture.read("blocks"), "Surface With Edges")
     picture.colour_by_number(shown, "groups", RESULT["groups"], [])
-    picture.supports()
+    picture.around(0.0)
 
 
 def mechanism(picture: Picture) -> None:
     """Blocks by the part that they move with, hinges and sliding joints, ghost of the structure."""
-    blocks = picture.read("blocks")
-    shown = picture.draw(picture.warped(blocks), "Surface With Edges", Opacity=0.85)
-    parts = ["at rest", *(f"part {i + 1}" for i in range(picture.case["parts"]))]
-    picture.colour_by_number(shown, "parts", parts, [STONE])
-    picture.ghost()
-    picture.supports()
+    picture.by_part(picture.warped(picture.read("blocks")), Opacity=0.85)
+    picture.around()
     picture.legend = ["Displacements to a scale that can be seen; thin grey lines: as built."]
     if "hinges" in picture.case["files"]:
         hinges = picture.warped(picture.read("hinges"))
@@ -190,33 +183,31 @@ def mechanism(picture: Picture) -> None:
 
 def thrust(picture: Picture) -> None:
     """Resultants where they act, thrust lines by eccentricity."""
-    picture.ghost(0.5)
-    picture.supports()
+    picture.around(0.5)
     source = picture.read("thrust")
     arrows = picture.arrows(source, "resultant_forces", 0.15, at_tip=False)
     drawn = [arrows]
     if picture.case["thrust_lines"]:
         drawn.append(picture.rods(picture.cells_with(source, "kind", 1)))
     for each in drawn:
-        picture.colour(picture.draw(each), "POINTS", "eccentricity", "eccentricity: 1 at the edge", 1.0)
+        picture.colour(picture.draw(each), "POINTS", "eccentricity", "eccentricity: 1 at the edge")
     picture.legend = ["Arrows: resultant of each joint at its point of application, on its second body."]
 
 
 def utilisation(picture: Picture) -> None:
     """Shear and torsion over what each joint carries of both."""
-    picture.ghost()
-    picture.supports()
+    picture.around()
     looks: dict[str, Any] = {"Surface": {"Opacity": 0.8}, "Wireframe": {"LineWidth": 4.0}}
     for kind, look in looks.items():
         shown = picture.draw(picture.read("interfaces"), kind, **look)
-        picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries", 1.0)
+        picture.colour(shown, "CELLS", "torsion_use", "shear and torsion over what the joint carries")
     picture.legend = ["Joints by shear and torsion over what friction and cohesion carry of both; grey: no force."]
 
 
 def loads(picture: Picture) -> None:
     """Dead load, live load and reactions as arrows, each kind to its own scale."""
     picture.draw(picture.read("blocks"), "Surface With Edges", Opacity=0.35)
-    picture.supports()
+    picture.around(0.0)
     source = picture.read("loads")
     drawn = []
     for name, words, colour in (
@@ -236,9 +227,8 @@ def animation(picture: Picture) -> None:
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
-    parts = ["at rest", *(f"part {i + 1}" for i in range(picture.case["parts"]))]
-    picture.colour_by_number(picture.draw(source, "Surface With Edges"), "parts", parts, [STONE])
-    picture.supports()
+    picture.by_part(source)
+    picture.around(0.0)
 
 
 VIEWS: dict[str, tuple[str, Callable[[Picture], None]]] = {
@@ -274,11 +264,8 @@ def build(case: str, name: str, folder: Path) -> Picture:
 
 def save(picture: Picture, case: str, name: str, folder: Path) -> None:
     """As PNG; an animation as one PNG per frame."""
-    stem = f"{RESULT['stem']}_{case}_{name}"
-    if name == "animation":
-        simple.SaveAnimation(str(folder / f"{stem}.png"), picture.view, ImageResolution=SIZE)
-    else:
-        simple.SaveScreenshot(str(folder / f"{stem}.png"), picture.view, ImageResolution=SIZE)
+    write = simple.SaveAnimation if name == "animation" else simple.SaveScreenshot
+    write(str(folder / f"{RESULT['stem']}_{case}_{name}.png"), picture.view, ImageResolution=SIZE)
 
 
 def read_arguments(words: list[str]) -> argparse.Namespace:

@@ -109,7 +109,7 @@ def test_bent_faces_beyond_the_tolerance() -> None:
     assert not built.defects
     assert (built.bent.blocks.tolist(), built.bent.faces.tolist()) == ([1], [1])
     assert [notice.message for notice in built.notices] == [
-        "1 face of 1 block (b[1]) is not planar and was split into triangles; the worst, face 1 of b[1], leaves its "
+        "1 face of 1 block (b[1]) is not planar and split into triangles; the worst, face 1 of b[1], leaves its "
         "plane by 0.025 of the block size"
     ]
 
@@ -120,8 +120,8 @@ def test_bent_faces_within_the_tolerance() -> None:
     (notice,) = built.notices
     assert notice.identifier == "faces-not-quite-planar"
     assert notice.message == (
-        "1 face of 1 block (b[1]) is planar only within the tolerance; the worst, face 1 of b[1], by 0.0005 of the "
-        "block size; each is taken as the plane fitted to its corners"
+        "1 face of 1 block (b[1]) is planar only within the tolerance, each taken as the plane fitted to its corners; "
+        "the worst, face 1 of b[1], leaves its plane by 0.0005 of the block size"
     )
 
 
@@ -147,7 +147,7 @@ def test_unused_vertices_are_left_out_with_a_notice() -> None:
     built = build_raw(raw(([*vertices, [7, 7, 7]], faces), box((3, 0, 0), (4, 1, 1))))
     assert not built.defects
     assert len(built.blocks.vertices) == 16
-    assert [notice.message for notice in built.notices] == ["1 vertex that no face uses was left out in 1 block (b[0])"]
+    assert [notice.message for notice in built.notices] == ["1 vertex was left out, used by no face, in 1 block (b[0])"]
     assert built.blocks.volumes == pytest.approx([1, 1])
 
 
