@@ -111,21 +111,6 @@ def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any)
     assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS)
 
 
-def test_thrust_points_lie_inside_their_interfaces(arch: Any) -> None:
-    """Between the two ends of each joint: intrados at radius 2 m, extrados at 2.6 m, or a little less on the chords."""
-    scene, mesh = scene_and_mesh(arch, "push", "thrust")
-    contacts, owner = scene.contacts, mesh.point_data["interface"]
-    off = np.einsum("ij,ij->i", mesh.points - contacts.centroids[owner], contacts.normals[owner])
-    assert np.abs(off).max() < 1e-9
-    for point, interface in zip(mesh.points, owner, strict=True):
-        corners = contacts.points[contacts.point_start[interface] : contacts.point_start[interface + 1]]
-        slack = 1e-6
-        assert (point >= corners.min(axis=0) - slack).all()
-        assert (point <= corners.max(axis=0) + slack).all()
-    assert mesh.point_data["eccentricity"].min() >= 0
-    assert mesh.point_data["eccentricity"].max() == pytest.approx(1, abs=1e-5)
-
-
 def test_thrust_line_of_an_arch_is_one_chain_that_touches_the_edge_at_its_four_hinges(arch: Any) -> None:
     scene, mesh = scene_and_mesh(arch, "push", "thrust")
     n_interfaces = len(scene.contacts)
@@ -141,15 +126,6 @@ def test_thrust_line_of_an_arch_is_one_chain_that_touches_the_edge_at_its_four_h
     hinges = scene_and_mesh(arch, "push", "hinges")[1]
     assert sorted(at_edge.tolist()) == sorted(hinges.cell_data["interface"][0].tolist())
     assert len(at_edge) == 4
-
-
-def test_hinges_are_edges_of_the_arch_across_its_width(arch: Any) -> None:
-    scene, mesh = scene_and_mesh(arch, "push", "hinges")
-    ends = mesh.points[mesh.cells[0].data]
-    assert np.abs(ends[:, 1] - ends[:, 0]) == pytest.approx(np.tile([0.0, 1.0, 0.0], (4, 1)), abs=1e-6)
-    for end in ends.reshape(-1, 3):  # each is a corner of some block
-        assert np.linalg.norm(scene.model.blocks.vertices - end, axis=1).min() < 1e-6
-    assert np.abs(mesh.cell_data["rotation"][0]).min() > 0
 
 
 @pytest.mark.parametrize(("which", "case"), [("arch", "push"), ("arch", "point"), ("guided", "push")])
@@ -205,24 +181,6 @@ def test_ground_is_a_slab_under_the_springers(arch: Any) -> None:
     assert low[1] < 0
     assert high[1] > 1
     assert vtk_volumes(folder / "deck_supports.vtu").sum() == pytest.approx(np.prod(high - low))
-
-
-def test_use_of_friction_and_modes_agree_between_files(arch: Any) -> None:
-    scene, interfaces = scene_and_mesh(arch, "push", "interfaces")
-    data = {name: np.concatenate(parts) for name, parts in interfaces.cell_data.items()}
-    thrust = scene_and_mesh(arch, "push", "thrust")[1].point_data
-    assert data["friction_use"] == pytest.approx(thrust["friction_use"])
-    # in a plane nothing twists
-    assert data["torsion_use"] == pytest.approx(data["friction_use"], abs=1e-6)
-    assert thrust["torsion_use"] == pytest.approx(data["torsion_use"])
-    assert data["shear_forces"] / (2 * data["normal_forces"]) == pytest.approx(data["friction_use"])
-    blocks = scene_and_mesh(arch, "push", "blocks")[1].cell_data
-    largest = np.concatenate(blocks["largest_friction_use"])
-    for block in range(len(scene.model.blocks)):
-        here = (scene.contacts.bodies == block).any(axis=1)
-        assert largest[block] == pytest.approx(data["friction_use"][here].max())
-    assert set(data["figures"].tolist()) == {1}
-    assert sorted(data["modes"].tolist()) == [0] * 12 + [3] * 4
 
 
 def test_a_hinge_about_a_corner_is_a_vertex(tmp_path: Path) -> None:

@@ -17,7 +17,6 @@ from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.vtu import (
     collection_pvd,
-    frame_times,
     write_blocks_vtu,
     write_contacts_vtu,
     write_frame_vtu,
@@ -152,13 +151,6 @@ def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
 
 
 # --- Frames of an animation, and the collection that plays them -----------------------------------------------------
-
-
-def test_blocks_keep_their_volume_in_every_frame(tmp_path: Path, results: Results) -> None:
-    path = tmp_path / "frame.vtu"
-    for time in frame_times(4):
-        write_frame_vtu(path, scene_of(results, results.cases[0]), time)
-        assert vtk_volumes(path) == pytest.approx(results.model.blocks.volumes, rel=1e-12)
 
 
 def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Results) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.items.walls import WallItem
-from mbla.model.generators.masonry.bonds import random_joints, stream
+from mbla.model.generators.masonry.bonds import stream
 from tests.model.generators.masonry.built import build, is_sound, least_distance, perpends
 
 IRREGULAR = {"seed": 7, "variation": 0.3, "heights": 0.2}
@@ -55,20 +55,6 @@ def test_heights_vary_but_heads_and_sills_stay(tmp_path: Path) -> None:
     assert {0.0, 0.45, 1.05, 1.2, 1.5} <= set(levels.tolist())
     assert np.diff(levels).std() > 0.01
     assert np.diff(levels).min() > 0.09
-
-
-def test_joints_avoid_what_they_are_told_to() -> None:
-    item = WallItem.model_validate(
-        {"material": "stone", "unit": (0.4, 0.2, 0.15), "length": 40, "courses": 6, "irregular": IRREGULAR}
-    )
-    assert item.irregular is not None
-    avoid = np.arange(0.4, 40, 0.4)
-    joints = random_joints(item, 0.0, 40.0, avoid, stream(item.irregular, 1))
-    assert len(joints) > 60
-    assert np.abs(np.subtract.outer(joints, avoid)).min() >= 0.08 * (1 - 1e-6)
-    assert joints[0] >= 0.08
-    assert joints[-1] <= 40 - 0.08
-    assert np.diff(joints).min() >= 0.08
 
 
 def test_through_stones_of_random_leaves(tmp_path: Path) -> None:
