@@ -24,6 +24,8 @@ from mbla.results.pictures.scene import Scene
 
 THIN, DOT = 0.3, 0.6
 """thickness of hinges that the listing does not tell and of outlines, and of dots, over that of other hinges"""
+LEAST_SHARE, MOST_PLANES = 0.1, 20
+"""share of the largest slip from which a sliding plane has an arrow, and how many have one"""
 LEAST_SLIP = 0.02
 """half length of the arrow of a small joint that slides, over the size of the structure"""
 SIDE = 0.7
@@ -213,7 +215,9 @@ def _slips(scene: Scene, joints: InterfaceMotion, sliding: IntArray, names: list
     contacts = scene.contacts
     rows = sliding
     if scene.failure is not None:
-        planes = [(plane.interfaces, plane.centroid) for plane in scene.failure.sliding_planes]
+        least = LEAST_SHARE * max((plane.share for plane in scene.failure.sliding_planes), default=0.0)
+        found_planes = [plane for plane in scene.failure.sliding_planes if plane.share >= least][:MOST_PLANES]
+        planes = [(plane.interfaces, plane.centroid) for plane in found_planes]
         away = [np.linalg.norm(contacts.centroids[each] - centre, axis=1) / scene.size for each, centre in planes]
         nearest = [each[np.argmin(np.round(far, 9))] for (each, _), far in zip(planes, away, strict=True)]
         rows = np.array(nearest, dtype=np.int64)
