@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
 from mbla.model.loads.tilt import tilt_loads
 from mbla.model.loads.travel import PositionLoad, case_name, travel_loads, travel_of
-from mbla.model.model import LoadCase, Tilt
+from mbla.model.model import LoadCase
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import named, vector
 
@@ -28,7 +28,7 @@ COMPUTABLE = (1e-100, 1e100)
 """largest load of a case, in units of force"""
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Sum:
     """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words.
 
@@ -37,20 +37,17 @@ class _Sum:
 
     total: FloatArray
     gross: FloatArray
-    words: list[str] = field(default_factory=list)
+    words: tuple[str, ...] = ()
     complete: bool = True
 
-    def add(self, applied: AppliedLoad) -> None:
-        """One load more."""
-        self.total[applied.blocks] += applied.wrenches
-        self.gross[applied.blocks] += np.abs(applied.wrenches)
-        self.words.append(applied.words)
-
-    def with_load(self, applied: AppliedLoad) -> _Sum:
-        """The same with one load more; this one stays as it is."""
-        longer = _Sum(self.total.copy(), self.gross.copy(), list(self.words), self.complete)
-        longer.add(applied)
-        return longer
+    def plus(self, applied: AppliedLoad | None) -> _Sum:
+        """The same with one load more; None where that left a fault."""
+        if applied is None:
+            return replace(self, complete=False)
+        total, gross = self.total.copy(), self.gross.copy()
+        total[applied.blocks] += applied.wrenches
+        gross[applied.blocks] += np.abs(applied.wrenches)
+        return _Sum(total, gross, (*self.words, applied.words), self.complete)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # loads beyond what a double holds are refused as such
@@ -66,15 +63,20 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     before = len(site.roster.faults)
     dead = _add_up(dead_loads, site, live=False)
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
-    tilt, positions = _tilt(section, dead_loads, path, dead, live, site), _positions(name, section, path, site)
+    tilt, positions = None, list[PositionLoad | None]([None])
+    if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
+        tilt = tilt_loads(table, dead_loads, dead.total, path, site)
+        live = live.plus(AppliedLoad(np.arange(len(site.blocks)), tilt.across, f"tilt about {vector(table.axis)}"))
+    if section.live and (number := travel_of(section.live)) is not None:
+        load = section.live[number]
+        positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
     sound = len(site.roster.faults) == before
     cases = []
     for position in positions:
-        own = live if position is None else live.with_load(position.applied)
+        own = live if position is None else live.plus(position.applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(position, path, own, site)
-        words = (tuple(dead.words), tuple(own.words))
-        case = LoadCase(name, dead.total, own.total, *words, tilt=tilt)
+        case = LoadCase(name, dead.total, own.total, dead.words, own.words, tilt=tilt)
         if position is not None:
             case = replace(case, name=case_name(position.position), travel=position.position)
         cases.append(case)
@@ -83,52 +85,24 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     return tuple(cases)
 
 
-def _positions(name: str, section: LoadCaseSection, path: KeyPath, site: LoadSite) -> Sequence[PositionLoad | None]:
-    """The load at every position; one None for a load case in which nothing travels."""
-    number = travel_of(section.live or [])
-    if number is None or section.live is None:
-        return [None]
-    load = section.live[number]
-    return travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or []
-
-
-def _tilt(
-    section: LoadCaseSection, dead_loads: Sequence[Entry], path: KeyPath, dead: _Sum, live: _Sum, site: LoadSite
-) -> Tilt | None:
-    """Loads of a tilting table; what it turns them by first stands in for the live load."""
-    load = section.live[0].tilt if section.live else None
-    if load is None:
-        return None
-    tilt = tilt_loads(load, dead_loads, dead.total, path, site)
-    live.total += tilt.across
-    live.gross += np.abs(tilt.across)
-    live.words.append(f"tilt about {vector(load.axis)}")
-    return tilt
-
-
 def _judge_live(position: PositionLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
     """Live loads must leave something on blocks that move, and be numbers to compute with."""
     free = ~site.fixed
-    if not free.any() or site.roster.partial:
-        return
-    if _judge_size((*path, "live"), live, site):
+    if not free.any() or site.roster.partial or _judge_size((*path, "live"), live, site):
         return
     if np.abs(live.total[free]).max() > CANCELLED * live.gross[free].max():
         return
     words = "the live loads cancel each other: they have no effect"
     if position is not None and site.fixed[position.applied.blocks].all():
-        them = "the block does" if len(position.applied.blocks) == 1 else "the blocks do"
-        words = f"{position.applied.words} has no effect: {them} not move; change the path"
+        words = f"{position.applied.words} has no effect: what it acts on does not move; change the path"
     site.refuse(Finding("live-load-without-effect", words, *path, "live"))
 
 
 def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
     """Whether loads on blocks that move are so small or so large that their squares leave the range of numbers."""
-    if site.roster.partial:
-        return False
     largest = float(loads.gross[~site.fixed].max(initial=0.0))
     least, most = COMPUTABLE
-    if largest == 0.0 or least <= largest <= most:
+    if site.roster.partial or largest == 0.0 or least <= largest <= most:
         return False
     size = f"{largest:.1e}" if np.isfinite(largest) else f"more than {np.finfo(np.float64).max:.1e}"
     words = f"the loads reach {size} {site.units.force}: {least:.0e} to {most:.0e} can be computed with"
@@ -137,16 +111,13 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 
 
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
-    shape = (len(site.fixed), 6)
-    result = _Sum(np.zeros(shape), np.zeros(shape))
+    result = _Sum(np.zeros((len(site.fixed), 6)), np.zeros((len(site.fixed), 6)))
     for entry in entries:
-        if given(entry.load, LIVE_ONLY):
-            continue
-        applied = _apply(entry, site)
-        result.complete &= applied is not None
-        if applied is not None:
-            result.add(applied)
-            _judge_effect(entry, applied, site, live)
+        if not given(entry.load, LIVE_ONLY):
+            applied = _apply(entry, site)
+            result = result.plus(applied)
+            if applied is not None:
+                _judge_effect(entry, applied, site, live)
     return result
 
 
