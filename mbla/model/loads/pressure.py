@@ -28,7 +28,7 @@ from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, meeting_boxes, plane_axes, signed_areas, unit
 from mbla.model.solids.ragged import items_of_rows, row_maxima, row_means
-from mbla.model.wording import counted, vector
+from mbla.model.wording import counted
 
 
 def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
@@ -38,17 +38,21 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     faces = _selected_faces(pressure, chosen, site.blocks)
     if not len(faces):
-        if not site.roster.partial:
-            site.refuse(Finding("load-beside-structure", _no_face(pressure), *here))
+        _refuse("no face of these blocks lies so: look at normal, within and box", here, site)
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free")
     forces, moments, areas = _integrals(parts, pressure, faces, site.blocks)
     if not areas.any():
-        if not site.roster.partial:
-            site.refuse(Finding("load-beside-structure", _no_area(pressure, parts), *here))
+        words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
+        if (parts.covered < parts.areas).any():
+            words = f"all of these faces lie above its level, z = {pressure.level:g}, or are covered by other blocks"
+        _refuse(words, here, site)
         return None
     words = _in_words(pressure, float(areas.sum()), int((areas > 0).sum()), site)
-    _remark_partly(parts, areas, words, site)
+    share = parts.covered / parts.areas
+    if partly := int(((share > 2.0 * site.tolerance) & (share < 1.0) & (areas > 0)).sum()):
+        covered = f"{counted(partly, 'face')} of it {'is' if partly == 1 else 'are'} partly covered by other blocks"
+        site.warn("pressure-on-part-of-face", f"{words}: {covered}; it acts on the free parts")
     loaded = areas > 0
     owner = site.blocks.block_of_face[faces[loaded]]
     return AppliedLoad(*sum_on_blocks(owner, np.hstack([forces, moments])[loaded]), words)
@@ -104,26 +108,10 @@ def _in_words(pressure: PressureLoad, area: float, count: int, site: LoadSite) -
     return f"{words}, on {counted(count, 'face')} ({area:.6g} {units.length}2)"
 
 
-def _no_face(pressure: PressureLoad) -> str:
-    where = (
-        [] if pressure.normal is None else [f"a normal within {pressure.within:g} degrees of {vector(pressure.normal)}"]
-    )
-    where += [] if pressure.box is None else ["a centroid in the box"]
-    return f"no face of these blocks lies so: {' and '.join(where)}"
-
-
-def _no_area(pressure: PressureLoad, parts: FaceParts) -> str:
-    if (parts.covered >= parts.areas).all():
-        return "other blocks or the ground cover all of these faces; faces: all loads them all the same"
-    return f"all of these faces lie above its level, z = {pressure.level:g}, or are covered by other blocks"
-
-
-def _remark_partly(parts: FaceParts, areas: FloatArray, words: str, site: LoadSite) -> None:
-    share = parts.covered / parts.areas
-    partly = int(((share > 2.0 * site.tolerance) & (share < 1.0) & (areas > 0)).sum())
-    if partly:
-        covered = f"{counted(partly, 'face')} of it {'is' if partly == 1 else 'are'} partly covered by other blocks"
-        site.warn("pressure-on-part-of-face", f"{words}: {covered}; it acts on the free parts")
+def _refuse(words: str, path: KeyPath, site: LoadSite) -> None:
+    """A fault where nothing is loaded, and every block could be built."""
+    if not site.roster.partial:
+        site.refuse(Finding("load-beside-structure", words, *path))
 
 
 FACING = 0.99

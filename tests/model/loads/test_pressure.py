@@ -122,7 +122,7 @@ def test_box_and_angle_choose_faces(tmp_path: Path) -> None:
             words = model(tmp_path, pressure, arch, "[]").load_cases[0].dead_words[1]
             assert f"on {faces} faces" in words
         else:
-            with pytest.raises(DeckError, match="no face of these blocks lies so"):
+            with pytest.raises(DeckError, match="no face of these blocks lies so: look"):
                 model(tmp_path, pressure, arch, "[]")
 
 
