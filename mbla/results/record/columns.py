@@ -1,4 +1,4 @@
-"""Columns of load cases, blocks, interfaces and contact points: what each is and where it is read from a scene.
+"""Columns of tables, JSON and VTU files: what each is and where it is read from a scene, or a row of a list.
 
 They are the rows of ``columns.csv``. A row has the fields of a :class:`Quantity`, or its path alone where the result
 file holds it; ``files`` are those that it stands in; ``of`` is a path of attributes of a :class:`Scene`, or one of
@@ -29,13 +29,14 @@ from mbla.solution.solution import ContactMode
 class Column:
     """A quantity and its values in a scene.
 
-    of    : values of every item, (n_items, ...); None where there are none. Whole numbers may be masked
+    of    : from a scene values of every item, (n_items, ...), None where there are none, whole numbers may be masked;
+            from a row of a list its value
     names : what tables say in the place of numbers, one for each
     files : what it stands in: ``table``, ``json``, and VTU files by their kind
     """
 
     quantity: Quantity
-    of: Callable[[Scene], Values | None]
+    of: Callable[[Any], Any]
     names: Callable[[Scene], Sequence[str]] | None
     files: tuple[str, ...]
 
@@ -206,7 +207,8 @@ NAMES: dict[tuple[str, str], Callable[[Scene], Sequence[str]]] = {
 # --- The tables -----------------------------------------------------------------------------------------------------
 
 
-def _columns(table: str) -> tuple[Column, ...]:
+def columns_of(table: str) -> tuple[Column, ...]:
+    """Of a table, from a scene, or one row of a table that is a list."""
     return tuple(_column(row) for row in rows_of("columns.csv") if row["table"] == table)
 
 
@@ -239,5 +241,5 @@ def _at(path: str) -> Callable[[Scene, str], Any]:
     return value
 
 
-CASE_COLUMNS, BLOCK_COLUMNS = _columns("cases"), _columns("blocks")
-INTERFACE_COLUMNS, POINT_COLUMNS = _columns("interfaces"), _columns("points")
+CASE_COLUMNS, BLOCK_COLUMNS = columns_of("cases"), columns_of("blocks")
+INTERFACE_COLUMNS, POINT_COLUMNS = columns_of("interfaces"), columns_of("points")

@@ -62,35 +62,51 @@ def _component(of: Callable[[Any], Values], place: tuple[int, ...], source: Any)
     return values
 
 
+def _named(column: Column, of: Callable[[Any], Values]) -> tuple[TableColumn, ...]:
+    """Columns of one of the record; numbers with names are text."""
+    text = column.names is not None or column.quantity.kind == "text"
+    return described(replace(column.quantity, kind="text") if text else column.quantity, of)
+
+
 def scene_columns(columns: Sequence[Column], count: Callable[[Scene], int]) -> tuple[TableColumn, ...]:
     """Columns of the record as those of a table, after the name of the load case; ``count``: rows of a scene."""
 
     def case(scene: Scene) -> Values:
         return as_text([scene.case.load_case.name if scene.case else ""] * count(scene))
 
-    found = [TableColumn("case", "text", "1", "load case", case)]
-    for column in columns:
-        if "table" in column.files:
-            text = column.names is not None or column.quantity.kind == "text"
-            quantity = replace(column.quantity, kind="text") if text else column.quantity
-            found += described(quantity, partial(_values, column, count, text))
-    return tuple(found)
+    own = (column for column in columns if "table" in column.files)
+    found = (each for column in own for each in _named(column, partial(_values, column, count)))
+    return (TableColumn("case", "text", "1", "load case", case), *found)
 
 
-def _values(column: Column, count: Callable[[Scene], int], text: bool, scene: Scene) -> Values:
+def _values(column: Column, count: Callable[[Scene], int], scene: Scene) -> Values:
     """Values of a column, (n_rows, ...); where there are none, nothing of its kind in every row."""
-    values, quantity = column.of(scene), column.quantity
+    quantity = column.quantity
+    values: Values | None = column.of(scene)
     if values is not None:
         if column.names is not None:
             return as_text(list(column.names(scene)))[values.astype(np.int64)]
-        sentences = text and quantity.dims == ("sentence",)
-        return as_text(["; ".join(values)]) if sentences else values
+        return as_text(["; ".join(values)]) if quantity.dims == ("sentence",) else values
     shape = (count(scene), *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
-    if text:
+    if column.names is not None or quantity.kind == "text":
         return np.full(shape, "", dtype=object)
     return (
         np.full(shape, np.nan) if quantity.kind == "float" else np.ma.array(np.zeros(shape, dtype=np.int64), mask=True)
     )
+
+
+def list_columns(columns: Sequence[Column]) -> tuple[TableColumn, ...]:
+    """The same of a table whose sources are lists of rows."""
+    return tuple(each for column in columns for each in _named(column, partial(_listed, column)))
+
+
+def _listed(column: Column, rows: Sequence[Any]) -> Values:
+    """Values of a column, (n_rows, ...), row by row."""
+    found: list[Any] = [column.of(row) for row in rows]
+    if column.quantity.kind == "text":
+        return as_text([str(value) for value in found])
+    shape = (len(COMPONENTS[dim]) for dim in column.quantity.dims if dim in COMPONENTS)
+    return np.array(found).reshape(len(rows), *shape)
 
 
 def case_scenes(results: Results, cases: tuple[CaseResult, ...]) -> list[Scene]:
