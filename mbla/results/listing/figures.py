@@ -215,12 +215,8 @@ def _distinct(names: Iterable[str]) -> list[str]:
 # --- The programs of a solution as a table, and what each was for ---------------------------------------------------
 
 
-MOST_PROGRAMS = 40
-"""programs of a table; a long sequence is shown by its beginning and its end"""
-
-
 def program_lines(solution: Solution) -> list[str]:
-    """What each program gave; of a long sequence the first and the last ones."""
+    """What each program gave."""
     programs = solution.programs
     if not programs:
         return []
@@ -237,12 +233,9 @@ def program_lines(solution: Solution) -> list[str]:
         ]
         for program in programs
     ]
-    says = f"{counted(len(rows), 'program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s:"
-    if len(rows) > MOST_PROGRAMS:
-        left_out = len(rows) - MOST_PROGRAMS
-        rows[MOST_PROGRAMS // 2 : -MOST_PROGRAMS // 2] = [["...", f"{left_out} more", "", "", "", "", ""]]
+    says = f"{counted(len(programs), 'program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s:"
     head = ["program", "for", "status", "load factor", "change", "iterations", "seconds"]
-    lines = ["", *sentence(says), *table(head, rows, left=3)]
+    lines = ["", *sentence(says), *long_table(head, rows[:MOST_ROWS], len(rows), left=3)[1:]]
     if any(program.kind == "reverse" for program in programs):
         lines += sentence("The program with the live load reversed shows whether the dead load alone is carried.")
     return lines

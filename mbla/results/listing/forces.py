@@ -11,10 +11,8 @@ from mbla.results.collapse.force_freedom import Enough, ForceFreedom
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import (
     Work,
-    dissipated_by_joint,
     group_reactions,
     load_on_structure,
-    loads_by_group,
     reactions_of,
 )
 from mbla.results.collapse.thrust import thrust_of
@@ -137,7 +135,7 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
 
 
-def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
+def work_lines(load_case: LoadCase, work: Work) -> list[str]:
     """Shares of the power that the loads put in; nothing where they put in none."""
     if work.given <= 0:
         return []
@@ -154,9 +152,7 @@ def work_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics:
     )
     shares = [(name, power_share(power, work), always) for name, power, always in sinks]
     balance = ", ".join(f"{share} % {name}" for name, share, always in shares if always or float(share) != 0.0)
-    lines = sentence(f"Energy balance, {_source(load_case, work)}: {balance}.")
-    groups = [] if settles else _group_table(model, load_case, mechanics, work)
-    return lines + _joint_table(contacts, work) + groups
+    return sentence(f"Energy balance, {_source(load_case, work)}: {balance}.")
 
 
 def _source(load_case: LoadCase, work: Work) -> str:
@@ -174,22 +170,3 @@ def _source(load_case: LoadCase, work: Work) -> str:
 def power_share(power: float, work: Work) -> str:
     """Percentage of the power that is put in, ``-`` where none is."""
     return f"{round(100 * power / work.given, 1) + 0.0:.1f}" if work.given > 0 else "-"
-
-
-def _joint_table(contacts: Contacts, work: Work) -> list[str]:
-    joints = dissipated_by_joint(contacts, work)
-    if len(joints) < 2:
-        return []
-    rows = [[name, *(power_share(power, work) for power in powers)] for name, powers in joints.items()]
-    return table(["joint law", "friction [%]", "cohesion [%]", "normal forces [%]"], rows)
-
-
-def _group_table(model: Model, load_case: LoadCase, mechanics: Mechanics, work: Work) -> list[str]:
-    """Groups by the size of what they add, live or dead."""
-    groups = loads_by_group(model, load_case, mechanics)
-    ordered = sorted(groups.items(), key=lambda item: -max(abs(power) for power in item[1]))
-    shares = [[name, power_share(live, work), power_share(-dead, work)] for name, (live, dead) in ordered]
-    rows = [row for row in shares if float(row[1]) or float(row[2])]
-    if len(rows) < 2:
-        return []
-    return long_table(["group", "live load [%]", "against its dead load [%]"], rows[:MOST_ROWS], len(rows))[1:]

@@ -67,7 +67,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         sections.append(Section("Mechanism", mechanism_lines(model, contacts, told.failure)))
     if mechanics is not None and told is not None:
         work = enough_lines(case, enough_of(model, contacts, told.collapse.parts))
-        work += work_lines(model, contacts, load_case, mechanics, told.collapse.work)
+        work += work_lines(load_case, told.collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
         reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))

@@ -11,7 +11,7 @@ from typing import TypeAlias
 from mbla.errors import UsageError
 from mbla.results.listing.text import counted
 from mbla.results.listing.verdict_words import verdict
-from mbla.results.outcome import result_of
+from mbla.results.outcome import best_iterate
 from mbla.results.pictures import history, plot
 from mbla.results.pictures.camera import view_of_case
 from mbla.results.pictures.image import drawn_image
@@ -50,9 +50,10 @@ class Figures:
 def case_figures(results: Results, case: CaseResult) -> Figures:
     """Mechanism, forces where there are any, and history of a case; of a travelling load that of all its positions."""
     name, solution = case.load_case.name, case.solution
-    captions = {"mechanism": f"{_subject(case)} of load case {name}"}
+    no_result = ", best iterate, no result" if best_iterate(case) is not None else ""
+    captions = {"mechanism": f"Motion of load case {name}{no_result}"}
     if solution.mechanics is not None or solution.lock is not None:
-        captions["forces"] = f"{_forces(case)} of load case {name}"
+        captions["forces"] = f"Contact forces of load case {name}{no_result}"
     if case.load_case.travel is None and (solution.iterations or solution.path):
         captions["history"] = f"Iteration history of load case {name}: load factor and residuals"
     return _drawn(results, case, captions, None)
@@ -108,26 +109,9 @@ def _in_words(results: Results, case: CaseResult, kind: str) -> str:
     if kind == "model":
         free = len(results.model.free)
         return f"The model of {counted(len(model.blocks), 'block')}, {free} of them free, with its supports and loads"
-    moves = case.solution.mechanics is not None or case.solution.certificate is not None
     shown = {
-        "mechanism": "The structure as it moves" if moves else "The structure at rest",
+        "mechanism": "The structure as it moves",
         "forces": "Resultants at the interfaces and lines of thrust",
         "history": "Load factor and residuals over the iterations of the solvers",
     }
     return f"{shown[kind]}; load case {case.load_case.name}: {verdict(model, case)}"
-
-
-def _subject(case: CaseResult) -> str:
-    """What a picture of a case shows: a mechanism only where it is one of a known load."""
-    if result_of(case) is not None:
-        return "Mechanism"
-    if case.solution.mechanics is not None:
-        return "Best iterate, no result,"
-    return "Motion that shows the lack of equilibrium" if case.solution.certificate is not None else "Structure at rest"
-
-
-def _forces(case: CaseResult) -> str:
-    """What forces are drawn: those of a result, or what they are instead."""
-    if result_of(case) is not None:
-        return "Contact forces and lines of thrust"
-    return "Forces that lock" if case.solution.mechanics is None else "Contact forces of the best iterate, no result,"

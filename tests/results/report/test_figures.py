@@ -39,39 +39,16 @@ def changed(status: Status, **changes: Any) -> tuple[Results, CaseResult]:
 @pytest.mark.parametrize(
     ("status", "changes", "captions"),
     [
-        (
-            Status.SOLVED,
-            {},
-            [
-                "Mechanism of load case push_x",
-                "Contact forces and lines of thrust of load case push_x",
-                "Iteration history of load case push_x: load factor and residuals",
-            ],
-        ),
-        (
-            Status.NOT_VERIFIED,
-            {"iterations": ()},
-            [
-                "Best iterate, no result, of load case push_x",
-                "Contact forces of the best iterate, no result, of load case push_x",
-            ],
-        ),
-        (
-            Status.UNBOUNDED,
-            {"mechanics": None, "lock": np.ones((8, 3)), "iterations": ()},
-            ["Structure at rest of load case push_x", "Forces that lock of load case push_x"],
-        ),
-        (
-            Status.NO_EQUILIBRIUM,
-            {"mechanics": None, "certificate": np.ones((3, 6)), "iterations": ()},
-            ["Motion that shows the lack of equilibrium of load case push_x"],
-        ),
+        (Status.SOLVED, {}, ["Motion of", "Contact forces of", "Iteration history of"]),
+        (Status.NOT_VERIFIED, {"iterations": ()}, ["Motion of", "Contact forces of"]),
+        (Status.NO_EQUILIBRIUM, {"mechanics": None, "certificate": np.ones((3, 6)), "iterations": ()}, ["Motion of"]),
     ],
 )
 @pytest.mark.usefixtures("asked")
 def test_captions_say_what_the_pictures_are(status: Status, changes: dict[str, Any], captions: list[str]) -> None:
     found = case_figures(*changed(status, **changes))
-    assert [picture.caption for picture in found.pictures] == captions
+    assert [picture.caption.partition(" load case push_x")[0] for picture in found.pictures] == captions
+    assert found.pictures[0].caption.endswith(", best iterate, no result") == (status is Status.NOT_VERIFIED)
     assert found.missing == ""
 
 
@@ -130,5 +107,5 @@ def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -
         assert picture.words == "Load factor at each position"
         assert picture.source.startswith("data:image/svg+xml;base64,")
     assert [picture.caption for picture in case_figures(results, cases[0]).pictures] == [
-        f"{what} of load case train@0" for what in ("Mechanism", "Contact forces and lines of thrust")
+        f"{what} of load case train@0" for what in ("Motion", "Contact forces")
     ]
