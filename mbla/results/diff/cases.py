@@ -82,42 +82,27 @@ def figure(name: str, unit: str | None, values: tuple[float, float], tolerance: 
 
 
 @dataclass(frozen=True)
-class ReactionChange:
-    """Force of a support on the structure in B less that in A, (3,) in the unit of A."""
-
-    support: str
-    change: FloatArray
-
-
-@dataclass(frozen=True)
 class MotionComparison:
     """Mechanisms.
 
-    angle    : degrees between them, with its cosine; None where they cannot be compared
+    angle    : degrees between them; None where they cannot be compared
     compared : what is: ``mechanism``, or ``motion without equilibrium``; why not where it is not
     """
 
     angle: float | None
-    cosine: float | None
     compared: str
 
 
 @dataclass(frozen=True)
-class InterfaceChange:
-    """An interface with another mode: its bodies as A names them, centroid in A (3,), modes in A and in B."""
-
-    bodies: str
-    centroid: FloatArray
-    modes: tuple[str, str]
-
-
-@dataclass(frozen=True)
 class ModeComparison:
-    """How many interfaces both results have, how many A alone and B alone, and those with another mode."""
+    """How many interfaces both results have, how many A alone and B alone, and modes where they differ.
+
+    changed : bodies as A names them, centroid in A (3,), modes in A and in B
+    """
 
     compared: int
     only: tuple[int, int]
-    interfaces: tuple[InterfaceChange, ...]
+    changed: tuple[tuple[str, FloatArray, tuple[str, str]], ...]
 
 
 @dataclass(frozen=True)
@@ -128,7 +113,7 @@ class CaseComparison:
     answers   : load factor, angle or reaction
     figures   : what else is known of the load factor
     modes     : None where one of the two has no mechanism that is a result
-    reactions : supports whose force differs, the largest change first
+    reactions : by support, force in B less that in A, (3,) in the unit of A, where it differs; the largest first
     load      : size of the loads on free blocks in A, to which changes of reactions are relative
     time      : seconds that it took to solve
     """
@@ -140,7 +125,7 @@ class CaseComparison:
     figures: tuple[Figure, ...]
     mechanism: MotionComparison
     modes: ModeComparison | None
-    reactions: tuple[ReactionChange, ...]
+    reactions: dict[str, FloatArray]
     load: float
     time: tuple[float, float]
 
@@ -170,7 +155,7 @@ def compare_cases(
         figures=figures,
         mechanism=_motions(first, second, matching, factors.length),
         modes=_modes(first, second, matching, factors.length) if results else None,
-        reactions=_reactions(first, second, matching, factors) if results else (),
+        reactions=_reactions(first, second, matching, factors) if results else {},
         load=_load(first),
         time=(own.solution.seconds, its.solution.seconds),
     )
@@ -236,18 +221,18 @@ def _motions(first: Scene, second: Scene, matching: Matching, length: float) -> 
     """Angle between mechanisms that are results, or between motions that prove the lack of equilibrium."""
     if not matching.comparable:
         words = f"only {min(matching.shares):.0%} of the volume has a match in the other"
-        return MotionComparison(None, None, words)
+        return MotionComparison(None, words)
     falls = all(_case(scene).status is Status.NO_EQUILIBRIUM for scene in (first, second))
     what = "motion without equilibrium" if falls else "mechanism"
     motions = {letter: _motion(scene, falls=falls) for letter, scene in (("A", first), ("B", second))}
     without = [letter for letter, motion in motions.items() if motion is None]
     if motions["A"] is None or motions["B"] is None:
         verb = "has" if len(without) == 1 else "have"
-        return MotionComparison(None, None, f"{' and '.join(without)} {verb} no {what} that is a result")
+        return MotionComparison(None, f"{' and '.join(without)} {verb} no {what} that is a result")
     angle = angle_between(first.model.blocks, motions["A"], motions["B"], matching, length)
     if angle is None:
-        return MotionComparison(None, None, "a motion is zero")
-    return MotionComparison(angle, math.cos(math.radians(angle)), what)
+        return MotionComparison(None, "a motion is zero")
+    return MotionComparison(angle, what)
 
 
 def _motion(scene: Scene, *, falls: bool) -> FloatArray | None:
@@ -295,7 +280,7 @@ def _modes(first: Scene, second: Scene, matching: Matching, length: float) -> Mo
     both = np.flatnonzero(rows >= 0)
     own, other = first.interfaces.modes[both], second.interfaces.modes[rows[both]]
     changed = [
-        InterfaceChange(
+        (
             "/".join(first.model.body_name(int(body)) for body in first.contacts.bodies[row]),
             first.contacts.centroids[row],
             (InterfaceMode(old).name.lower(), InterfaceMode(new).name.lower()),
@@ -307,8 +292,8 @@ def _modes(first: Scene, second: Scene, matching: Matching, length: float) -> Mo
     return ModeComparison(len(both), only, tuple(changed))
 
 
-def _reactions(first: Scene, second: Scene, matching: Matching, factors: Factors) -> tuple[ReactionChange, ...]:
-    """Supports whose force changes by more than rounding, the largest change first."""
+def _reactions(first: Scene, second: Scene, matching: Matching, factors: Factors) -> dict[str, FloatArray]:
+    """Changes of the forces of supports by more than rounding, the largest first."""
     names = {  # grounds are named by coordinates, blocks may have changed their order
         second.model.body_name(int(other)): first.model.body_name(body)
         for body, other in enumerate(matching.bodies)
@@ -316,10 +301,10 @@ def _reactions(first: Scene, second: Scene, matching: Matching, factors: Factors
     }
     a = _forces(first)
     b = {names.get(name, name): factors.force * force for name, force in _forces(second).items()}
-    none, least = np.zeros(3), NOISE * _load(first)
-    changes = [ReactionChange(name, b.get(name, none) - a.get(name, none)) for name in dict.fromkeys([*a, *b])]
-    notable = [change for change in changes if np.linalg.norm(change.change) > least]
-    return tuple(sorted(notable, key=lambda change: -float(np.linalg.norm(change.change))))
+    changes = {name: b.get(name, np.zeros(3)) - a.get(name, np.zeros(3)) for name in a | b}
+    sizes = {name: float(np.linalg.norm(change)) for name, change in changes.items()}
+    notable = [name for name, size in sizes.items() if size > NOISE * _load(first)]
+    return {name: changes[name] for name in sorted(notable, key=lambda name: -sizes[name])}
 
 
 def _forces(scene: Scene) -> dict[str, FloatArray]:

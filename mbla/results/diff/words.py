@@ -116,12 +116,10 @@ def _case(case: CaseComparison) -> list[str]:
     lines += sentence(f"answers count as the same within {small(case.answers[0].tolerance)}")
     lines += _motion(case)
     lines += _modes(case)
-    for change in case.reactions[:MOST_NAMED]:
-        share = math.sqrt(float(change.change @ change.change)) / case.load if case.load > 0.0 else math.nan
-        size = float(abs(change.change).max())
-        lines += sentence(
-            f"reaction of {change.support}: changes by {vector(change.change, size)}, {share:.2g} of the loads"
-        )
+    for support, change in list(case.reactions.items())[:MOST_NAMED]:
+        share = math.sqrt(float(change @ change)) / case.load if case.load > 0.0 else math.nan
+        words = f"{vector(change, float(abs(change).max()))}, {share:.2g} of the loads"
+        lines += sentence(f"reaction of {support}: changes by {words}")
     if len(case.reactions) > MOST_NAMED:
         lines += sentence(f"and {counted(len(case.reactions) - MOST_NAMED, 'more reaction')}")
     return lines + sentence(f"solved in {case.time[0]:.3g} s in A, {case.time[1]:.3g} s in B")
@@ -131,21 +129,21 @@ def _motion(case: CaseComparison) -> list[str]:
     found = case.mechanism
     if found.angle is None:
         return sentence(f"mechanisms not compared: {found.compared}")
-    return sentence(f"angle between the two {found.compared}s: {found.angle:.3g} degrees (cosine {found.cosine:.6f})")
+    return sentence(f"angle between the two {found.compared}s: {found.angle:.3g} degrees")
 
 
 def _modes(case: CaseComparison) -> list[str]:
     modes = case.modes
     if modes is None:
         return []
-    changed = len(modes.interfaces)
+    changed = len(modes.changed)
     compared = counted(modes.compared, "interface")
     lines = sentence(f"{changed} of {compared} in another mode" if changed else f"modes of {compared} the same in both")
     for letter, alone in zip("AB", modes.only, strict=True):
         lines += sentence(f"{counted(alone, 'interface')} of {letter} without match") if alone else []
-    for change in modes.interfaces[:MOST_NAMED]:
-        place = f"{change.bodies} at {vector(change.centroid, float(abs(change.centroid).max()))}"
-        lines += sentence(f"interface {place}: {change.modes[0]} in A, {change.modes[1]} in B", "    ")
+    for bodies, centroid, (old, new) in modes.changed[:MOST_NAMED]:
+        place = vector(centroid, float(abs(centroid).max()))
+        lines += sentence(f"interface {bodies} at {place}: {old} in A, {new} in B", "    ")
     more = f"and {counted(changed - MOST_NAMED, 'more interface')}; --json has them all"
     return lines + (sentence(more, "    ") if changed > MOST_NAMED else [])
 
