@@ -16,7 +16,7 @@ from mbla.results.hdf5.content import as_told
 from mbla.results.listing.listing import verification_lines
 from mbla.results.outcome import unproved_words
 from mbla.results.record.json_record import verification_json
-from mbla.results.record.quantity import STANDING
+from mbla.results.record.quantity import TOLD
 from mbla.results.results import Results
 from mbla.results.verify import verify_file
 from mbla.run import run
@@ -114,7 +114,7 @@ def test_a_doubt_is_marked_and_a_load_factor_that_rests_on_it_not_confirmed(
     assert "presumes that it stands" in " ".join("\n".join(verification_lines(again, disagreements)).split())
     with h5py.File(written(tmp_path, changed)) as file:
         name = f"cases/{again.cases[0].load_case.name}/standing/verdict"
-        assert file[name].attrs["verification"] == f"not verified: {STANDING}".encode()
+        assert file[name].attrs["verification"] == f"not verified: {TOLD['standing']}".encode()
 
 
 def test_a_structure_that_falls_is_not_made_doubtful_without_a_word(
@@ -131,12 +131,12 @@ def test_a_structure_that_falls_is_not_made_doubtful_without_a_word(
 def test_proved_verdicts_are_not_marked(originals: dict[Standing, Results], tmp_path: Path) -> None:
     for verdict in (YES, NO):
         results = originals[verdict]
-        assert STANDING not in as_told(results)
+        assert TOLD["standing"] not in as_told(results)
         assert unproved_words(results.cases) == ()
         with h5py.File(written(tmp_path, results)) as file:
             name = f"cases/{results.cases[0].load_case.name}/standing/verdict"
             assert "verification" not in file[name].attrs
-    assert STANDING in as_told(originals[SELF_STRESS])
+    assert TOLD["standing"] in as_told(originals[SELF_STRESS])
 
 
 @pytest.mark.parametrize("kept", [True, False])

@@ -6,51 +6,14 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
+from importlib import import_module
 from importlib.resources import files
 from string import Template
 from typing import Any
 
-from mbla.deck.notices import GRAVITY_TOLERANCE
 from mbla.deck.suggestions import did_you_mean
-from mbla.deck.units import STANDARD_GRAVITY
 from mbla.errors import UsageError
-from mbla.model.build import UNLIMITED
-from mbla.model.solids.build import PLANAR
-from mbla.results.collapse.interface_modes import TOGETHER
 from mbla.results.listing.text import WIDTH, heading, sentence
-from mbla.results.outcome import CLEAN_RESIDUAL, UNIQUE
-from mbla.solution.part import SUSPECT
-from mbla.solution.thresholds import (
-    APPROXIMATE_RESIDUAL,
-    EXACT_RESIDUAL,
-    GAP_TOLERANCE,
-    LIVE_POWER_DEVIATION,
-    SOLVED_EQUILIBRIUM,
-    SOLVED_RESIDUAL,
-)
-from mbla.solution.verification.further_claims import LASTING, SAME_LOADS, UNBALANCED
-
-FIGURES = {
-    "gravity_tolerance": f"{GRAVITY_TOLERANCE:.0%}",
-    "standard_gravity": f"{STANDARD_GRAVITY:g}",
-    "planar": f"{PLANAR:g}",
-    "unlimited_friction": f"{UNLIMITED:g}",
-    "still": f"{TOGETHER:g}",
-    "clean_residual": f"{CLEAN_RESIDUAL:g}",
-    "unique": f"{UNIQUE:g}",
-    "peak_suspected_below": f"{SUSPECT:g}",
-    "approximate_residual": f"{APPROXIMATE_RESIDUAL:g}",
-    "gap_tolerance": f"{GAP_TOLERANCE:g}",
-    "live_power": f"{LIVE_POWER_DEVIATION:g}",
-    "solved_equilibrium": f"{SOLVED_EQUILIBRIUM:g}",
-    "solved_residual": f"{SOLVED_RESIDUAL:g}",
-    "unbalanced_live_load": f"{LASTING:g}",
-    "peak_residual": f"{EXACT_RESIDUAL:g}",
-    "range_residual": f"{EXACT_RESIDUAL:g}",
-    "unbalanced_dead_load": f"{UNBALANCED:g}",
-    "same_tilt_loads": f"{SAME_LOADS:g}",
-}
-"""Thresholds that the explanations name, as they are printed."""
 
 
 @dataclass(frozen=True)
@@ -83,14 +46,20 @@ class Explanation:
 def sections() -> dict[str, tuple[Explanation, ...]]:
     """Every explanation under the title of its section."""
     content = tomllib.loads(files("mbla.results").joinpath("messages.toml").read_text(encoding="utf-8"))
-    shared = {name: _filled(text, FIGURES) for name, text in content.pop("shared").items()}
-    words = {**FIGURES, **shared}
+    figures = {name: f"{_constant(path):g}" for name, path in content.pop("figures").items()}
+    words = figures | {name: _filled(text, figures) for name, text in content.pop("shared").items()}
     found = {}
     for section in content.values():
         common = {key: value for key, value in section.items() if key != "title" and not isinstance(value, dict)}
         entries = {name: {**common, **entry} for name, entry in section.items() if isinstance(entry, dict)}
         found[section["title"]] = tuple(_explanation(name, entry, words) for name, entry in entries.items())
     return found
+
+
+def _constant(path: str) -> float:
+    """A constant of the program, ``mbla.solution.thresholds.GAP_TOLERANCE``."""
+    module, _, name = path.rpartition(".")
+    return float(getattr(import_module(module), name))
 
 
 @cache

@@ -59,24 +59,18 @@ COMPONENTS = {
 
 NOT_VERIFIED = "not verified: {}"
 """attribute of datasets that ``mbla verify`` takes as the run told them"""
-VERSIONS, TIMES, FILES = "versions and date", "times", "names of files"
-WORDS = "reasons and remarks in words"
-COURSE = "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions"
-SEARCHES = "tries that did not agree, ranges of normal forces"
-CLAIMED = "that no better answer was found than the status says, without associative flow that it does not fall before"
-STANDING = "that it stands only by self-stress, or that it is doubtful whether it stands"
-FALLS = "which block falls first"
 PASSED = "mechanism of a peak"
 TOLD = {
-    "versions": VERSIONS,
-    "times": TIMES,
-    "files": FILES,
-    "words": WORDS,
-    "course": COURSE,
-    "searches": SEARCHES,
-    "claimed": CLAIMED,
-    "standing": STANDING,
-    "falls": FALLS,
+    "versions": "versions and date",
+    "times": "times",
+    "files": "names of files",
+    "words": "reasons and remarks in words",
+    "course": "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions",
+    "searches": "tries that did not agree, ranges of normal forces",
+    "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
+    "before",
+    "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
+    "falls": "which block falls first",
 }
 """kinds of statements by the words that ``stored.csv`` has for them"""
 
