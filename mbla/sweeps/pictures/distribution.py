@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.results.pictures.diagrams import Diagrams, dress, tint
+from mbla.results.pictures.diagrams import dress, tint
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import VERMILION, Page
 from mbla.sweeps.answers import Answers
@@ -26,9 +26,6 @@ from mbla.sweeps.pictures.view import View, axis_of, column_by_name, grid_axes, 
 CONFIDENCE = 0.95
 MOST_CURVES = 12
 """curves of which each can be found again; more ask for one parameter with --by"""
-MOST_FILLED = 3
-"""curves whose bands can be filled without hiding each other; those of more are lines"""
-MOST_BINS = 60
 
 
 @dataclass(frozen=True)
@@ -81,30 +78,32 @@ def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulativ
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
-    groups = _groups(view)
-    sampled = bool(view.table.samples)
-    curves = [(name, cumulative(view.answers, own, sampled), own) for name, own in groups]
+    groups, sampled, answers = _groups(view), bool(view.table.samples), view.answers
+    curves = [cumulative(answers, own, sampled) for _, own in groups]
 
     def handles(page: Page) -> list[Any]:
         lines = [
-            page.line(name, linewidth=2 * page.scale, **_style(page, i, len(curves)))
-            for i, (name, _, _) in enumerate(curves)
+            page.line(name, linewidth=2 * page.scale, **_style(page, i, len(groups)))
+            for i, (name, _) in enumerate(groups)
             if name
         ]
         return lines + [page.line("demand", color=VERMILION, linestyle="--")] * bool(view.demands)
 
-    notes = _notes(view, [curve for _, curve, _ in curves])
-    with open_sheet(path, view, f"distribution of {view.answers.label}", options, handles, notes) as sheet:
+    what = f"distribution of {answers.label}"
+    with open_sheet(path, view, what, options, handles, _notes(view, curves)) as sheet:
+        page = sheet.page
         upper, lower = sheet.frames(2, columns=1, sharex=True, height_ratios=(2, 3))[:, 0]
-        dress(sheet.page, upper, "", "points")
-        dress(
-            sheet.page, lower, view.answers.label, "probability of a lower value" if sampled else "share of the points"
-        )
-        _draw_histogram(sheet, upper, view, [own for _, _, own in curves])
-        for i, (_, curve, _) in enumerate(curves):
-            _draw_curve(sheet, lower, curve, _style(sheet.page, i, len(curves)), len(curves))
+        dress(page, upper, "", "points")
+        dress(page, lower, answers.label, "probability of a lower value" if sampled else "share of the points")
+        edges = np.histogram_bin_edges(answers.values[answers.good], bins="auto")
+        for i, ((_, own), curve) in enumerate(zip(groups, curves, strict=True)):
+            style = _style(page, i, len(groups)) | {"linewidth": 1.8 * page.scale}
+            upper.hist(answers.values[own & answers.good], bins=edges, histtype="step", **style)
+            _draw_curve(lower, curve, style)
         lower.set_ylim(-0.02, 1.02)
-        _draw_demands(sheet, (upper, lower), view)
+        for demand in view.demands:
+            for axes in (upper, lower):
+                axes.axvline(demand, color=VERMILION, linestyle="--", linewidth=1.4 * page.scale, zorder=2)
 
 
 def _groups(view: View) -> list[tuple[str, BoolArray]]:
@@ -130,45 +129,15 @@ def _style(page: Page, number: int, count: int) -> dict[str, Any]:
     return {"color": colour, "linestyle": ("-", "--", "-.", ":")[number % 4]}
 
 
-def _draw_histogram(sheet: Diagrams, axes: Any, view: View, groups: Sequence[BoolArray]) -> None:
-    values = view.answers.values
-    known = values[view.answers.good]
-    edges = np.histogram_bin_edges(known, bins="auto")
-    if len(edges) - 1 > MOST_BINS:
-        edges = np.histogram_bin_edges(known, bins=MOST_BINS)
-    for i, own in enumerate(groups):
-        style = _style(sheet.page, i, len(groups)) | {"histtype": "step", "linewidth": 1.6 * sheet.page.scale}
-        if len(groups) == 1:
-            style = {"color": style["color"], "edgecolor": "white"}
-        axes.hist(values[own & view.answers.good], bins=edges, **style)
-
-
-def _draw_curve(sheet: Diagrams, axes: Any, curve: Cumulative, style: dict[str, Any], count: int) -> None:
+def _draw_curve(axes: Any, curve: Cumulative, style: dict[str, Any]) -> None:
     """Steps from what lies below every value to what lies not above the greatest."""
     if not len(curve.values):
         return
     start = curve.below / max(curve.points - curve.unknown, 1)
-    edge = curve.values[0]
-    steps = np.concatenate([[edge], curve.values]), np.concatenate([[start], curve.share])
-    dense = len(curve.values) > 5000
-    axes.plot(*steps, drawstyle="steps-post", linewidth=1.8 * sheet.page.scale, rasterized=dense, zorder=3, **style)
-    if count <= MOST_FILLED:
-        axes.fill_between(curve.values, curve.low, curve.high, step="post", alpha=0.2, color=style["color"],
-                          linewidth=0.0, rasterized=dense, zorder=1)  # fmt: skip
-    else:
-        for side in (curve.low, curve.high):
-            axes.plot(curve.values, side, drawstyle="steps-post", linewidth=0.5 * sheet.page.scale, alpha=0.7,
-                      rasterized=dense, zorder=1, **style)  # fmt: skip
-
-
-def _draw_demands(sheet: Diagrams, frames: Sequence[Any], view: View) -> None:
-    for demand in view.demands:
-        for axes in frames:
-            axes.axvline(demand, color=VERMILION, linestyle="--", linewidth=1.4 * sheet.page.scale, zorder=2)
-        frames[0].annotate(
-            f"{demand:.4g}", (demand, 1), xycoords=frames[0].get_xaxis_transform(), xytext=(3, -2), va="top",
-            textcoords="offset points", fontsize=sheet.small, color=VERMILION,
-        )  # fmt: skip
+    steps = np.append(curve.values[0], curve.values), np.append(start, curve.share)
+    axes.plot(*steps, drawstyle="steps-post", zorder=3, **style)
+    band = {"step": "post", "alpha": 0.2, "color": style["color"], "linewidth": 0.0, "zorder": 1}
+    axes.fill_between(curve.values, curve.low, curve.high, **band)
 
 
 def _notes(view: View, curves: Sequence[Cumulative]) -> list[str]:

@@ -1,4 +1,4 @@
-"""What all pictures of a sweep have: words with counts above, marks of points without a value, ticks at values."""
+"""What all pictures of a sweep have: words with counts above, marks of points without a value, scales, lines."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.diagrams import Diagrams, hollow, open_diagrams, tint
-from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions
+from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GHOST, INK, PURPLE, WARNING, Page
 from mbla.sweeps.answers import Answer, Answers
 from mbla.sweeps.pictures.view import Axis, Cells, Grid, View
@@ -21,33 +21,30 @@ from mbla.sweeps.results import STATUS
 
 @dataclass(frozen=True)
 class Mark:
-    """How an answer that is no value is shown: words of legends and notes, marker, colour, hatch of cells."""
+    """How an answer that is no value is shown: words of legends and counts, marker, colour."""
 
     words: str
     marker: str
     colour: str
-    hatch: str
 
 
 MARKS = {
-    Answer.UNVERIFIED: Mark("not verified", "o", WARNING, "xx"),
-    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK, "///"),
-    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE, 3 * "\\"),
-    Answer.NONE: Mark("has no such value", "|", GHOST, "--"),
-    Answer.FAILED: Mark("failed", "x", WARNING, "xx"),
-    Answer.NOT_RUN: Mark("not solved yet", ".", GHOST, "oo"),
-    Answer.MIXED: Mark("different from point to point", "d", GHOST, "++"),
-    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING, "//"),
+    Answer.UNVERIFIED: Mark("not verified", "o", WARNING),
+    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK),
+    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE),
+    Answer.NONE: Mark("has no such value", "|", GHOST),
+    Answer.FAILED: Mark("failed", "x", WARNING),
+    Answer.NOT_RUN: Mark("not solved yet", ".", GHOST),
+    Answer.MIXED: Mark("different from point to point", "d", GHOST),
+    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING),
 }
 CROWD = 60
-"""markers from which on they are smaller"""
+"""points from which on marks are smaller"""
 MANY = 2000
-"""markers from which on they are one image in SVG and PDF"""
+"""points from which on they are one image in SVG and PDF"""
 MOST_NAMED = 10
 """lines that a legend names; more have a scale of colours beside them"""
 MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
-QUARTER = 90.0
-"""degrees"""
 
 
 def count_words(answers: Answers) -> str:
@@ -79,38 +76,19 @@ def drawn_values(cells: Cells) -> FloatArray:
     return np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
 
 
-def scale_axis(sheet: Diagrams, axes: Any, axis: Axis, which: str = "x", share: float = 1.0) -> None:
-    """Ticks and scale of an axis of the design along ``x`` or ``y``: at its values where their names have room.
-
-    share : of the side of the page that the diagram has: fewer names have room then
-    """
-    along = axes.xaxis if which == "x" else axes.yaxis
-    if axis.log:
+def scale_axis(page: Page, axes: Any, axis: Axis, which: str = "x") -> None:
+    """Scale and ticks of an axis of the design along ``x`` or ``y``: names of categories, 45 degrees of directions."""
+    along = getattr(axes, f"{which}axis")
+    if axis.categorical:
+        turned = which == "x" and sum(map(len, axis.names)) > CROWD
+        along.set_ticks(axis.coordinates, axis.names, parse_math=False, rotation=90 if turned else 0)
+    elif axis.log:
         axes.set(**{f"{which}scale": "log"})
-    width, height = sheet.page.options.size
-    side = (width if which == "x" else height * (sheet.top - sheet.bottom)) / DOTS_PER_INCH * 72.0 * share
-    if axis.column.role == "azimuth" and np.ptp(axis.coordinates) > QUARTER * 2:
-        limits = getattr(axes, f"get_{which}lim")()
-        along.set_ticks(np.arange(-360, 361, QUARTER / 2))
-        axes.set(**{f"{which}lim": limits})  # which the ticks widen
-        return
-    longest = max(len(name) for name in axis.names)
-    across = sheet.small * (1.5 if which == "y" else 0.7 * longest + 1.0)
-    most = max(2, int(0.85 * side / across))
-    if not axis.categorical and (_crowded(axis, most) or not axis.names_exact):
-        return
-    turn = which == "x" and axis.categorical and len(axis.levels) > most
-    if turn:
-        most = max(2, int(0.85 * side / (1.4 * sheet.small)))
-    step = -(-len(axis.levels) // most)
-    along.set_ticks([], minor=True)
-    along.set_ticks(axis.coordinates[::step], axis.names[::step], parse_math=False, rotation=90 if turn else 0)
+    elif axis.column.role == "azimuth":
+        along.set_major_locator(page.parts.ticker.MultipleLocator(45.0))
 
 
-def _crowded(axis: Axis, most: int) -> bool:
-    """Whether names at all values would lie over each other: a gap smaller than the share that a name needs."""
-    values = np.log(axis.coordinates) if axis.log else axis.coordinates
-    return bool(len(values) > 1 and np.diff(values).min() < np.ptp(values) / most)
+# --- marks ------------------------------------------------------------------------------------------------------------
 
 
 def mark_handles(page: Page, answers: IntArray) -> list[Any]:
@@ -122,31 +100,35 @@ def mark_handles(page: Page, answers: IntArray) -> list[Any]:
     ]
 
 
-def place_marks(sheet: Diagrams, axes: Any, x: Any, answer: IntArray, values: Any, answers: Answers) -> None:
-    """Markers of points that have no verified value, at ``x``.
+def draw_marks(page: Page, axes: Any, x: Any, y: Any, answer: IntArray, **style: Any) -> None:
+    """Markers of answers that are no values, each kind its own, at places x, y (n,)."""
+    for kind, mark in MARKS.items():
+        own = answer == kind
+        if own.any():
+            size = (8.0, 1.5) if own.sum() < CROWD else (5.0, 0.8)
+            look = hollow(page, mark.marker, mark.colour, *size) | {"zorder": 4, "clip_on": False}
+            axes.plot(x[own], y[own], rasterized=own.sum() > MANY, **look, **style)
+
+
+def mark_along(page: Page, axes: Any, x: Any, answer: IntArray, values: Any, answers: Answers) -> None:
+    """Marks of points over an axis.
 
     Of a load factor what does not stand lies at zero, of other results at the lower edge; what nothing brings down at
     the upper edge; what failed or has no such value at the lower edge; a value that is not verified at its place.
 
     x, answer, values : (n,) place along the axis, ``Answer``, result
     """
-    for kind, mark in MARKS.items():
-        own = answer == kind
-        if not own.any():
-            continue
-        size = (8.0, 1.5) if own.sum() < CROWD else (5.0, 0.8)
-        style = hollow(sheet.page, mark.marker, mark.colour, *size)
-        style |= {"zorder": 4, "clip_on": False, "rasterized": own.sum() > MANY}
-        if kind in (Answer.UNVERIFIED, Answer.PARTLY):
-            axes.plot(x[own], values[own], **style)
-        elif kind == Answer.NO_EQUILIBRIUM and answers.is_factor:
-            axes.plot(x[own], np.zeros(own.sum()), **style)
-        else:
-            height = 1.0 if kind == Answer.UNBOUNDED else 0.0
-            axes.plot(x[own], np.full(own.sum(), height), transform=axes.get_xaxis_transform(), **style)
+    fallen = (answer == Answer.NO_EQUILIBRIUM) & answers.is_factor
+    placed = fallen | np.isin(answer, (Answer.UNVERIFIED, Answer.PARTLY))
+    heights = np.where(fallen, 0.0, values), np.where(answer == Answer.UNBOUNDED, 1.0, 0.0)
+    draw_marks(page, axes, x[placed], heights[0][placed], answer[placed])
+    at_edge = axes.get_xaxis_transform()
+    draw_marks(page, axes, x[~placed], heights[1][~placed], answer[~placed], transform=at_edge)
+    if fallen.any():
+        axes.axhline(0.0, color=GHOST, linewidth=0.8 * page.scale, zorder=1)
 
 
-# --- Lines, one for each value of a parameter -----------------------------------------------------------------------
+# --- lines, one for each value of a parameter -------------------------------------------------------------------------
 
 
 def line_style(page: Page, number: int, count: int) -> dict[str, Any]:
@@ -171,8 +153,7 @@ def add_scale(sheet: Diagrams, frames: Any, lines: Axis | None) -> None:
         return
     parts = sheet.page.parts
     colours = parts.colors.ListedColormap([tint(sheet.page, i, count) for i in range(count)])
-    bar = sheet.add_bar(
-        parts.cm.ScalarMappable(parts.colors.Normalize(-0.5, count - 0.5), colours), frames, lines.label
-    )
+    steps = parts.colors.Normalize(-0.5, count - 0.5)
+    bar = sheet.add_bar(parts.cm.ScalarMappable(steps, colours), frames, lines.label)
     step = -(-count // 16)
     bar.set_ticks(np.arange(0, count, step), labels=lines.names[::step], fontsize=sheet.small, parse_math=False)

@@ -19,10 +19,10 @@ from scipy.stats import rankdata
 from mbla.arrays import FloatArray
 from mbla.results.pictures.diagrams import dress
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import BLUE, GHOST, INK, VERMILION, Page
+from mbla.results.pictures.page import BLUE, INK, VERMILION, Page
 from mbla.sweeps.answers import numbers_of, told_apart
 from mbla.sweeps.pictures.sheet import open_sheet
-from mbla.sweeps.pictures.view import Axis, View, axis_of, design_columns, over_sphere
+from mbla.sweeps.pictures.view import Axis, View, design_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
 CONFIDENCE = 0.95
@@ -135,33 +135,25 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     with open_sheet(path, view, f"{view.answers.label}: sensitivity to parameters", options, None, notes) as sheet:
         page, axes = sheet.page, sheet.frames(1)[0, 0]
         dress(page, axes, f"{along} {view.answers.label}")
-        thick = min(0.6, 0.1 + 0.12 * len(bars))  # a few need not fill the page
+        style = {"color": INK, "marker": "|", "markersize": 9 * page.scale, "linewidth": 1.4 * page.scale, "zorder": 3}
         for row, bar in enumerate(bars):
-            if np.isfinite(bar.outline):
-                outline = {"facecolor": "none", "edgecolor": GHOST, "linewidth": 1.2 * page.scale}
-                axes.barh(row, bar.outline, height=thick, zorder=2, **outline)
-            value, inner = np.nan_to_num(bar.value), thick if np.isnan(bar.outline) else 0.75 * thick
-            axes.barh(row, value, color=VERMILION if value < 0 else BLUE, height=inner, zorder=2)
+            value = np.nan_to_num(bar.value)
+            axes.barh(row, value, color=VERMILION if value < 0 else BLUE, height=0.6, zorder=2)
             if np.isfinite(bar.low) and np.isfinite(bar.high):
-                style = {"color": INK, "marker": "|", "markersize": 9 * page.scale, "linewidth": 1.4 * page.scale}
-                axes.plot([bar.low, bar.high], [row, row], zorder=3, **style)
-        if view.sampled:
-            axes.set_xlim(-1.05, 1.05)
-        else:
-            axes.margins(x=0.12)
+                axes.plot([bar.low, bar.high], [row, row], **style)
+        axes.margins(x=0.12)
         _name_rows(page, axes, bars)
 
 
 @dataclass(frozen=True)
 class Bar:
-    """A row: its name at the left, figures at the right, a bar with whiskers, and an outline about it, nan for none."""
+    """A row: its name at the left, figures at the right, a bar with whiskers; nan for none."""
 
     name: str
     words: str
     value: float
     low: float
     high: float
-    outline: float = np.nan
 
 
 def _ordered(view: View) -> list[SweepColumn]:
@@ -178,19 +170,14 @@ def _correlation_bars(view: View) -> tuple[list[Bar], str, list[str]]:
     """Rows of a sample, what they show of the result, and notes."""
     found = [correlation(view, column) for column in _ordered(view)]
     found.sort(key=lambda each: np.nan_to_num(-abs(each.value), nan=1.0))
-    mixed = len(view.table.dimensions) > 1
+    repeated = len(view.table.dimensions) > 1  # samples that are repeated over a grid are not independent
     notes = [f"bars: Spearman rank correlation over {found[0].points} points with a verified value"]
-    if mixed:
-        notes[0] += "; no interval, as samples that are repeated over a grid are not independent"
-    else:
-        notes[0] += f"; whiskers: {INTERVAL} (Bonett and Wright), which takes the points as independent"
+    notes += [f"whiskers: {INTERVAL} (Bonett and Wright), which takes the points as independent"] * (not repeated)
     notes += _tangled(view)
-    left = [column.name for column in design_columns(view.table) if column not in _ordered(view)]
-    notes += [f"no order, so not here: {', '.join(left)}"] * bool(left)
     bars = []
     for each in found:
         words = "does not vary" if np.isnan(each.value) else f"{each.value:+.2f}"
-        low, high = (np.nan, np.nan) if mixed else (each.low, each.high)
+        low, high = (np.nan, np.nan) if repeated else (each.low, each.high)
         bars.append(Bar(each.name, words, each.value, low, high))
     return bars, "rank correlation with", notes
 
@@ -219,18 +206,12 @@ def _swing_bars(view: View) -> tuple[list[Bar], str, list[str]]:
     found = sorted(_swings(view), key=lambda each: np.nan_to_num(-each.span, nan=1.0))
     notes = [
         "bars: mean change from the least to the greatest value of the parameter at each combination of the others; "
-        "whiskers: least and most of these changes; outline: mean range over all its values"
+        "whiskers: least and most of these changes; range: over all its values, mean"
     ]
     left = [f"{each.name} {each.left_out} of {each.left_out + each.combinations}" for each in found if each.left_out]
     if left:
         notes.append(f"combinations left out as a point has no verified value: {', '.join(left)}")
-    spheres = [column.name for column in view.table.of_role("azimuth") if over_sphere(view.table, column.dimension)]
-    if spheres:
-        notes.append(f"directions over a sphere have no least and greatest, so not here: {', '.join(spheres)}")
-    bars = []
-    for each in found:
-        outline = np.nan_to_num(each.span) * (-1.0 if each.change < 0 else 1.0)
-        bars.append(Bar(_ends(view, each), _swing_words(each), each.change, each.least, each.most, float(outline)))
+    bars = [Bar(_ends(view, each), _swing_words(each), each.change, each.least, each.most) for each in found]
     return bars, "change of", notes
 
 
@@ -255,10 +236,7 @@ def _swing_words(found: Swing) -> str:
 
 def _ends(view: View, found: Swing) -> str:
     """Name of a parameter with its least and greatest value, or the number of values that have no order."""
-    column = next(column for column in design_columns(view.table) if column.name == found.name)
-    axis = axis_of(view.table, column)
-    unit = f" {column.unit}" if column.unit else ""
-    partners = f", with {', '.join(axis.partners)}" if axis.partners else ""
-    if axis.categorical or column.role != "parameter":
-        return f"{found.name}{partners}\n{len(axis.levels)} values"
-    return f"{found.name}{partners}\n{axis.names[0]} to {axis.names[-1]}{unit}"
+    axis = next(axis for axis in view.axes if axis.column.name == found.name)
+    if np.isnan(found.change):
+        return f"{axis.label}\n{len(axis.levels)} values"
+    return f"{axis.label}\n{axis.names[0]} to {axis.names[-1]}"

@@ -19,8 +19,6 @@ SAME_RATIO = 1e-6
 """relative: how equal the ratios of neighbouring values are in a range of equal ratios; tables hold full precision"""
 WIDE = 30.0
 """greatest by least value from which three values of equal ratios, which a list may have too, are a log range"""
-ROUNDING = 1e-12
-"""relative: of values that a range makes, as 0.30000000000000004"""
 DIRECTIONS = ("azimuth", "elevation")
 
 
@@ -53,25 +51,12 @@ class Axis:
     @property
     def label(self) -> str:
         """``thickness [m]``, with what changes together with it."""
-        return label_of(self.column) + (f", with {', '.join(self.partners)}" if self.partners else "")
+        return self.column.header + (f", with {', '.join(self.partners)}" if self.partners else "")
 
     @property
     def names(self) -> list[str]:
         """Each value in few letters."""
         return [value_words(level) for level in self.levels]
-
-    @property
-    def names_exact(self) -> bool:
-        """Whether the names of numbers are the numbers, not roundings of them."""
-        return self.categorical or all(
-            abs(float(name) - level) <= ROUNDING * abs(level)
-            for name, level in zip(self.names, self.levels, strict=True)
-        )
-
-
-def label_of(column: SweepColumn) -> str:
-    """Name and unit of a parameter."""
-    return f"{column.name} [{column.unit}]" if column.unit else column.name
 
 
 def value_words(value: Any) -> str:

@@ -1,13 +1,10 @@
-"""Lines, bands, scales and notes of curves; ticks of axes as all diagrams have them."""
+"""Lines, bands, scales and notes of curves."""
 
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import pytest
-
 from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw, names_along, words
+from tests.sweeps.pictures.drawing import draw, words
 from tests.sweeps.pictures.hand_made import Row, grid, sphere
 
 
@@ -29,11 +26,10 @@ def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures
 
 
 def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_path: Path, figures: list[Any]) -> None:
-    """Over a sphere of directions; bounds of each point have no place then."""
+    """Over a sphere of directions."""
 
     def solve(mu: float, to_azimuth: float, to_elevation: float) -> Row:
-        value = mu + to_azimuth
-        return {"status": "solved", "load_factor": value, "static_bound": value - 1, "kinematic_bound": value + 1}
+        return {"status": "solved", "load_factor": mu + to_azimuth}
 
     draw(sphere([(0.0, 0.0), (100.0, 30.0), (150.0, 60.0)], {"mu": [1.0, 2.0]}, solve), tmp_path, "curve")
     (axes,) = figures[0].axes
@@ -41,35 +37,10 @@ def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_pat
     assert line.get_ydata().tolist() == [101.0, 102.0]
     band = axes.collections[0].get_paths()[0].vertices
     assert {tuple(each) for each in band} == {(1.0, 1.0), (1.0, 151.0), (2.0, 2.0), (2.0, 152.0)}
-    assert "line: median of up to 3 points of to; band: least to greatest" in words(figures[0])
-    assert "static to kinematic" not in words(figures[0])
+    assert "line: median of up to 3 points of the other parameters band: least to greatest" in words(figures[0])
 
 
-def test_a_range_of_equal_ratios_has_a_log_axis_with_its_values(tmp_path: Path, figures: list[Any]) -> None:
+def test_a_range_of_equal_ratios_has_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:
     draw(grid({"k": [1e6, 1e7, 1e8]}, lambda k: k), tmp_path, "curve")
     (axes,) = figures[0].axes
     assert axes.get_xscale() == "log"
-    assert axes.get_xticks().tolist() == [1e6, 1e7, 1e8]
-    assert names_along(axes, "x") == ["1e+06", "1e+07", "1e+08"]
-
-
-@pytest.mark.parametrize(
-    ("values", "named"),
-    [
-        ([0.1, 0.2, 0.4], ["0.1", "0.2", "0.4"]),
-        ([0.1, 0.1001, 0.4], None),  # two names would lie over each other
-        ([0.1, 0.20001, 0.4], None),  # which has no name of four digits
-    ],
-)
-def test_ticks_stand_at_values_whose_names_have_room_and_are_exact(
-    tmp_path: Path, figures: list[Any], values: list[float], named: list[str] | None
-) -> None:
-    draw(grid({"mu": values}, lambda mu: mu), tmp_path, "curve")
-    (axes,) = figures[0].axes
-    if named is not None:
-        assert axes.get_xticks().tolist() == values
-        assert names_along(axes, "x") == named
-    else:
-        steps = np.diff(axes.get_xticks())
-        assert steps == pytest.approx(steps[0])
-        assert len(steps) > 3

@@ -1,27 +1,13 @@
-"""Cells, contours and figures of maps."""
+"""Cells of maps."""
 
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
-from mbla.sweeps.pictures.view import value_words
 from tests.sweeps.drawn import names_in_legend
 from tests.sweeps.pictures.drawing import draw, words
 from tests.sweeps.pictures.hand_made import FAILED, Row, grid
-
-FINE = list(np.linspace(0.1, 1.6, 16))
-"""so many that their values have no room in the cells"""
-
-
-def texts(axes: Any) -> list[str]:
-    return [text.get_text() for text in axes.texts]
-
-
-def contours(axes: Any) -> Any:
-    """The lines of equal value, None where there are none."""
-    return next((each for each in axes.collections if hasattr(each, "levels")), None)
 
 
 def mechanism(name: str) -> Row:
@@ -50,20 +36,3 @@ def test_cells_of_several_classes_are_their_class_where_it_is_one(tmp_path: Path
     shown = figures[0].axes[0].collections[0].get_array()
     assert shown.tolist() == [[1.0, None, None]] * 3
     assert names_in_legend(figures[0]) == ["sliding", "failed", "different from point to point"]
-    assert "cell: class of up to 2 points of the other parameters where it is the same" in words(figures[0])
-
-
-def test_contours_are_lines_of_equal_value(tmp_path: Path, figures: list[Any]) -> None:
-    """Of a plane they are straight: along each the sum of both parameters is the level that its label names."""
-    draw(grid({"mu": FINE, "thickness": FINE}, lambda mu, thickness: mu + thickness), tmp_path, "map")
-    axes, bar = figures[0].axes
-    found = contours(axes)
-    lines = [path.vertices for path in found.get_paths() if len(path.vertices)]
-    assert len(lines) >= 4
-    for line in lines:
-        total = line.sum(axis=1)
-        assert total == pytest.approx(total[0], rel=1e-9)
-        assert np.abs(found.levels - total[0]).min() == pytest.approx(0.0, abs=1e-9)
-    assert set(texts(axes)) <= {value_words(float(level)) for level in found.levels}
-    assert texts(axes)
-    assert bar.get_ylabel() == "load factor"
