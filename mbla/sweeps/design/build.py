@@ -17,7 +17,7 @@ from mbla.results.listing.text import counted
 from mbla.sweeps.design.constraints import constrained
 from mbla.sweeps.design.design import Axis, Design, Dimension, Point, Sources, SweepColumn
 from mbla.sweeps.design.sampling import quantiles
-from mbla.sweeps.design.ways import WAYS, Filled, Form, Way, WayError
+from mbla.sweeps.design.ways import RANGES, WAYS, Filled, Form, Way, WayError
 from mbla.sweeps.file.content import RANDOM, SAMPLED, Part, design_parts, key_paths, way_of
 from mbla.sweeps.plan import Plain
 
@@ -184,8 +184,13 @@ def _way(sources: Sources, name: str) -> tuple[Way, Any]:
 
 def _levels(sources: Sources, name: str) -> Axis:
     how, section = _way(sources, name)
-    assert how.levels is not None  # a sweep file with a distribution in a grid is refused
-    return _axis(sources, name, how.levels(section, sources.vectors.get(name)), random=False)
+    assert how.grid is not None  # a sweep file with a distribution in a grid is refused
+    filled = how.at(section, how.grid(section), sources.vectors.get(name))
+    values = filled.columns[0]
+    if way_of(sources.content.parameters[name]) in RANGES and len(set(map(str, values))) < len(values):
+        few = f"has {len(values)} points that numbers do not tell apart: widen the range, or take fewer"
+        raise WayError("sweep-values", few)
+    return _axis(sources, name, filled, random=False)
 
 
 def _axis(sources: Sources, name: str, filled: Filled, random: bool) -> Axis:

@@ -68,7 +68,7 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
     columns = {column.name: column for axis in axes for column in axis.columns}
     set_names = [_deck_names(axis) for axis in axes]
     raw = {**known, **{name: value for axis in axes for name, value in _deck_values(axis, 0).items()}}
-    own = [name for name in comparison.names if name in columns and name not in raw]
+    own = {name for name in comparison.names if name in columns and name not in raw}
     for name in comparison.names:
         if name in columns and name in CONSTANTS:
             raise ExpressionError(
@@ -87,37 +87,22 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
             raise ExpressionError(
                 "wrong-comparison", f"{name} has values that are no numbers, which cannot be compared"
             )
-    needed = _needed(comparison, axes, known)
-
-    def matters(axis: Axis) -> bool:
-        return bool(_deck_names(axis) & needed) or any(column.name in own for column in axis.columns)
-
-    fixed = {name: known[name] for name in needed if name in known}
-    rows = [_rows(axis, own, needed) if matters(axis) else NO_VALUES for axis in axes]
-    holds = [_holds_at(comparison, fixed, row) for row in product(*rows)]
+    rows = [_rows(axis, own) if own & _names(axis) or _deck_names(axis) else NO_VALUES for axis in axes]
+    holds = [_holds_at(comparison, known, row) for row in product(*rows)]
     return np.array(holds, dtype=bool).reshape([len(of_axis) for of_axis in rows])
 
 
-def _needed(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, object]) -> set[str]:
-    """The deck's parameters that a comparison depends on, whatever the expressions that the sweep gives them."""
-    needed: set[str] = set()
-    for axis in axes:
-        for place in range(axis.dimension.size):
-            values = _deck_values(axis, place)
-            if place == 0 or any(isinstance(value, str) for value in values.values()):
-                needed |= Parameters({**known, **values}).dependencies([*comparison.names, *needed])
-    return needed
+def _names(axis: Axis) -> set[str]:
+    return {column.name for column in axis.columns}
 
 
-def _rows(axis: Axis, own: Sequence[str], needed: set[str]) -> list[dict[str, object]]:
+def _rows(axis: Axis, own: set[str]) -> list[dict[str, object]]:
     """Values by name at each position along an axis: its own columns, and the deck's parameters that it sets."""
-    columns = [(place, column.name) for place, column in enumerate(axis.columns) if column.name in own]
-    rows: list[dict[str, object]] = []
-    for position in range(axis.dimension.size):
-        row: dict[str, object] = {name: axis.values[position][place] for place, name in columns}
-        row.update({name: value for name, value in _deck_values(axis, position).items() if name in needed})
-        rows.append(row)
-    return rows
+    names = [column.name for column in axis.columns]
+    return [
+        {name: value for name, value in zip(names, values, strict=True) if name in own} | _deck_values(axis, position)
+        for position, values in enumerate(axis.values)
+    ]
 
 
 def _deck_names(axis: Axis) -> set[str]:

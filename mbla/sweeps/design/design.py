@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 from mbla.deck.suggestions import listed
 from mbla.deck.tree import KeyPath
 from mbla.errors import Fault, Message
-from mbla.results.listing.text import INDENT, WIDTH, counted, entry, heading, sentence, shortened
+from mbla.results.listing.text import INDENT, WIDTH, counted, entry, heading, sentence, shortened, table
 from mbla.sweeps.file.content import Part, SweepContent
 from mbla.sweeps.plan import Plain
 
@@ -145,12 +145,10 @@ class Design:
     remarks: tuple[str, ...] = ()
 
 
-def design_json(design: Design, points: bool = True) -> dict[str, Any]:
-    """Parts, axes, columns and counts of a design; its points too unless they are in a table beside it.
-
-    Keys are those of ``Design``, with ``points`` a list of number, position, values by column and settings by key path.
-    """
-    record: dict[str, Any] = {
+def design_json(design: Design) -> dict[str, Any]:
+    """Parts, axes, columns, counts and points of a design; keys are those of ``Design``."""
+    names = [column.name for column in design.columns]
+    return {
         "parts": [
             {"kind": part.kind, "parameters": part.parameters, "dimensions": dimensions, "seed": part.seed}
             for part, dimensions in design.parts
@@ -163,10 +161,7 @@ def design_json(design: Design, points: bool = True) -> dict[str, Any]:
         "samples": design.samples,
         "sampling": design.sampling,
         "remarks": list(design.remarks),
-    }
-    if points:
-        names = [column.name for column in design.columns]
-        record["points"] = [
+        "points": [
             {
                 "number": point.number,
                 "position": list(point.position),
@@ -174,29 +169,36 @@ def design_json(design: Design, points: bool = True) -> dict[str, Any]:
                 "settings": dict(point.settings),
             }
             for point in design.points
-        ]
-    return record
+        ],
+    }
 
 
-DIGITS = (6, 9, 12)
-"""significant digits of a column: the fewest of these that tell all its values apart"""
 LONGEST = 24
 """characters of a text; of a longer one the middle is left out"""
-GAP = 2
 
 
 def design_lines(design: Design) -> list[str]:
     """Parts, totals, what constraints leave out, remarks, and a table of all points."""
-    lines = [*heading("Design"), *part_lines(design), *count_lines(design)]
+    lines = [*heading("Design")]
+    sizes = {dimension.name: dimension.size for dimension in design.dimensions}
+    for part, names in design.parts:
+        lines += entry(part.kind, _part_words(part, names, sizes))
+    lines += entry("points", str(len(design.points)))
+    if design.breaches:
+        lines += entry("left out by constraints", f"{design.left_out} of {len(design.points) + design.left_out}")
+    for text, count in design.breaches:
+        lines += entry(f"{INDENT}{shortened(text, LONGEST)}", f"broken by {count}")
     for remark in design.remarks:
         lines += ["", *sentence(remark)]
-    return [*lines, *heading("Points"), *point_lines(design)]
-
-
-def part_lines(design: Design) -> list[str]:
-    """``sobol  unit_weight and cohesion: 128 points, seed 1``, one for each part."""
-    sizes = {dimension.name: dimension.size for dimension in design.dimensions}
-    return [line for part, names in design.parts for line in entry(part.kind, _part_words(part, names, sizes))]
+    head = ["point", *(column.header for column in design.columns)]
+    rows = [[str(point.number), *map(_cell, point.values)] for point in design.points]
+    widths = [max(map(len, cells)) + 2 for cells in zip(head, *rows, strict=True)]
+    lines += heading("Points")
+    for first, last in _tables(widths):
+        chosen = [0, *range(first, last)]
+        lines += table([head[i] for i in chosen], [[row[i] for i in chosen] for row in rows], left=0)
+        lines += [""] if last < len(head) else []
+    return lines
 
 
 def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) -> str:
@@ -206,77 +208,16 @@ def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) ->
     return together if part.seed is None else f"{together}, seed {part.seed}"
 
 
-def count_lines(design: Design) -> list[str]:
-    """How many points there are, and how many each constraint leaves out."""
-    lines = entry("points", str(len(design.points)))
-    if design.breaches:
-        lines += entry("left out by constraints", f"{design.left_out} of {len(design.points) + design.left_out}")
-        for text, count in design.breaches:
-            lines += entry(f"{INDENT}{shortened(text, LONGEST)}", f"broken by {count}")
-    return lines
+def _cell(value: Plain) -> str:
+    return f"{value:.9g}" if isinstance(value, float) else shortened(str(value), LONGEST)
 
 
-def point_lines(design: Design) -> list[str]:
-    """Number and values of each point; columns that do not fit beside each other go into a further table."""
-    numbers = ["point", "", *(str(point.number) for point in design.points)]
-    columns = [
-        [column.name, column.unit, *_cells(column, [point.values[i] for point in design.points])]
-        for i, column in enumerate(design.columns)
-    ]
-    left = [column.kind == "text" for column in design.columns]
-    room = WIDTH - len(INDENT) - _width(numbers)
-    lines: list[str] = []
-    for group in _groups([_width(cells) for cells in columns], room):
-        lines += ([""] if lines else []) + _aligned(
-            [numbers, *(columns[i] for i in group)], [False, *(left[i] for i in group)]
-        )
-    return lines
-
-
-def _cells(column: SweepColumn, values: Sequence[Plain]) -> list[str]:
-    """Values of a column as text."""
-    if column.kind == "text":
-        return [shortened(str(value), LONGEST) for value in values]
-    if column.kind == "bool":
-        return ["true" if value else "false" for value in values]
-    if column.kind == "int":
-        return [str(value) for value in values]
-    numbers = [float(value) for value in values if isinstance(value, (int, float))]
-    different = len(set(numbers))
-    for digits in DIGITS:
-        cells = [f"{number + 0.0:.{digits}g}" for number in numbers]
-        if len(set(cells)) == different:
-            break
-    return cells
-
-
-def _width(cells: Sequence[str]) -> int:
-    return max(map(len, cells))
-
-
-def _groups(widths: Sequence[int], room: int) -> Iterator[list[int]]:
-    """Columns that fit beside each other, in their order; one that fits nowhere stands alone."""
-    group: list[int] = []
-    used = 0
-    for i, width in enumerate(widths):
-        if group and used + GAP + width > room:
-            yield group
-            group, used = [], 0
-        group.append(i)
-        used += GAP + width
-    yield group
-
-
-def _aligned(columns: Sequence[Sequence[str]], left: Sequence[bool]) -> list[str]:
-    widths = [_width(cells) for cells in columns]
-    rows = zip(*columns, strict=True)
-    lines = [
-        INDENT
-        + (" " * GAP).join(
-            f"{cell:<{width}}" if to_left else f"{cell:>{width}}"
-            for cell, width, to_left in zip(row, widths, left, strict=True)
-        )
-        for row in rows
-    ]
-    lines = [line.rstrip() for line in lines]
-    return lines if lines[1] else [lines[0], *lines[2:]]
+def _tables(widths: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """First column and end of each table of columns that fit beside each other and the first of all."""
+    first, used = 1, widths[0]
+    for i in range(1, len(widths)):
+        if i > first and used + widths[i] > WIDTH - len(INDENT):
+            yield first, i
+            first, used = i, widths[0]
+        used += widths[i]
+    yield first, len(widths)

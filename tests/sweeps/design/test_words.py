@@ -37,16 +37,15 @@ def test_a_design_is_listed_with_parts_counts_and_every_point() -> None:
         "",
         "Points",
         "------",
-        "  point    mu     t  shape        tie",
-        "                  m",
-        "      1   0.5   0.2  pointed     true",
-        "      2   0.5   0.2  segmental  false",
-        "      3  0.65   0.2  pointed     true",
-        "      4  0.65   0.2  segmental  false",
-        "      5  0.65  0.25  pointed     true",
-        "      6  0.65  0.25  segmental  false",
-        "      7  0.65   0.3  pointed     true",
-        "      8  0.65   0.3  segmental  false",
+        "  point    mu  t [m]      shape    tie",
+        "      1   0.5    0.2    pointed   True",
+        "      2   0.5    0.2  segmental  False",
+        "      3  0.65    0.2    pointed   True",
+        "      4  0.65    0.2  segmental  False",
+        "      5  0.65   0.25    pointed   True",
+        "      6  0.65   0.25  segmental  False",
+        "      7  0.65    0.3    pointed   True",
+        "      8  0.65    0.3  segmental  False",
     ]
 
 
@@ -80,4 +79,3 @@ def test_a_design_as_json() -> None:
         "values": {"mu": 0.6, "g": 180.0},
         "settings": {"joints.dry.friction": 0.6, "g": [-1.0, 0.0, 2.0]},
     }
-    assert "points" not in design_json(found, points=False)
