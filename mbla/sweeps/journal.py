@@ -18,7 +18,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, NamedTuple
 
 from mbla.errors import FileError, Notice, UsageError
 from mbla.process.signals import held_signals
@@ -30,7 +30,7 @@ from mbla.results.disk import (
     lock_path,
     locked,
     missing_folders,
-    temporary_path,
+    write_whole,
 )
 from mbla.sweeps.identity import difference as other_versions
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
@@ -122,14 +122,8 @@ def read_row(header: JournalHeader, line: bytes) -> Outcome:
     return Outcome(key, state, int(code), reason, results, int(tries), float(seconds))
 
 
-@dataclass(frozen=True)
-class JournalRows:
-    """What a journal holds.
-
-    finished : by key; of several rows of a point the last, but a failed one never in place of one that is done
-    whole    : bytes up to the end of the last whole row
-    torn     : bytes after that
-    """
+class JournalRows(NamedTuple):
+    """Finished points of a journal by key, bytes up to the end of its last whole row, and bytes after that."""
 
     finished: dict[str, Outcome]
     whole: int
@@ -145,26 +139,21 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
         it cannot be read, belongs to another sweep than ``header`` says, or has a broken row before the last
     """
     finished: dict[str, Outcome] = {}
-    faults: list[str] = []
     with file_errors(path), path.open("rb") as stream:
         whole = _check_header(path, header, stream.readline(), stream.readline())
         for number, line in enumerate(stream, start=3):
             try:
                 outcome = read_row(header, line)
-                if not line.endswith(b"\n"):
-                    break
-                keep(finished, outcome)
             except (ValueError, csv.Error) as error:
                 if not stream.peek(1):
                     break
-                faults.append(f"{path}:{number}: this row {error}")
+                remedy = "put back the file as it was, or delete the line, so that its point is solved again"
+                raise FileError("journal-damaged", f"{path}:{number}: this row {error}; {remedy}") from None
+            if not line.endswith(b"\n"):
+                break
+            keep(finished, outcome)
             whole += len(line)
-        size = os.fstat(stream.fileno()).st_size
-    if faults:
-        more = f"\nand {len(faults) - 1} more rows like this" if len(faults) > 1 else ""
-        remedy = "put back the file as it was, or delete the line, so that its point is solved again"
-        raise FileError("journal-damaged", f"{faults[0]}; {remedy}{more}")
-    return JournalRows(finished, whole, size - whole)
+        return JournalRows(finished, whole, os.fstat(stream.fileno()).st_size - whole)
 
 
 def keep(finished: dict[str, Outcome], outcome: Outcome) -> None:
@@ -187,30 +176,26 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
     """Bytes of the header. Raises FileError where it is not the wanted one."""
     try:
         record: Any = json.loads(first.decode("utf-8").removeprefix("# "))
-        version = record["mbla_sweep_journal"]
+        version = record.pop("mbla_sweep_journal")
         if version != FORMAT:
-            raise FileError(
-                "journal-damaged",
-                f"{path}: is a journal of format {version}; this mbla has format {FORMAT}; {BEGIN_ANEW}",
-            )
-        del record["mbla_sweep_journal"]
+            raise ValueError
         found = JournalHeader(**{**record, "cases": tuple(record["cases"])})
-    except (ValueError, KeyError, TypeError) as error:
-        raise FileError("journal-damaged", f"{path}: is no journal of a sweep; {BEGIN_ANEW}") from error
+        if second != _line(found.all_columns):
+            raise ValueError
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise FileError(
+            "journal-damaged", f"{path}: is no journal of a sweep of format {FORMAT}; {BEGIN_ANEW}"
+        ) from error
     if words := _difference(found, header):
         raise FileError("journal-of-another-sweep", f"{path}: {words}: it cannot be gone on with; {BEGIN_ANEW}")
-    if second != _line(found.all_columns):
-        raise FileError("journal-damaged", f"{path}:2: the names of the columns were changed; {BEGIN_ANEW}")
     return len(first) + len(second)
 
 
 def _difference(found: JournalHeader, wanted: JournalHeader) -> str:
     """What keeps a sweep from going on with a journal, in words; empty where nothing does."""
-    words: list[str] = []
-    if found.program != wanted.program:
-        words.append(f"was written by mbla {found.program}, this is {wanted.program}")
-    if other := other_versions(wanted.libraries, found.libraries):
-        words.append(f"was written with other libraries ({other})")
+    ours, theirs = ({"mbla": each.program, **each.libraries} for each in (wanted, found))
+    other = other_versions(ours, theirs)
+    words = [f"was written with other versions ({other})"] if other else []
     if found.fingerprint != wanted.fingerprint:
         words.append("is of another base deck, or of one that has changed since")
     if found.cases != wanted.cases:
@@ -366,10 +351,9 @@ class Journal:
     def _go_on(self, others: Iterable[Path]) -> None:
         finished: dict[str, Outcome] = {}
         if os.path.lexists(self.path):
-            rows = read_journal(self.path, self.header)
-            finished, self._end = rows.finished, rows.whole
-            if rows.torn:
-                words = f"its last row was not whole and was cut off ({rows.torn} bytes); the point is solved again"
+            finished, self._end, torn = read_journal(self.path, self.header)
+            if torn:
+                words = f"its last row was not whole and was cut off ({torn} bytes); the point is solved again"
                 self.notices = (Notice("notice", "journal-repaired", f"{self.path}: {words}"),)
         for outcome in merged(others, self.header).values():
             keep(finished, outcome)
@@ -380,17 +364,9 @@ class Journal:
 
     def _create(self) -> None:
         """A journal with nothing but its header, in place of an earlier one only once it is whole."""
-        temporary = temporary_path(self.path)
-        try:
-            with file_errors(self.path):
-                temporary.write_bytes(header_bytes(self.header))
-                flush_to_disk(temporary)
-                temporary.replace(self.path)
-                flush_to_disk(self.path.parent)
-        except BaseException:
-            with contextlib.suppress(OSError):
-                temporary.unlink(missing_ok=True)
-            raise
+        write_whole(self.path, header_bytes(self.header))
+        with file_errors(self.path):
+            flush_to_disk(self.path.parent)
 
 
 def _make_folder(folder: Path) -> None:
