@@ -48,12 +48,12 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
         frames = sheet.frames(len(cells), sharex=True, sharey=True)
         scale = sheet.page.parts.colors.ListedColormap(GROUPS) if classes else SCALE
         ends = (-0.5, MOST_CLASSES - 0.5) if classes else (values.min(), values.max()) if values.count() else (0, 1)
-        places = [side.ravel() for side in np.meshgrid(x.coordinates, y.coordinates)]
+        across, up = (side.ravel() for side in np.meshgrid(x.coordinates, y.coordinates))
         style = {"cmap": scale, "vmin": ends[0], "vmax": ends[1], "shading": "nearest"}
         for number, axes in enumerate(frames.flat[: len(cells)]):
             dress(sheet.page, axes, x.label, y.label, grid.title(number))
             image = axes.pcolormesh(x.coordinates, y.coordinates, values[number], rasterized=values.size > 400, **style)
-            draw_marks(sheet.page, axes, *places, cells.answer[number].ravel())
+            draw_marks(sheet.page, axes, across, up, cells.answer[number].ravel())
             scale_axis(sheet.page, axes, x)
             scale_axis(sheet.page, axes, y, "y")
             axes.grid(visible=False)
