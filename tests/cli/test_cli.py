@@ -183,3 +183,69 @@ def test_an_internal_error_is_one_line(
     monkeypatch.setenv("MBLA_TRACEBACK", "1")
     assert main(["run", str(deck)]) == 1
     assert "Traceback" in capsys.readouterr().err
+
+
+# Knobs of speed against accuracy from the command line: which word wins, and that the run takes it.
+
+
+def told(
+    knobs_deck: Path, capsys: pytest.CaptureFixture[str], *arguments: str
+) -> tuple[dict[str, str], dict[str, Any]]:
+    """Settings of the listing, and the load case in JSON."""
+    assert main(["run", str(knobs_deck), "--force", "--json", *arguments]) == 0
+    (case,) = json.loads(capsys.readouterr().out)["cases"]
+    listing = (knobs_deck.with_suffix(".out") / f"{knobs_deck.stem}.lst").read_text(encoding="utf-8")
+    section = listing.split("Units and analysis settings")[1].split("\n\n")[0]
+    rows = [line.split(None, 1) for line in section.splitlines()]
+    return {row[0]: row[1] for row in rows if len(row) == 2}, case
+
+
+@pytest.fixture
+def knobs_deck(tmp_path: Path) -> Path:
+    path = tmp_path / "block.yaml"
+    text = BLOCK.replace("flow_rule: associative", "flow_rule: associative, accuracy: reference, gap: 1.e-6")
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_the_word_of_the_command_line_wins_over_that_of_the_deck_but_not_over_its_knobs(
+    knobs_deck: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own, case = told(knobs_deck, capsys)
+    assert (own["accuracy"], own["tolerance"], own["gap"]) == ("reference", "1e-10", "1e-06")
+    assert case["standing"]["verdict"] == "yes"
+    draft, case = told(knobs_deck, capsys, "--accuracy", "draft")
+    assert (draft["accuracy"], draft["tolerance"], draft["gap"]) == ("draft", "1e-08", "1e-06")
+    assert draft["standing"] == "false"
+    assert case["standing"] is None
+
+
+def test_a_knob_of_the_command_line_wins_over_all(knobs_deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--set", "analysis.gap=1e-4", "--set", "analysis.standing=true", "--set", "analysis.tolerance=1e-7"]
+    knobs, case = told(knobs_deck, capsys, "--accuracy", "draft", *arguments)
+    assert (knobs["tolerance"], knobs["gap"]) == ("1e-07", "0.0001")
+    assert case["standing"]["verdict"] == "yes"
+
+
+# The deck that ``mbla new`` writes.
+
+
+def test_new_writes_a_deck_that_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "house"]) == 0
+    assert main(["new", "house"]) == 6
+    assert main(["run", "house.yaml", "-q"]) == 0
+    assert (tmp_path / "house.out" / "house.h5").is_file()
+
+
+def test_new_points_editors_to_the_schema(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "a b"]) == 0
+    first = Path("a b.yaml").read_text().splitlines()[0]
+    address = first.removeprefix("# yaml-language-server: $schema=")
+    assert json.loads(Path(address.removeprefix("file://")).read_text())["title"]
+    assert "mbla run 'a b.yaml'" in capsys.readouterr().out
+    assert main(["new", "missing/x"]) == 6
+    assert "no folder missing" in capsys.readouterr().err

@@ -7,6 +7,7 @@ from importlib import import_module
 
 import numpy as np
 import pytest
+import shapely
 
 from mbla.arrays import FloatArray
 from mbla.contacts.broad_phase import (
@@ -18,9 +19,13 @@ from mbla.contacts.broad_phase import (
 )
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
+from mbla.contacts.narrow_phase import Patches, find_patches, judge
+from mbla.contacts.overlay import Overlays
+from mbla.contacts.search import patches_of_prescribed
+from mbla.model.model import PrescribedInterfaces
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import blocks_of, boxes, profile
+from tests.contacts.structures import blocks_of, boxes, ground, model_of, profile
 
 TOLERANCE = 0.01
 CUBE = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
@@ -151,3 +156,141 @@ def test_planes_that_are_not_parallel_are_near_where_they_meet(lift: float, near
     """Amid the facets the planes are 0.25 + lift apart; over half a diagonal the slope takes up some 0.35."""
     found = facet_pairs(wedge(0.5, lift))
     assert any(a == [0.0, 0.0, 1.0] and b[2] < -0.8 for a, b in found) == near
+
+
+# What becomes of common surfaces, by their width, gap and share of the facet; and surfaces that the deck gives.
+
+
+def patch(width: float, low: float, high: float, coverage: float = 0.1) -> Patches:
+    """One surface with a gap from low to high."""
+    nothing = np.zeros((1, 2), dtype=np.int64)
+    overlays = Overlays(nothing, nothing, np.zeros((1, 3)), np.eye(3)[None], np.ones(1), np.zeros((1, 3)))
+    gap = high if high >= -low else low
+    middle = np.array([(high + low) / 2])
+    polygons = np.array([shapely.box(0, 0, 1, width)], dtype=object)
+    return Patches(overlays, polygons, np.array([width]), np.array([gap]), middle, np.array([coverage]))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("width", "gap", "coverage", "verdict"),
+    [
+        (0.0101, 0.0, 0.1, "contacts"),
+        (0.01, 0.01, 0.1, "contacts"),
+        (0.0101, 0.009999, 0.1, "contacts"),
+        (0.0101, 0.010001, 0.1, "near_misses"),
+        (0.0099, 0.009999, 0.1, "slivers"),
+        (0.0099, 0.009999, 0.49, "slivers"),
+        (0.0099, 0.009999, 0.5, "contacts"),
+        (1.01e-5, 0.0, 0.1, "slivers"),
+        (1.01e-5, 0.0, 0.5, "contacts"),
+        (0.99e-5, 0.0, 0.1, ""),
+        (0.99e-5, 0.0, 1.0, ""),
+        (0.0101, 0.09999, 0.1, "near_misses"),
+        (0.0101, 0.10001, 0.1, ""),
+        (0.0099, 0.05, 0.1, ""),
+        (0.0099, 0.05, 0.5, "near_misses"),
+    ],
+)
+def test_verdicts(width: float, gap: float, coverage: float, verdict: str, side: float) -> None:
+    found = judge(patch(width, side * gap, side * gap, coverage), TOLERANCE)
+    lengths = {name: len(getattr(found, name)) for name in ("contacts", "slivers", "near_misses")}
+    assert lengths == {name: int(name == verdict) for name in lengths}
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
+def test_a_gap_of_the_tolerance_but_for_rounding_is_a_contact(tolerance: float, side: float) -> None:
+    gap = side * (tolerance + 0.9e-12)
+    assert len(judge(patch(1.0, gap, gap), tolerance).contacts) == 1
+
+
+@pytest.mark.parametrize(("low", "high", "near"), [(0.0, 0.1999, 1), (0.0, 0.2001, 0), (-0.15, 0.15, 1)])
+def test_gaps_that_open_are_near_by_their_middle(low: float, high: float, near: int) -> None:
+    assert len(judge(patch(1.0, low, high), TOLERANCE).near_misses) == near
+
+
+def found_between(*extremes: tuple[list[float], list[float]]) -> Patches:
+    blocks = blocks_of(boxes(*extremes))
+    pairs = find_block_pairs(blocks, TOLERANCE)
+    return find_patches(blocks, build_facets(blocks), pairs, (), TOLERANCE)
+
+
+@pytest.mark.parametrize("gap", [-0.05, 0.0, 0.05])
+def test_measures_of_a_surface(gap: float) -> None:
+    """A cube of side 1 on a block of side 2, half of it beyond the edge: lengths relative to the smaller block."""
+    found = found_between(([0, 0, 0], [2, 2, 2]), ([1.5, 0.5, 2 + gap], [2.5, 1.5, 3 + gap]))
+    assert len(found) == 1
+    assert found.gaps == pytest.approx([gap])
+    assert found.mid_gaps == pytest.approx([gap])
+    assert shapely.area(found.polygons) == pytest.approx([0.5])
+    assert found.widths == pytest.approx([0.5])
+    assert found.coverage == pytest.approx([0.5])
+    assert found.overlays.bodies.tolist() == [[0, 1]]
+    assert found.overlays.sizes == pytest.approx([1.0])
+    assert found.overlays.origins[0, 2] == pytest.approx(2 + gap / 2)
+
+
+@pytest.mark.parametrize(("height", "found"), [(0.0, 1), (0.0999, 1), (-0.0999, 1), (0.1001, 0), (-0.1001, 0)])
+def test_a_facet_over_the_ground(height: float, found: int) -> None:
+    blocks = blocks_of(boxes(([0, 0, height], [1, 1, 1 + height]), ([5, 0, 0], [6, 1, 1])))
+    facets, pairs = build_facets(blocks), find_block_pairs(blocks, TOLERANCE)
+    patches = find_patches(blocks, facets, pairs, (ground(blocks=[1]), ground(blocks=[0])), TOLERANCE)
+    assert patches.overlays.bodies.tolist() == [[2, 1], [3, 0]][: 1 + found]
+    assert patches.overlays.facets[:, 0].tolist() == [-1, -1][: 1 + found]
+    assert patches.coverage == pytest.approx([1.0, 1.0][: 1 + found])
+    if found:
+        assert patches.gaps == pytest.approx([0.0, height])
+        assert patches.overlays.frames[1, 0].tolist() == [0, 0, 1]
+
+
+def test_a_share_of_the_ground_is_never_the_smaller_one() -> None:
+    """A large block that stands on it, and after it a small one that does not."""
+    blocks = blocks_of(boxes(([0, 0, 0], [2, 2, 1]), ([5, 0, 9], [5.1, 0.1, 9.1])))
+    facets, pairs = build_facets(blocks), find_block_pairs(blocks, TOLERANCE)
+    found = find_patches(blocks, facets, pairs, (ground(),), TOLERANCE)
+    assert found.overlays.bodies.tolist() == [[2, 0]]
+    assert found.coverage == pytest.approx([1.0])
+
+
+def test_surfaces_that_are_given() -> None:
+    """A triangle between a block of side 2 and one of side 1, and a square under the latter."""
+    blocks = blocks_of(boxes(([0, 0, 0], [2, 2, 2]), ([2, 0, 0], [3, 1, 1])))
+    model = model_of(blocks, grounds=(ground(),))
+    triangle = [[2.0, 0.0, 0.0], [2.0, 0.6, 0.0], [2.0, 0.0, 0.9]]
+    square = [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
+    given = PrescribedInterfaces(
+        bodies=np.array([[0, 1], [2, 1]]),
+        normals=np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+        corners=np.array([*triangle, *square]),
+        corner_start=np.array([0, 3, 7]),
+        joints=("", ""),
+    )
+    found = patches_of_prescribed(model, given)
+    assert len(found) == 2
+    assert found.overlays.bodies.tolist() == [[0, 1], [2, 1]]
+    assert found.overlays.facets.tolist() == [[-1, -1], [-1, -1]]
+    assert found.overlays.sizes == pytest.approx([1.0, 1.0])
+    assert found.overlays.origins == pytest.approx(np.array([[2.0, 0.2, 0.3], [2.5, 0.5, 0.0]]))
+    assert found.overlays.frames[:, 0] == pytest.approx(given.normals)
+    assert found.gaps.tolist() == found.mid_gaps.tolist() == [0.0, 0.0]
+    assert not found.overlays.gaps.any()
+    assert found.coverage.tolist() == [1.0, 1.0]
+    assert shapely.area(found.polygons) == pytest.approx([0.27, 1.0])
+    assert found.widths[1] == pytest.approx(1.0)
+    flat = shapely.get_coordinates(found.polygons[0])[:3]
+    in_space = found.overlays.origins[0] + flat @ found.overlays.frames[0, 1:]
+    assert in_space == pytest.approx(np.array(triangle))
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("side", range(6))
+def test_every_facet_has_a_size(side: int, order: tuple[int, int]) -> None:
+    """A cube covered on one side by a face four times as large: all of it, whichever of its facets that is."""
+    axis, up = side % 3, side // 3
+    least = np.full(3, -0.5)
+    least[axis] = 1.0 if up else -2.0
+    pair = [([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]), (least.tolist(), (least + 2.0).tolist())]
+    found = found_between(*(pair[place] for place in order))
+    assert len(found) == 1
+    assert found.coverage == pytest.approx([1.0])
