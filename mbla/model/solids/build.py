@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.errors import MblaError, Message, Notice
-from mbla.model.solids.blocks import BlockLabels, Blocks, no_labels
+from mbla.errors import Message, Notice
+from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.defects import (
     Defect,
     Defects,
@@ -34,7 +34,6 @@ from mbla.model.solids.measures import (
 from mbla.model.solids.polyhedra import (
     Polyhedra,
     drop_unused_vertices,
-    polyhedra_from_lists,
     take_polyhedra,
     turn_faces,
 )
@@ -72,37 +71,6 @@ class BuiltBlocks:
     notices: tuple[Notice, ...]
     defects: tuple[Defect, ...]
     bent: BentFaces
-
-
-def blocks_from_polyhedra(
-    vertex_lists: Sequence[Sequence[Sequence[float]] | FloatArray],
-    face_lists: Sequence[Sequence[Sequence[int]]],
-    groups: Sequence[str] | str = "block",
-    densities: Sequence[float] | float = 1.0,
-    tolerance: float = 1e-3,
-) -> Blocks:
-    """Blocks from a list of points and a list of faces (corners as indices from 0, any orientation) for each.
-
-    vertex_lists : (n, 3) m, points of each
-    groups, densities : one for all, or one for each
-    tolerance : of planarity, relative to block size
-
-    Raises
-    ------
-    MblaError
-        for polyhedra that are open, not planar, degenerate or pass through themselves
-    """
-    polyhedra = polyhedra_from_lists(vertex_lists, face_lists)
-    names = (groups,) * len(polyhedra) if isinstance(groups, str) else tuple(groups)
-    density = np.broadcast_to(np.asarray(densities, dtype=np.float64), (len(polyhedra),)).copy()
-    built = build_blocks(
-        polyhedra, Labels(names, indices_in_groups(names), density, no_labels(len(polyhedra))), tolerance
-    )
-    if built.defects:
-        raise MblaError(
-            "block-refused", "\n".join(f"block {built.blocks.name(d.block)}: {d.message}" for d in built.defects)
-        )
-    return built.blocks
 
 
 def indices_in_groups(groups: Sequence[str]) -> IntArray:

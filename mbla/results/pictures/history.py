@@ -23,8 +23,6 @@ LINES = (
     ("dual_residual", "dual residual", PURPLE, ":", "^"),
 )
 """residuals of an iteration: field, name, colour, line, marker"""
-MOST_NAMED = 24
-"""names of programs that have room side by side"""
 
 
 def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
@@ -68,7 +66,7 @@ def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> 
     _keep_to_the_middle(factors, values, np.nan if mechanics is None else mechanics.load_factor)
     residuals.set_yscale("log")
     residuals.legend(fontsize=page.small, framealpha=0.9, loc="upper right", ncols=3)
-    _name_programs(page, (factors, residuals), scene, program)
+    _part_programs(page, (factors, residuals), program)
     if mechanics is not None:
         colour = INK if scene.is_result else WARNING
         label = f"{'load factor' if scene.is_result else 'not a result:'} {number(mechanics.load_factor)}"
@@ -98,25 +96,12 @@ def _keep_to_the_middle(axes: Any, values: FloatArray, answer: float) -> None:
     axes.set_ylim(max(low - room, known.min() - 0.05 * room), min(high + room, known.max() + 0.05 * room))
 
 
-def _name_programs(page: Page, frames: tuple[Any, Any], scene: Scene, program: Any) -> None:
-    """A line where one program follows another, and above it what the next one is."""
-    kinds = {record.program: record.kind for record in scene.case.solution.programs}
-    starts = np.flatnonzero(np.diff(program, prepend=-1))
+def _part_programs(page: Page, frames: tuple[Any, Any], program: Any) -> None:
+    """A line where one program follows another."""
     for axes in frames:
         axes.set_xlim(0.5, len(program) + 0.5)
-        for start in starts[1:]:
-            axes.axvline(start + 0.5, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
-    named: list[int] = []
-    for start in starts.tolist():
-        if not named or start - named[-1] >= len(program) / MOST_NAMED:
-            named.append(start)
-    for start in named:
-        text = f"{program[start]} {kinds.get(int(program[start]), '')}".replace("_", " ").strip()
-        style = {"fontsize": 0.7 * page.letter, "color": INK, "rotation": 90 if len(named) > 3 else 0}
-        frames[0].annotate(
-            text, (start + 0.5, 1), xycoords=("data", "axes fraction"), xytext=(3, -3), va="top",
-            textcoords="offset points", parse_math=False, **style,
-        )  # fmt: skip
+        for start in np.flatnonzero(np.diff(program)):
+            axes.axvline(start + 1.5, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
 
 
 def _draw_path(page: Page, axes: Any, scene: Scene) -> None:

@@ -52,11 +52,6 @@ def rgb(colour: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def pale(colour: str, white: float = 2 / 3) -> str:
-    """The colour with a share of white in it."""
-    return "#" + "".join(f"{round(255 * (part + white * (1 - part))):02X}" for part in rgb(colour))
-
-
 def group_colours(groups: tuple[str, ...]) -> dict[str, str]:
     """Colour of each group, in the order in which they first appear."""
     return {name: GROUPS[i % len(GROUPS)] for i, name in enumerate(dict.fromkeys(groups))}

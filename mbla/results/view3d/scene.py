@@ -28,7 +28,7 @@ from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, group_colours, rgb
-from mbla.results.pictures.scene import Scene, tint_of_part
+from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.results import CaseResult, Results
 
@@ -161,9 +161,9 @@ def colourings(scene: Scene) -> list[Colouring]:
 
 def by_part(scene: Scene, parts: IntArray) -> Colouring:
     """Parts that move together, (n_blocks,) from 1; what rests, 0, is pale, what is fixed grey."""
-    tints = tint_of_part(scene, parts, len(GROUPS)).tolist()
-    names = ["fixed", "at rest", *(f"part {i}" for i in range(1, len(tints)))]
-    colours = [FIXED_BLOCK, REST, *(GROUPS[tint] for tint in tints[1:])]
+    count = int(parts.max(initial=0))
+    names = ["fixed", "at rest", *(f"part {part + 1}" for part in range(count))]
+    colours = [FIXED_BLOCK, REST, *(GROUPS[part % len(GROUPS)] for part in range(count))]
     used, rows = np.unique(np.where(scene.model.fixed, 0, parts + 1), return_inverse=True)
     return _by_name("part", rows, [names[i] for i in used], tuple(colours[i] for i in used.tolist()))
 
@@ -204,9 +204,9 @@ def _block_eccentricity(scene: Scene) -> FloatArray:
 # --- as JSON ------------------------------------------------------------------------------------------------------
 
 
-def packed(values: FloatArray | IntArray, kind: str | None = None) -> dict[str, str]:
+def packed(values: FloatArray | IntArray) -> dict[str, str]:
     """An array of any shape, flat, as base64 of little-endian numbers: single precision, or 32-bit integers."""
-    kind = kind or ("f4" if values.dtype.kind == "f" else "i4")
+    kind = "f4" if values.dtype.kind == "f" else "i4"
     data = np.ascontiguousarray(values.ravel(), dtype=np.dtype(kind).newbyteorder("<"))
     return {"dtype": kind, "bdata": base64.b64encode(data.tobytes()).decode("ascii")}
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.model.geometry.dxf import DEEPEST, enclosed_fields, read_dxf
+from mbla.model.geometry.dxf import enclosed_fields, read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import build_raw
@@ -143,27 +143,6 @@ def test_lines_that_meet_without_end_are_refused() -> None:
         enclosed_fields(across + along)
     assert caught.value.message.identifier == "geometry-too-large"
     assert str(caught.value) == "has lines that meet each other more than 100,000 times"
-
-
-def nested(deepest: int) -> Any:
-    """A drawing of a square in so many blocks, each inserted into the next."""
-    document, space = drawing()
-    for depth in range(deepest):
-        block = document.blocks.new(f"b{depth}")
-        if depth:
-            block.add_blockref(f"b{depth - 1}", (0, 0))
-        else:
-            block.add_lwpolyline(SQUARE, close=True)
-    space.add_blockref(f"b{deepest - 1}", (3, 0))
-    return document
-
-
-def test_blocks_in_blocks_up_to_the_deepest(tmp_path: Path) -> None:
-    geometry = read(nested(DEEPEST), tmp_path)
-    assert areas(geometry) == pytest.approx([1])
-    assert geometry.polyhedra.vertices[:, 0].min() == 3
-    with pytest.raises(GeometryFileError, match="has a block that contains itself"):
-        read(nested(DEEPEST + 1), tmp_path)
 
 
 @pytest.mark.parametrize("points", [[(2, 3)], [(2, 3), (2, 3)], [(2, 3), (3, 4)]])

@@ -6,7 +6,6 @@ What of a file becomes no block is told, or is a reason to refuse it.
 from __future__ import annotations
 
 import contextlib
-import errno
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -92,21 +91,6 @@ def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: s
         read_geometry(path)
     assert str(caught.value) == "cannot be read: Is a directory"
     assert caught.value.message.identifier == "file-unreadable"
-
-
-@pytest.mark.parametrize("suffix", READERS)
-def test_a_file_without_permission(tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whoever runs the tests may read it, so the system's answer is put in its place."""
-
-    def refuse(path: Path, *_: object) -> None:
-        raise PermissionError(errno.EACCES, "Permission denied", str(path))
-
-    path = tmp_path / f"blocks{suffix}"
-    path.write_bytes(b"")
-    monkeypatch.setattr(Path, "open", refuse)
-    with pytest.raises(GeometryFileError) as caught:
-        read_geometry(path)
-    assert str(caught.value) == "cannot be read: Permission denied"
 
 
 def test_buffers_of_a_gltf(tmp_path: Path) -> None:

@@ -3,8 +3,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.errors import MblaError
-from mbla.model.solids.build import blocks_from_polyhedra
 from tests.model.shapes import Shape, box, build, build_raw, moved, raw, rotation
 
 
@@ -149,16 +147,3 @@ def test_unused_vertices_are_left_out_with_a_notice() -> None:
     assert len(built.blocks.vertices) == 16
     assert [notice.message for notice in built.notices] == ["1 vertex was left out, used by no face, in 1 block (b[0])"]
     assert built.blocks.volumes == pytest.approx([1, 1])
-
-
-def test_blocks_from_polyhedra_names_every_refused_block() -> None:
-    vertices, faces = box()
-    with pytest.raises(MblaError, match=r"block pier\[1\]: is not closed(.|\n)*block pier\[2\]: is not closed"):
-        blocks_from_polyhedra([vertices] * 3, [faces, faces[1:], faces[:-1]], "pier")
-
-
-def test_blocks_from_polyhedra_counts_in_groups() -> None:
-    vertices, faces = box()
-    blocks = blocks_from_polyhedra([vertices] * 4, [faces] * 4, ["a", "b", "a", "b"], [1.0, 2.0, 3.0, 4.0])
-    assert [blocks.name(block) for block in range(4)] == ["a[0]", "b[0]", "a[1]", "b[1]"]
-    assert blocks.masses == pytest.approx([1, 2, 3, 4])

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from mbla.model.solids.build import BuiltBlocks, blocks_from_polyhedra
+from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import L_OUTLINE, Shape, box, build, moved, prism, rotation
 
 
@@ -104,7 +104,7 @@ def test_mantle_of_a_finely_faceted_ring_is_no_facet() -> None:
         faces.append([corner(0, 0, k + 1), corner(0, 0, k), corner(1, 0, k), corner(1, 0, k + 1)])
         faces.append([corner(1, 0, k), corner(1, 1, k), corner(1, 1, k + 1), corner(1, 0, k + 1)])
         faces.append([corner(0, 0, k + 1), corner(0, 1, k + 1), corner(0, 1, k), corner(0, 0, k)])
-    ring = blocks_from_polyhedra([rim], [faces])
+    ring = build((rim, faces)).blocks
     assert len(set(ring.facet_of_face.tolist())) == 2 * n + 2
 
 

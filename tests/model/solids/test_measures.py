@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull
 
 from mbla.model.solids.measures import (
     count_pieces,
@@ -154,17 +153,6 @@ def test_each_block_by_itself(scale: float) -> None:
     shapes = [box(), prism(L_OUTLINE), TETRAHEDRON, hull(0)[0], prism(L_OUTLINE, 0.1)]
     built = build(*[moved(shape, scale * rotation(0)) for shape in shapes])
     assert built.blocks.convex.tolist() == [True, False, True, True, False]
-
-
-def test_large_polyhedra() -> None:
-    points = np.random.default_rng(0).normal(size=(400, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    faces = ConvexHull(points).simplices.tolist()
-    dented = points.copy()
-    dented[7] *= 0.5
-    built = build((points.tolist(), faces), (dented.tolist(), faces))
-    assert not built.defects
-    assert built.blocks.convex.tolist() == [True, False]
 
 
 @pytest.mark.parametrize(("dent", "convex"), [(1e-4, True), (1e-2, False)])

@@ -72,38 +72,3 @@ def test_bent_neighbours_within_the_tolerance_do_not_intersect() -> None:
     built = build((shaken.tolist(), faces))
     assert not built.defects
     assert [notice.identifier for notice in built.notices] == ["faces-not-quite-planar"]
-
-
-def test_a_large_mesh_is_searched_by_its_boxes() -> None:
-    # a sphere with a dent: 2 x 60 x 60 faces, non-convex and sound
-    n = 60
-    theta, phi = np.meshgrid(np.pi * np.arange(1, n) / n, 2 * np.pi * np.arange(n) / n, indexing="ij")
-    radius = 1 - 0.5 * np.exp(-4 * theta**2)
-    points = np.stack(
-        [radius * np.sin(theta) * np.cos(phi), radius * np.sin(theta) * np.sin(phi), radius * np.cos(theta)], -1
-    )
-    vertices = [*points.reshape(-1, 3).tolist(), [0.0, 0.0, 0.5], [0.0, 0.0, -1.0]]
-    top, bottom = (n - 1) * n, (n - 1) * n + 1
-    faces = []
-    for i in range(n - 2):
-        for j in range(n):
-            a, b, c, d = i * n + j, i * n + (j + 1) % n, (i + 1) * n + (j + 1) % n, (i + 1) * n + j
-            faces += [[a, d, c], [a, c, b]]
-    faces += [[top, j, (j + 1) % n] for j in range(n)]
-    faces += [[bottom, (n - 2) * n + (j + 1) % n, (n - 2) * n + j] for j in range(n)]
-    built = build((vertices, faces))
-    assert not built.defects
-    assert built.blocks.convex.tolist() == [False]
-    vertices[top] = [0.0, 0.0, -1.5]
-    assert [d.message[:17] for d in build((vertices, faces)).defects] == ["intersects itself"]
-
-
-@pytest.mark.parametrize("shift", [1, 2])
-@pytest.mark.parametrize("sign", [1, -1])
-def test_a_spike_along_any_axis_is_found_to_touch(shift: int, sign: int) -> None:
-    """The search runs along x: a tip that ends where the face begins belongs to its candidates."""
-    turn = sign * np.roll(np.eye(3), shift, axis=0)
-    assert not build(moved(spiked(0.1), turn)).defects
-    (defect,) = build(moved(spiked(0.0), turn)).defects
-    assert defect.message.startswith("intersects itself")
-    assert defect.face == 0

@@ -18,7 +18,7 @@ from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.page import GROUPS, HINGE, OPEN, SLAB, WARNING, group_colours, rgb, round_length
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.renderer import SHINE, can_draw, image_of
-from mbla.results.pictures.scene import MOST_GROUPS, Scene, scene_of, tint_of_part
+from mbla.results.pictures.scene import MOST_GROUPS, Scene, scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 from tests.results.opengl import needs_opengl
@@ -168,15 +168,6 @@ def test_ground_is_drawn_and_named_where_something_stands_on_it() -> None:
     bare = replace(results, model=replace(results.model, grounds=results.model.grounds[:0]))
     bare = replace(bare, contacts=replace(bare.contacts, bodies=np.minimum(bare.contacts.bodies, 2)))
     assert ("ground", SLAB) not in drawing_of(scene(bare), "model").legend
-
-
-def test_of_many_parts_those_that_touch_have_different_tints() -> None:
-    """Parts 1, 2 and one beyond the number of tints; the first touches both others, which touch nothing else."""
-    tower, last = scene(), len(GROUPS) + 1
-    apart = replace(tower, contacts=replace(tower.contacts, bodies=np.array([[0, 1], [0, 2]])))
-    tints = tint_of_part(apart, np.array([1, 2, last]), len(GROUPS))
-    assert tints[2] == tints[last]
-    assert tints[1] not in (tints[2], tints[last])
 
 
 # --- From where it is looked at -------------------------------------------------------------------------------------

@@ -5,12 +5,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mbla.results.pictures.history import MOST_NAMED, _keep_to_the_middle, draw_history, draw_series
+from mbla.results.pictures.history import _keep_to_the_middle, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
-from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from mbla.solution.solution import Status
 from tests.results.synthetic import full_results, standing_at, tower_results
 
 
@@ -25,10 +25,10 @@ def history(tmp_path: Path, results: Results, case: CaseResult) -> list[str]:
     return texts(path)
 
 
-def test_iterations_are_named_by_their_program(tmp_path: Path) -> None:
+def test_iterations_have_their_residuals(tmp_path: Path) -> None:
     results = tower_results()
     shown = history(tmp_path, results, results.cases[0])
-    assert {"1 associative", "gap", "primal residual", "dual residual", "iteration", "load factor 0.5"} <= set(shown)
+    assert {"gap", "primal residual", "dual residual", "iteration", "load factor 0.5"} <= set(shown)
     assert "step of the load path" not in shown
 
 
@@ -100,17 +100,3 @@ def test_a_case_without_a_load_factor_has_none_in_its_diagram(tmp_path: Path) ->
     shown = history(tmp_path, results, replace(case, status=Status.NOT_VERIFIED))
     assert {"gap", "primal residual", "dual residual", "iteration", "1 associative"} <= set(shown)
     assert not any(text.startswith(("load factor 0", "not a result")) for text in shown)
-
-
-def test_of_many_programs_those_with_room_are_named(tmp_path: Path) -> None:
-    """One iteration each: every second name is left out."""
-    results, count = tower_results(), 2 * MOST_NAMED
-    solution = results.cases[0].solution
-    record = ProgramRecord(1, "published", Status.SOLVED, 0.5, 1e-6, 1, 0.01, "clarabel", "qdldl")
-    programs = tuple(replace(record, program=i + 1) for i in range(count))
-    iterations = tuple(IterationRecord(i + 1, 0, 0.5, 0.1, 1e-3, 1e-4, 0.9, 0.001) for i in range(count))
-    case = replace(results.cases[0], solution=replace(solution, programs=programs, iterations=iterations))
-    shown = history(tmp_path, results, case)
-    assert [text for text in shown if text.endswith(" published")] == [
-        f"{number} published" for number in range(1, count, 2)
-    ]

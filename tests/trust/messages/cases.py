@@ -27,7 +27,6 @@ from mbla.deck.content import DeckContent
 from mbla.deck.include import confined
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model, geometry
-from mbla.model.solids.build import blocks_from_polyhedra
 from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.notebook import run
@@ -256,11 +255,6 @@ CASES |= {name: Case(identifier, calling(line)) for name, (identifier, line) in 
 
 
 # --- models ---------------------------------------------------------------------------------------------------------
-
-
-@brings("block-refused")
-def open_block_in_python(folder: Path, patch: Patch) -> object:
-    return blocks_from_polyhedra([[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]], [[[0, 1, 2], [0, 1, 3], [0, 2, 3]]])
 
 
 @brings("blocks-overlap")
