@@ -80,12 +80,6 @@ def test_a_failure_leaves_the_earlier_file(tmp_path: Path, error: BaseException)
     assert (tmp_path / "c.txt").read_text() == "earlier"
 
 
-def test_a_failure_removes_the_folders_that_it_made(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt):
-        fail_half_way(tmp_path / "a" / "b" / "c.txt", KeyboardInterrupt())
-    assert not list(tmp_path.iterdir())
-
-
 def write_where_nothing_can_be(path: Path) -> None:
     with writing_whole(path) as temporary:
         try:

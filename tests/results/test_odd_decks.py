@@ -110,24 +110,13 @@ DECKS: dict[str, tuple[str, tuple[str, ...]]] = {
         ),
         (),
     ),
-    "one_free": (STACK.replace("{blocks: base}", "{blocks: [base, middle]}"), ()),
     "guides_only": (
         BLOCK.replace("{ground: {z: 0}}", "{blocks: block, slide: [0.8, 0, 0.6]}"),
         (),
     ),
     "guided_dead_falls": (BLOCK.replace("{ground: {z: 0}}", "{blocks: block, fixed: [rx, ry, rz]}"), ()),
-    "hinge": (
-        BLOCK.replace("{ground: {z: 0}}", "{blocks: block, turn: {axis: [0, 1, 0], about: [0.5, 0, 3]}}"),
-        (),
-    ),
     "settlement": (
         PIER_WITH_HALF + "load_cases: {sinks: {settlement: {on: {group: pier, index: 1}, direction: [0, 0, -1]}}}\n",
-        (),
-    ),
-    "settlement_turns": (
-        PIER_WITH_HALF
-        + "load_cases:\n"
-        + "  turns: {settlement: {on: {group: pier, index: 1}, turn: {axis: [0, 1, 0], about: [5.5, 0, 0]}}}\n",
         (),
     ),
     "not_all_cases": (
@@ -152,20 +141,10 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
         ),
         (),
     ),
-    "glued_to_support": (
-        STACK.replace(
-            "contacts: {joint: dry}", "contacts: {joint: dry, overrides: [{between: [base, middle], joint: glued}]}"
-        ),
-        (),
-    ),
     "convex_twist": (TWIST, ("analysis.contact_model=convex",)),
     "far": (STACK, ("parameters.x=1000000",)),
     "mm": (
         STACK.replace("materials", "units: {length: mm}\nmaterials").replace("2000", "2.e-6"),
-        ("parameters.s=1000",),
-    ),
-    "km": (
-        STACK.replace("materials", "units: {length: m, force: MN, mass: t}\nmaterials").replace("2000", "2"),
         ("parameters.s=1000",),
     ),
     "title": (BLOCK.replace("title: Odd", f'title: "{HUGE}"'), ()),
@@ -180,22 +159,10 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
     "locked": (WEDGE, ()),
     "time_limit": (STACK, ("analysis.time_limit=0.001",)),
     "iteration_limit": (STACK, ("analysis.max_iterations=2",)),
-    "iteration_limit_associative": (STACK, ("analysis.max_iterations=2", "analysis.flow_rule=associative")),
-    "iteration_limit_7": (STACK, ("analysis.max_iterations=7", "analysis.solver=clarabel")),
-    "draft": (STACK, ("analysis.accuracy=draft", "analysis.tolerance=0.001")),
-    "published_approximate": (TWIST, ("analysis.scheme=published", "analysis.published.max_programs=2")),
     "proximal_1": (TWIST, ("analysis.scheme=proximal", "analysis.proximal.max_programs=1")),
     "travel_unbounded": (BEAM, ()),
     "travel_not_verified": (BEAM, ("analysis.max_iterations=3",)),
     "tilt": (BLOCK.replace("{acceleration: [1, 0, 0]}", "{tilt: {axis: [0, 1, 0]}}"), ()),
-    "weightless": (
-        STACK.replace(
-            "{live: [{acceleration: [1, 0, 0]}]}",
-            "{dead: [{gravity: none}, {force: [0, 0, -1000], on: top, at: [0.5, 0.5, 3]}],"
-            " live: [{force: [1000, 0, 0], on: top, at: [0.5, 0.5, 3]}]}",
-        ),
-        (),
-    ),
     "weightless_unloaded": (
         BLOCK.replace(
             "{live: [{acceleration: [1, 0, 0]}]}",
@@ -203,15 +170,9 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
         ),
         (),
     ),
-    "plates": (
-        BLOCK.replace("max: [1, 1, 2]", "max: [1, 1, 0.0001]"),
-        (),
-    ),
     "livesley": (STACK, ("analysis.flow_rule=livesley",)),
     "force_ranges": (STACK, ("analysis.force_ranges=true",)),
-    "polyhedral": (STACK, ("analysis.friction_cone=polyhedral", "analysis.flow_rule=associative")),
     "crushing": (STACK.replace("0.6}", "0.6, compressive_strength: 2.e+6}"), ("analysis.contact_model=convex",)),
-    "cohesive": (STACK.replace("0.6}", "0.6, cohesion: 1.e+4, tensile_strength: 1.e+4}"), ()),
 }
 
 

@@ -35,10 +35,6 @@ def test_the_worst_verdict_speaks_for_the_structure(verdicts: list[Standing | No
     assert standing_of([with_standing(verdict) for verdict in verdicts]) == worst
 
 
-def test_a_structure_without_equilibrium_does_not_stand_whatever_was_assessed() -> None:
-    assert standing_of([with_standing(YES), FALLEN]) == "no"
-
-
 @pytest.mark.parametrize("status", list(Status))
 def test_only_solved_and_approximate_cases_have_a_result(status: Status) -> None:
     found = result_of(replace(SOLVED, status=status))

@@ -99,13 +99,6 @@ def test_what_differs_from_what_is_expected(results: Results, folder: Path) -> N
     assert "crane: not every position was solved (closed form)" in differences(results.cases[:2], expected)
 
 
-def test_cases_by_name(folder: Path) -> None:
-    one = run(folder / "beam.yaml", RunOptions(cases=("crane@5",), force=True))
-    assert [case.load_case.name for case in one.cases] == ["crane@5"]
-    with pytest.raises(UsageError, match="it has crane, table"):
-        run(folder / "beam.yaml", RunOptions(cases=("crane@9",), force=True))
-
-
 def train(statuses: Sequence[Status], factors: Sequence[float]) -> tuple[CaseResult, ...]:
     """A position of a travelling load for each status, with that load factor."""
     case = tower_results("associative").cases[0]

@@ -19,7 +19,6 @@ from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.record.json_record import results_json
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
-from tests.decks.folder import BENCHMARKS
 from tests.line import HEAD, case_of, line_of, verified
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_model
 
@@ -145,28 +144,6 @@ def test_a_chain_of_small_slips_is_told_as_few_rigid_motions(size: float) -> Non
     assert max(evenly) == 1
 
 
-def test_two_lines_of_one_axis_between_different_parts_stay_two() -> None:
-    """Two towers that tilt apart over edges on one line: the parts differ, so do the lines."""
-    lower = np.array([[0, 0, 0], [0, 0, 1], [0, 3, 1]], float)
-    upper = np.array([[1, 5, 1], [1, 1, 3], [1, 4, 3]], float)
-    blocks = cuboids(lower, upper, ["base", "left", "right"])
-    model = replace(tower_model(), blocks=blocks, fixed=np.array([True, False, False]), grounds=())
-    contacts = horizontal_contacts([[0, 1], [0, 2]], [(0, 1, 0, 1, 1), (0, 1, 3, 4, 1)])
-
-    motion = np.zeros((3, 6))
-    for block, spin in ((1, 1.0), (2, 0.5)):
-        motion[block, 4] = spin
-        motion[block, :3] = np.cross([0, spin, 0], blocks.centroids[block] - [1, 0, 1])
-    velocities = contact_velocities(model, contacts, motion)
-    modes = np.where(velocities[:, 0] > 1e-9, ContactMode.OPEN, ContactMode.STICK)
-    mechanics = Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
-    collapse = collapse_of(model, contacts, model.load_cases[0], mechanics)
-    failure = failure_of(model, contacts, collapse, mechanics)
-    assert [line.clusters for line in failure.hinge_lines] == [(1, 0), (2, 0)]
-    assert [line.share for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
-    assert [line.rotation for line in failure.hinge_lines] == pytest.approx([1.0, 0.5])
-
-
 @pytest.mark.parametrize(("edge", "lines"), [(1.0, 1), (1.01, 1), (1.2, 2)])
 def test_hinges_of_two_clusters_are_one_line_only_where_their_axes_are_one(edge: float, lines: int) -> None:
     """A slab with two feet that tilts over the edges of both; the second foot ends farther out by a share of it."""
@@ -228,17 +205,6 @@ def classes_of(deck: str | Path) -> list[str]:
 )
 def test_a_block(height: float, live: str, expected: str) -> None:
     assert classes_of(BLOCK.format(height=height, live=live)) == [expected]
-
-
-def test_a_wall_in_bond_pushed_in_its_plane() -> None:
-    """Blocks slide on bed joints and rock at the same time (Ferris and Tin-Loi 2001, wall 1)."""
-    assert classes_of(BENCHMARKS["ferris_wall_1"]) == ["sliding and hinging"]
-
-
-def test_supports_that_give_way() -> None:
-    """The beam turns on the middle pad and follows the right one; the left one sinks and leaves the beam at rest."""
-    deck = BENCHMARKS["beam_on_three_supports"].read_text(encoding="utf-8")
-    assert classes_of(deck) == ["hinging", "opening"]
 
 
 # --- put together by hand -----------------------------------------------------------------------------------------

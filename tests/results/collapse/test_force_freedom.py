@@ -63,16 +63,6 @@ def test_a_block_on_one_face_is_determinate(dimension: int) -> None:
     assert freedom(BLOCK, dimension=dimension) == (0, [True])
 
 
-def test_an_arch_of_four_hinges_is_determinate() -> None:
-    line = line_of_file(Path("decks/tutorials/arch.yaml"))
-    solution, _, _ = verified(line)
-    assert solution.mechanics is not None
-    found = force_freedom(line.model, line.contacts, solution.mechanics, 2)
-    assert isinstance(found, ForceFreedom)
-    assert found.degree == 0
-    assert found.determined.all()
-
-
 def test_a_beam_on_two_piers_is_indeterminate_in_the_plane_to_the_third_degree() -> None:
     """Only the small block on top slides; the beam rests on two faces, 6 resultants against 3 equations."""
     degree, determined = freedom(BEAM)
@@ -148,38 +138,6 @@ def with_rest_fixed(line: Line, mechanics: Mechanics) -> tuple[Line, int]:
     return replace(line, model=model, contacts=contacts, program=assemble(model, contacts, line.load_case)), len(
         model.free
     )
-
-
-@pytest.mark.parametrize(
-    ("deck", "overrides"),
-    [
-        ("tutorials/wall.yaml", ()),
-        ("tutorials/arch.yaml", ()),
-        ("tutorials/buttressed_wall.yaml", ()),
-        ("benchmarks/published/ferris_wall_1.yaml", ()),
-        ("benchmarks/published/ferris_wall_3.yaml", ()),
-        ("benchmarks/closed_forms/wall_5x5.yaml", ()),
-        ("benchmarks/closed_forms/block_sliding.yaml", ()),
-    ],
-)
-def test_associative_flow_has_the_same_load_factor_with_the_rest_fixed(deck: str, overrides: tuple[str, ...]) -> None:
-    line = line_of_file(DECKS / deck, ASSOCIATIVE, *overrides)
-    mechanics = solved(line)
-    smaller, _ = with_rest_fixed(line, mechanics)
-    assert solved(smaller).load_factor == pytest.approx(mechanics.load_factor, rel=1e-6)
-
-
-def test_fixing_what_moves_does_change_it() -> None:
-    """Without the heaviest part to move nothing can: the blocks left are locked between fixed ones."""
-    line = line_of_file(DECKS / "benchmarks/published/ferris_wall_1.yaml", ASSOCIATIVE)
-    mechanics = solved(line)
-    parts = rigid_parts(line.model, line.contacts, mechanics.mechanism)
-    heaviest = np.flatnonzero(parts == 1)
-    model = replace(line.model, fixed=line.model.fixed | np.isin(np.arange(len(parts)), heaviest))
-    contacts = find_contacts(model, line.deck.contacts)
-    other = replace(line, model=model, contacts=contacts, program=assemble(model, contacts, line.load_case))
-    solution, checks, status = verified(other)
-    assert (status, checks.verified, solution.mechanics) == (Status.UNBOUNDED, True, None)
 
 
 def test_blocks_by_what_they_do_for_what_moves() -> None:

@@ -13,7 +13,6 @@ from mbla.results.collapse.interface_modes import (
     InterfaceMotion,
     interface_motion,
     largest_by_interface,
-    stuck_interfaces,
     sum_by_interface,
 )
 from mbla.solution.solution import ContactMode, Mechanics
@@ -69,27 +68,6 @@ def test_modes_of_rigid_motions(mechanics: Mechanics, mode: InterfaceMode, slide
     assert np.isnan(motion.hinge_points[1]).all()
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1e9])
-def test_modes_are_free_of_the_size_of_the_mechanism(scale: float) -> None:
-    for mechanics in (turning(EDGE, (0, 1, 0), (0.5, 0, 0)), turning(BED, (0, 0, 1)), turning(CORNER, (-1, 1, 0))):
-        scaled = replace(
-            mechanics,
-            mechanism=scale * mechanics.mechanism,
-            contact_velocities=scale * mechanics.contact_velocities,
-        )
-        first, second = motion_of(mechanics), motion_of(scaled)
-        assert first.modes.tolist() == second.modes.tolist()
-        assert second.hinge_points[0] == pytest.approx(first.hinge_points[0], nan_ok=True)
-
-
-def test_a_hinge_about_an_edge_has_its_axis_there() -> None:
-    motion = motion_of(turning(EDGE, (0, 2, 0)))
-    assert motion.hinge_points[0] == pytest.approx(EDGE)
-    assert motion.hinge_directions[0] == pytest.approx([0, 1, 0])
-    assert motion.rotation[0] == pytest.approx([0, 2, 0])
-    assert motion.translation[0] == pytest.approx([0, 0, 1])  # the middle of the bed rises
-
-
 def test_the_axis_lies_in_the_interface_though_the_rotation_does_not() -> None:
     """The tower rocks about its edge and spins a little about the vertical."""
     motion = motion_of(turning(EDGE, (0, 1, 0.2)))
@@ -112,30 +90,6 @@ def test_an_associative_hinge_that_slides_keeps_its_axis_at_the_edge() -> None:
     motion = motion_of(replace(mechanics, modes=modes))
     assert InterfaceMode(int(motion.modes[0])) is InterfaceMode.HINGE
     assert motion.hinge_points[0] == pytest.approx(EDGE)
-
-
-@pytest.mark.parametrize(("speed", "together"), [(0.9e-4, True), (1.1e-4, False)])
-def test_blocks_move_together_below_a_share_of_the_fastest_contact(speed: float, together: bool) -> None:
-    """The brick creeps on the ground while the tower falls."""
-    motion = np.zeros((3, 6))
-    motion[1, 2] = 1.0
-    motion[2, 0] = speed
-    assert stuck_interfaces(MODEL, CONTACTS, motion).tolist() == [False, together]
-
-
-def test_what_follows_does_not_depend_on_which_body_is_called_a() -> None:
-    """The same bed from the tower's side: bodies and normal swapped."""
-    bodies, frames, normals = CONTACTS.bodies.copy(), CONTACTS.frames.copy(), CONTACTS.normals.copy()
-    bodies[0], normals[0] = [1, 0], [0, 0, -1]
-    frames[:4] = [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
-    swapped = replace(CONTACTS, bodies=bodies, frames=frames, normals=normals)
-    mechanics = turning(EDGE, (0, 1, 0))
-    velocities = contact_velocities(MODEL, swapped, mechanics.mechanism)
-    other = interface_motion(MODEL, swapped, replace(mechanics, contact_velocities=velocities))
-    assert velocities[:, 0] == pytest.approx(mechanics.contact_velocities[:, 0])
-    assert other.hinge_points[0] == pytest.approx(EDGE)
-    assert other.rotation[0] == pytest.approx([0, -1, 0])
-    assert other.hinge_directions[0] == pytest.approx([0, -1, 0])
 
 
 def test_a_hinge_about_a_corner_has_no_length() -> None:

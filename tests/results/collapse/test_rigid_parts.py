@@ -7,8 +7,7 @@ import pytest
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, rigid_parts
-from mbla.results.listing.mechanism_words import motion_words, part_lines
-from mbla.results.listing.text import WIDTH
+from mbla.results.listing.mechanism_words import part_lines
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_model
 
 
@@ -55,14 +54,6 @@ def test_nothing_moves_nothing_but_rest() -> None:
     assert part_lines(model, ()) == []
 
 
-def test_a_structure_without_anything_at_rest_has_no_part_zero() -> None:
-    model, contacts = stack(3)
-    model = replace(model, fixed=np.zeros(3, dtype=bool))
-    motion = rigid(model, [0, 1, 2], (0, 0, 0), (0, 0, 0), (0, 0, -1.0))
-    assert rigid_parts(model, contacts, motion).tolist() == [1, 1, 1]
-    assert part_motions(model, np.array([1, 1, 1]), motion)[0].direction == pytest.approx([0, 0, -1])
-
-
 def test_blocks_without_contact_move_alone() -> None:
     model, _ = stack(3)
     apart = replace(
@@ -93,16 +84,6 @@ def test_share_of_the_weight_that_moves_and_its_name() -> None:
     assert moving_share(model, np.array([0, 1, 0])) == pytest.approx(0.5)  # the base is fixed and does not count
     assert moving_share(replace(model, fixed=np.ones(3, dtype=bool)), np.zeros(3, dtype=np.int64)) == 0.0
     assert [reach(share) for share in (0.0, 0.1, 0.3, 0.5, 1.0)] == ["local", "local", "partial", "global", "global"]
-
-
-def test_long_lists_of_blocks_give_way_to_the_rest_of_the_row() -> None:
-    model, contacts = stack(3)
-    model = replace(model, blocks=replace(model.blocks, groups=("a" * 150,) * 3))
-    motion = rigid(model, [1, 2], (1, 0.5, 1), (0, 1, 0))
-    assert rigid_parts(model, contacts, motion).tolist() == [0, 1, 1]
-    lines = part_lines(model, part_motions(model, np.array([0, 1, 1]), motion))
-    assert max(map(len, lines)) <= WIDTH
-    assert motion_words(model, part_motions(model, np.array([0, 1, 1]), motion)[0]) in lines[-1]
 
 
 def test_equal_parts_are_numbered_by_their_first_block_though_weights_differ_by_rounding() -> None:

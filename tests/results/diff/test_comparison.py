@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mbla.cli import main
-from mbla.results.diff.cases import CaseComparison, angle_between
+from mbla.results.diff.cases import angle_between
 from mbla.results.diff.comparison import compare_results
 from mbla.results.diff.matching import factors_between, match_models
 from mbla.results.diff.words import comparison_text
@@ -57,11 +57,6 @@ def results_of(folder: Path, text: str, *overrides: str, name: str = "a", cases:
 @pytest.fixture(scope="module")
 def two(tmp_path_factory: pytest.TempPathFactory) -> Results:
     return results_of(tmp_path_factory.mktemp("two"), TWO)
-
-
-def only_case(first: Results, second: Results) -> CaseComparison:
-    (case,) = compare_results(first, second).cases
-    return case
 
 
 def test_a_result_is_the_same_as_itself(two: Results) -> None:
@@ -155,17 +150,6 @@ def test_another_structure_is_not_comparable(tmp_path: Path, two: Results) -> No
     case = found.cases[0]
     assert case.mechanism.angle is None
     assert "of the volume has a match" in case.mechanism.compared
-
-
-def test_another_flow_rule(tmp_path: Path) -> None:
-    text = BLOCK.replace("mu: 0.5", "mu: 0.3")
-    case = only_case(
-        results_of(tmp_path, text), results_of(tmp_path, text, "analysis.flow_rule=non_associative", name="b")
-    )
-    assert case.flow_rule == ("associative", "non_associative, auto")
-    assert not case.differs  # one block on a level ground slides at the friction, with dilatancy or without
-    # with it the motion rises by μ: tan φ = 0.3
-    assert case.mechanism.angle == pytest.approx(math.degrees(math.atan(0.3)), abs=1e-2)
 
 
 def test_a_case_that_is_not_verified(tmp_path: Path) -> None:
@@ -264,3 +248,12 @@ def test_the_angle_is_that_of_velocities_all_over_the_blocks(two: Results) -> No
     matching = match_models(two.model, two.model, factors_between(two.model.units, two.model.units))
     expected = math.degrees(math.acos(products[0] / math.sqrt(products[1] * products[2])))
     assert angle_between(blocks, u, v, matching, 1.0) == pytest.approx(expected, abs=0.02)
+
+
+def test_a_case_of_one_file_only(tmp_path: Path, two: Results) -> None:
+    first, second = two, results_of(tmp_path, TWO, cases=("push",))
+    found = compare_results(first, second)
+    assert found.only == (("pull",), ())
+    assert found.differing == 1
+    assert "pull: in A only" in comparison_text(found, ("a.h5", "b.h5"))
+    assert compare_results(second, first).only == ((), ("pull",))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 from pathlib import Path
 from typing import Any
@@ -231,3 +232,12 @@ def test_contradictions_that_no_table_can_tell(tmp_path: Path, name: str, array:
             del file[name]
             file[name] = array
     assert words in refused(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_what_is_no_regular_file_is_told_in_plain_words(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for name, words in (("missing.h5", "No such file"), (".", "is a folder"), ("pipe", "is not a regular file")):
+        with pytest.raises(FileError, match=words) as caught:
+            read_results_hdf5(tmp_path / name)
+        assert "synchronously" not in str(caught.value)

@@ -6,7 +6,6 @@ import numpy as np
 
 from mbla.contacts.contacts import ContactReport
 from mbla.results.listing.model_words import contact_lines, finding_lines
-from mbla.results.listing.text import MOST_ROWS
 from tests.results.synthetic import empty_report, tower_contacts, tower_model
 
 
@@ -37,16 +36,3 @@ def test_near_misses_the_closest_first_in_units_of_length() -> None:
     rows = [line.split() for line in text.splitlines() if "/" in line and "[m]" not in line]
     assert [row[0] for row in rows] == ["tower[0]/brick[0]", "base[0]/tower[0]"]
     assert float(rows[1][1]) == np.round(0.02 * size, 4)
-
-
-def test_blocks_and_parts_by_name() -> None:
-    text = findings(isolated=np.array([2]), unsupported=(np.array([1]), np.array([2])))
-    assert "Blocks without any contact: brick[0]." in text
-    assert "Unsupported: 1 block, tower[0]." in text
-
-
-def test_pairs_that_were_not_checked_have_their_names_alone() -> None:
-    """The first of them; the others are counted."""
-    alone = " ".join(findings(unchecked=np.array([[1, 2]] * (MOST_ROWS + 3))).split())
-    assert alone.count("tower[0]/brick[0]") == MOST_ROWS
-    assert "and 3 more" in alone

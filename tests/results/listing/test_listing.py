@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
@@ -74,17 +73,6 @@ def summary(results: Results) -> str:
     lines = summary_lines(results)
     assert max(map(len, lines)) <= WIDTH
     return " ".join(" ".join(lines).split())
-
-
-def test_a_reason_that_is_also_a_failure_stands_once(results: Results) -> None:
-    first = results.cases[0]
-    changed = replace(
-        first,
-        status=Status.TIME_LIMIT,
-        solution=replace(first.solution, mechanics=None, reason="the time limit was reached"),
-        checks=replace(first.checks, failures=(Message("time-limit", "the time limit was reached"),)),
-    )
-    assert summary(replace(results, cases=(changed,))).count("the time limit was reached") == 1
 
 
 def with_further_results(results: Results, tangent: bool = True, factor: float = 0.5) -> Results:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import get_args
 
-import pytest
-
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.reductions import ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
@@ -16,7 +14,6 @@ from mbla.results.listing.figures import (
     program_lines,
     solver_json,
     solver_lines,
-    solver_words,
 )
 from mbla.results.listing.model_words import FOUND, reduction_lines
 from mbla.results.listing.text import MOST_ROWS
@@ -44,18 +41,6 @@ def with_programs(*programs: tuple[str, str, str]) -> Results:
 
 def test_every_solver_of_a_deck_has_its_words() -> None:
     assert {"auto", *METHODS} == set(get_args(AnalysisSection.model_fields["solver"].annotation))
-
-
-@pytest.mark.parametrize(
-    ("solver", "factorization", "words"),
-    [
-        ("mbla", "cholmod", "mbla (condensed interior point, cholmod)"),
-        ("highs", "", "HiGHS (interior point and crossover)"),
-        ("", "", ""),
-    ],
-)
-def test_one_program_in_words(solver: str, factorization: str, words: str) -> None:
-    assert solver_words(taken(("associative", solver, factorization))[0]) == words
 
 
 def test_each_name_once_in_the_order_of_the_programs() -> None:

@@ -10,7 +10,7 @@ from mbla.errors import UsageError
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.solution.solution import Status
-from tests.results.synthetic import standing_at, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_results
 
 
 def one(status: Status = Status.SOLVED, **changes: Any) -> Run:
@@ -105,3 +105,24 @@ def test_the_associative_load_factor_and_the_view_of_the_only_case() -> None:
     assert np.isnan(one(associative=None).cases[0].associative_load_factor)
     with pytest.raises(UsageError, match="2 load cases"):
         Run(tower_results()).show()
+
+
+def test_travelling_load_with_a_position_unknown_has_none() -> None:
+    with pytest.raises(UsageError, match="train"):
+        _ = Run(travelling([0.7, 0.4], Status.NOT_VERIFIED)).load_factor
+
+
+def test_settlement_has_its_reaction() -> None:
+    results = full_results()
+    case = replace(results.cases[0], solution=replace(results.cases[0].solution, standing=None))
+    run = Run(replace(results, cases=(case,)))
+    assert run.cases[0].reaction == pytest.approx(30.0 - 0.5 * 20.0)
+    assert run.cases[0].range == (0.45, 0.52)
+
+
+def test_tables_as_frames() -> None:
+    frames = Run(tower_results()).to_frames(["cases", "blocks"])
+    assert list(frames) == ["cases", "blocks"]
+    assert frames["cases"]["load_factor"].tolist()[0] == 0.5
+    with pytest.raises(UsageError, match="stones"):
+        Run(tower_results()).to_frames(["stones"])

@@ -193,18 +193,6 @@ def test_powers_are_relative_to_that_of_the_own_load() -> None:
     assert results.case("push_x") is case
 
 
-def test_supports_and_their_sum() -> None:
-    """Tower and brick of 10 N each, both pushed with 5 N at load factor 1/2."""
-    case = results_json(tower_results())["cases"][0]
-    found = case["reactions"]
-    assert set(found["supports"]) == {"ground z = 0", "base (fixed blocks)"}
-    for support in found["supports"].values():
-        assert support["force"] == pytest.approx([-5, 0, 10])
-    assert found["total"]["force"] == pytest.approx([-10, 0, 20])
-    # the tower on its edge x = 1, y = 1/2 at the height z = 1 of the base: (x, y, z) × F
-    assert found["supports"]["base (fixed blocks)"]["moment"] == pytest.approx([5, -15, 2.5])
-
-
 @pytest.mark.parametrize("deck", ["guided_blocks", "beam_on_three_supports"])
 def test_the_sum_balances_the_loads_with_guides_and_supports_that_settle(deck: str) -> None:
     results = mbla.run(BENCHMARKS[deck].read_text(encoding="utf-8")).records

@@ -13,7 +13,6 @@ from mbla.results.explanations import explanations
 from mbla.results.listing.listing import case_sections
 from mbla.results.listing.model_words import contact_lines, model_lines, settings_lines
 from mbla.results.listing.text import number
-from mbla.results.outcome import notices_of
 from mbla.results.record.json_record import results_json
 from mbla.results.report import report
 from mbla.results.report.content import blocks_of
@@ -168,15 +167,6 @@ def test_the_deck_is_there_as_it_was() -> None:
     assert "".join(page.all("pre")[0].pieces).removeprefix("\n") == text
     assert [node.text for node in page.all("summary")] == ["a.yaml (4 lines)", "b.yaml (0 lines)"]
     assert "analysis.solver=mbla" in page.one("section", id="deck").text
-
-
-def test_every_warning_is_there_with_its_identifier() -> None:
-    results = tower_results()
-    text = page_of(results).one("section", id="warnings").text
-    notices = notices_of(results)
-    assert len(notices) >= 2
-    for notice in notices:
-        assert f"{notice.severity} [{notice.identifier}]: {notice.message}" in text
 
 
 def test_a_warning_is_explained_once() -> None:

@@ -18,7 +18,6 @@ from mbla.results.report.figures import Figures
 from mbla.results.report.report import write_report
 from mbla.results.results import Results
 from tests.browser import Visit, visited
-from tests.results.opengl import needs_opengl
 from tests.results.synthetic import tower_results
 
 pytestmark = pytest.mark.long
@@ -112,16 +111,6 @@ def test_it_prints_with_the_deck_opened(browser: Any, report: Path, tmp_path: Pa
         assert "NO EQUILIBRIUM: the structure does not stand under its dead load" in text
         assert "document.title='evil'" in text.split("Deck\n")[-1]
         assert re.search(r"^ *1 ?/ ?\d+$", text, re.MULTILINE)
-
-
-@needs_opengl
-def test_pictures_are_painted(browser: Any, report: Path) -> None:
-    pytest.importorskip("pyvista")
-    opened = open_report(browser, report)
-    widths = opened.page.evaluate("[...document.images].map(image => image.naturalWidth)")
-    opened.page.close()
-    assert len(widths) >= 4  # model; mechanism, forces and history of the first case, mechanism of the second
-    assert min(widths) >= 800
 
 
 # --- views to turn ------------------------------------------------------------------------------------------------

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
@@ -50,20 +49,6 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
     }
 
 
-def test_units_are_those_of_the_deck(results: Results) -> None:
-    changed = replace(results, model=replace(results.model, units=Units("mm", "kN", "t")))
-    header = tables_of(changed)["interfaces"].header
-    for column in (
-        "areas [mm2]",
-        "centroids_x [mm]",
-        "resultant_moments_z [kN mm]",
-        "rotations_x [1/(kN mm)]",
-        "eccentricity",
-    ):
-        assert column in header
-    assert tables_of(changed)["blocks"].unit_of["densities"] == "t/mm3"
-
-
 def test_the_best_iterate_is_no_result(results: Results) -> None:
     tables = tables_of(unsolved(results, Status.NOT_VERIFIED), cases=["push_x"])
     cases = tables["cases"]
@@ -72,12 +57,6 @@ def test_the_best_iterate_is_no_result(results: Results) -> None:
     assert cases["best_iterate_load_factor"].tolist() == [0.5]
     for name in ("cases", "blocks", "interfaces", "points", "reactions"):
         assert set(tables[name]["figures"].tolist()) == {"best_iterate"}
-
-
-def test_models_without_contacts_or_cases_have_tables_without_rows(results: Results) -> None:
-    none = replace(results, cases=())
-    assert {len(table) for name, table in tables_of(none).items() if name != "notices"} == {0}
-    assert all(len(table.to_pandas().columns) == len(table.columns) for table in tables_of(none).values())
 
 
 @pytest.mark.parametrize(
