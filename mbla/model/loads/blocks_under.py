@@ -3,22 +3,21 @@
 One looks from the point in a direction: the block is the one that the point lies in, or else the first one ahead.
 As blocks do not overlap, that is the block of the first face ahead through which the direction leads *out*, so that
 points on a top face and points inside a block need no case of their own.
-
-A line is looked at in the curtain that it spans with that direction, in coordinates s along the line, 0 to 1, and h
-along the direction. Every such face cuts the curtain in segments over s; between two ends of segments no two of them
-cross, so that the middle of each interval decides for all of it.
+Faces are outlines in the plane across the direction; a line there crosses their edges where what lies under it changes.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import unit
-from mbla.model.solids.ragged import items_of_rows, next_item
+from mbla.model.solids.plane import plane_axes, unit
+from mbla.model.solids.ragged import items_of_rows
 
 GRAZING = 1e-9
 """cosine between a face's normal and the direction, below which the direction runs along the face"""
@@ -27,118 +26,91 @@ BEHIND = 1e-6
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """Parts of a line by what lies under them, in order.
+class Below:
+    """Some blocks, seen in a direction.
 
-    ends   : (n + 1,) from 0 to 1 along the line
-    blocks : (n,) the block under each part, -1 where there is none
-    above  : (n,) how far the middle of each part lies before the block's near side; negative: inside it
+    towards : (3,) that one looks in; chosen : (n,) blocks
     """
 
-    ends: FloatArray
-    blocks: IntArray
-    above: FloatArray
+    blocks: Blocks
+    towards: FloatArray
+    chosen: IntArray
 
+    @cached_property
+    def down(self) -> FloatArray:
+        """Unit direction, (3,)."""
+        return unit(self.towards)
 
-@dataclass(frozen=True)
-class _Segments:
-    """Cuts of faces with a curtain: from (s0, h0) to (s1, h1) with s0 < s1; all (n,)."""
+    @cached_property
+    def hair(self) -> float:
+        """Distance that decides nothing but on which side of a joint a point lies."""
+        return BEHIND * float(self.blocks.sizes[self.chosen].min(initial=np.inf))
 
-    s0: FloatArray
-    h0: FloatArray
-    s1: FloatArray
-    h1: FloatArray
-    block: IntArray
+    def flat(self, points: FloatArray) -> FloatArray:
+        """Points in the plane across the direction, (n, 2)."""
+        return np.asarray(points @ plane_axes(self.down[None])[0].T)
 
-    def heights(self, s: FloatArray) -> FloatArray:
-        """Height of each segment over each s, inf where it does not reach, (n_s, n)."""
-        t = (s[:, None] - self.s0) / (self.s1 - self.s0)
-        return np.where((t >= 0.0) & (t <= 1.0), self.h0 + t * (self.h1 - self.h0), np.inf)
+    @cached_property
+    def faces(self) -> IntArray:
+        """Faces that the direction does not run along, (n_faces,)."""
+        faces = items_of_rows(self.blocks.face_start, self.chosen)
+        return faces[np.abs(self.blocks.face_normals[faces] @ self.down) > GRAZING]
 
+    @cached_property
+    def outlines(self) -> Any:
+        """Of these faces, (n_faces,)."""
+        import shapely
 
-def stretches_under(
-    begin: FloatArray, end: FloatArray, towards: FloatArray, chosen: IntArray, blocks: Blocks
-) -> tuple[Stretch, Stretch]:
-    """What lies under a line from ``begin`` to ``end``, (3,) each, just left and just right of it.
+        ring = np.repeat(np.arange(len(self.faces)), np.diff(self.blocks.loop_start)[self.faces])
+        corners = self.blocks.loops[items_of_rows(self.blocks.loop_start, self.faces)]
+        rings = shapely.linearrings(self.flat(self.blocks.vertices[corners]), indices=ring)
+        return np.atleast_1d(shapely.polygons(rings))
 
-    Only the ``chosen`` blocks count. The two differ where the line runs along a joint, or along an edge.
-    """
-    down = unit(towards)
-    aside = unit(np.cross(end - begin, down)) * BEHIND * float(blocks.sizes[chosen].min(initial=np.inf))
-    return (
-        _stretch(begin - aside, end - aside, down, chosen, blocks),
-        _stretch(begin + aside, end + aside, down, chosen, blocks),
-    )
+    def under(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
+        """The block under each point (n, 3), -1 where there is none, and how far the point lies before its near side.
 
+        That is negative inside a block. On a joint it is the block with the lower number.
+        """
+        import shapely
 
-def block_under(point: FloatArray, towards: FloatArray, chosen: IntArray, blocks: Blocks) -> tuple[int, float]:
-    """The block under a point (3,), -1 where there is none, and how far the point lies before its near side.
+        places, near_by = shapely.points(self.flat(points)), {"predicate": "dwithin", "distance": self.hair / 2}
+        row, hit = shapely.STRtree(self.outlines).query(places, **near_by)
+        face = self.faces[hit]
+        owner, normals = self.blocks.block_of_face[face], self.blocks.face_normals[face]
+        leads = normals @ self.down
+        first = self.blocks.vertices[self.blocks.loops[self.blocks.loop_start[face]]]
+        away = np.einsum("ij,ij->i", first - points[row], normals) / leads
+        out = (leads > 0) & (away > BEHIND * self.blocks.sizes[owner])
+        found, above = np.full(len(points), -1), np.zeros(len(points))
+        for each in np.lexsort((owner, np.round(away / self.hair), row))[::-1]:  # the first comes last, and counts
+            if out[each]:
+                found[row[each]], above[row[each]] = owner[each], away[each]
+        near = np.full(len(points), -np.inf)
+        entry = (leads < 0) & (owner == found[row]) & (away <= above[row])
+        np.maximum.at(near, row[entry], away[entry])
+        return found, np.where(np.isfinite(near), near, 0.0)
 
-    On a joint it is the block with the lower number.
-    """
-    down = unit(towards)
-    axis = np.eye(3)[np.argmin(np.abs(down))]
-    half = unit(axis - (axis @ down) * down) * BEHIND * float(blocks.sizes[chosen].min(initial=np.inf))
-    both = stretches_under(point - half, point + half, down, chosen, blocks)
-    found = np.concatenate([stretch.blocks for stretch in both])
-    above = np.concatenate([stretch.above for stretch in both])
-    if not (found >= 0).any():
-        return -1, 0.0
-    first = int(np.argmin(np.where(found >= 0, found, np.iinfo(np.int64).max)))
-    return int(found[first]), float(above[first])
+    def parts(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
+        """Parts of a line between two points, (3,): ends from 0 to 1 along it, (n + 1,), what lies under them just left
+        and just right of it, (2, n), and how far, (2, n).
 
+        The two sides differ where the line runs along a joint, or along an edge.
+        """
+        import shapely
 
-def _stretch(begin: FloatArray, end: FloatArray, down: FloatArray, chosen: IntArray, blocks: Blocks) -> Stretch:
-    leaving = _cuts(begin, end, down, chosen, blocks, 1.0)
-    entering = _cuts(begin, end, down, chosen, blocks, -1.0)
-    ends = np.unique(np.clip(np.concatenate([[0.0, 1.0], leaving.s0, leaving.s1]), 0.0, 1.0))
-    middles = (ends[:-1] + ends[1:]) / 2
-    found, above = _first_ahead(middles, leaving, entering, blocks)
-    first = np.append(0, np.flatnonzero(np.diff(found) != 0) + 1)
-    return Stretch(np.append(ends[first], 1.0), found[first], above[first])
-
-
-def _first_ahead(s: FloatArray, leaving: _Segments, entering: _Segments, blocks: Blocks) -> tuple[IntArray, FloatArray]:
-    """Block of the first face ahead that leads out, -1 for none, and how far ahead its near side is."""
-    nothing = np.full(len(s), -1, dtype=np.int64), np.zeros(len(s))
-    if not len(leaving.block):
-        return nothing
-    heights = leaving.heights(s)
-    heights = np.where(heights > BEHIND * blocks.sizes[leaving.block], heights, np.inf)
-    row = np.argmin(heights, axis=1)
-    out = heights[np.arange(len(s)), row]
-    found = np.where(np.isfinite(out), leaving.block[row], -1)
-    inward = entering.heights(s)
-    inward = np.where((entering.block == found[:, None]) & (inward <= out[:, None]), inward, -np.inf)
-    near = inward.max(axis=1, initial=-np.inf)
-    return found, np.where(np.isfinite(near), near, 0.0)
-
-
-def _cuts(
-    begin: FloatArray, end: FloatArray, down: FloatArray, chosen: IntArray, blocks: Blocks, sign: float
-) -> _Segments:
-    """Segments in which faces that lead out (sign +1) or in (-1) cut the curtain of a line."""
-    run = end - begin
-    across = run - (run @ down) * down
-    length = float(np.linalg.norm(across))
-    along, normal = across / length, np.cross(across / length, down)
-    faces = items_of_rows(blocks.face_start, chosen)
-    faces = faces[sign * (blocks.face_normals[faces] @ down) > GRAZING]
-    counts = blocks.loop_start[faces + 1] - blocks.loop_start[faces]
-    corners = blocks.vertices[blocks.loops[items_of_rows(blocks.loop_start, faces)]] - begin
-    side, s, h = corners @ normal, (corners @ along) / length, corners @ down
-    h = h - s * (run @ down)
-    start = np.append(0, np.cumsum(counts))
-    after = next_item(start)
-    # a corner on the curtain belongs to its right side: each face is then crossed an even number of times
-    crossed = (side >= 0.0) != (side[after] >= 0.0)
-    t = side[crossed] / (side[crossed] - side[after][crossed])
-    s_at = s[crossed] + t * (s[after] - s)[crossed]
-    h_at = h[crossed] + t * (h[after] - h)[crossed]
-    face = np.repeat(np.arange(len(faces)), counts)[crossed]
-    order = np.lexsort((s_at, face))
-    pairs = s_at[order].reshape(-1, 2), h_at[order].reshape(-1, 2)
-    owner = blocks.block_of_face[faces[face[order][::2]]]
-    wide = pairs[0][:, 1] - pairs[0][:, 0] > 0.0
-    (s0, s1), (h0, h1) = pairs[0][wide].T, pairs[1][wide].T
-    return _Segments(s0, h0, s1, h1, owner[wide])
+        aside = unit(np.cross(end - begin, self.down)) * self.hair
+        sides = [np.stack([begin, end]) + sign * aside for sign in (-1.0, 1.0)]
+        ends = [np.array([0.0, 1.0])]
+        for each in map(self.flat, sides):
+            line, along = shapely.LineString(each), each[1] - each[0]
+            crossed = self.outlines[shapely.STRtree(self.outlines).query(line, predicate="intersects")]
+            places = shapely.get_coordinates(shapely.intersection(shapely.boundary(crossed), line))
+            ends.append(np.clip((places - each[0]) @ along / (along @ along), 0.0, 1.0))
+        cuts = np.unique(np.concatenate(ends))
+        cuts = cuts[np.append(True, np.diff(cuts) > self.hair / np.linalg.norm(end - begin))]
+        cuts[-1] = 1.0
+        middles = (cuts[:-1] + cuts[1:])[:, None] / 2
+        found = [self.under(each[0] + middles * (each[1] - each[0])) for each in sides]
+        blocks, above = np.stack([each[0] for each in found]), np.stack([each[1] for each in found])
+        changes = np.append(True, (blocks[:, 1:] != blocks[:, :-1]).any(axis=0))
+        return np.append(cuts[:-1][changes], 1.0), blocks[:, changes], above[:, changes]

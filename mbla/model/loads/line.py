@@ -13,7 +13,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import LineLoad, Load
 from mbla.deck.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.blocks_under import stretches_under
+from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
@@ -59,12 +59,7 @@ def _parts(
     Bare parts that are narrower than the tolerance of contacts are joints that are not quite closed: they count to the
     part before them, or after them at the beginning.
     """
-    both = stretches_under(begin, end, towards, chosen, site.blocks)
-    ends = np.unique(np.concatenate([stretch.ends for stretch in both]))
-    middles = (ends[:-1] + ends[1:]) / 2
-    rows = [np.searchsorted(stretch.ends, middles) - 1 for stretch in both]
-    carriers = np.stack([stretch.blocks[row] for stretch, row in zip(both, rows, strict=True)])
-    above = np.stack([stretch.above[row] for stretch, row in zip(both, rows, strict=True)])
+    ends, carriers, above = Below(site.blocks, towards, chosen).parts(begin, end)
     bare = np.asarray((carriers < 0).all(axis=0))
     narrow = site.tolerance * float(site.blocks.sizes[chosen].min()) / float(np.linalg.norm(end - begin))
     for part in np.flatnonzero(bare & (np.diff(ends) <= narrow)):  # few: open joints

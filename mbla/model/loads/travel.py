@@ -16,7 +16,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import Load, Travel
 from mbla.errors import Finding
-from mbla.model.loads.blocks_under import block_under
+from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
@@ -57,12 +57,12 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
         )
         site.refuse(Finding("load-beside-structure", words, *entry.path, "travel", "axles"))
         return None
-    towards = np.array(travel.towards)
+    below = Below(site.blocks, np.array(travel.towards), chosen)
     forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
     positions, bare = [], []
     for number, (points, distances, acting) in enumerate(vehicle, start=1):
         under = np.full(len(points), -1)
-        under[acting] = [block_under(point, towards, chosen, site.blocks)[0] for point in points[acting]]
+        under[acting] = below.under(points[acting])[0]
         positions.append(TravelPosition(name, number, len(vehicle), points, distances, forces, under))
         bare += [(number, points[axle]) for axle in np.flatnonzero(acting & (under < 0))[:1]]
     if bare:
