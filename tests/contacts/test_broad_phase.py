@@ -12,10 +12,8 @@ import shapely
 from mbla.arrays import FloatArray
 from mbla.contacts.broad_phase import (
     BlockPairs,
-    block_boxes,
     find_block_pairs,
     find_facet_pairs,
-    opposite,
 )
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
@@ -24,7 +22,7 @@ from mbla.contacts.overlay import Overlays
 from mbla.contacts.search import patches_of_prescribed
 from mbla.model.model import PrescribedInterfaces
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.polyhedra import join_polyhedra, polyhedra_from_lists
+from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import blocks_of, boxes, ground, model_of, profile
 
 TOLERANCE = 0.01
@@ -65,22 +63,6 @@ def test_reach_is_ten_tolerances_of_the_smaller_block(axis: int, size: float, ga
             assert found.box_depths == pytest.approx([-gap])
 
 
-def test_boxes_overlap_by_the_least_along_an_axis() -> None:
-    for offset in ((0.8, 0.5, 0.3), (0.3, 0.8, 0.5), (-0.5, 0.3, -0.8)):
-        assert pairs_of(CUBE, cube_at(offset)).box_depths == pytest.approx([0.2])
-
-
-def test_pairs_are_sorted_and_each_is_there_once() -> None:
-    row = [cube_at((float(x), 0.0, 0.0)) for x in (2, 0, 3, 1)]
-    assert pairs_of(*row).blocks.tolist() == [[0, 2], [0, 3], [1, 3]]
-
-
-def test_boxes_of_blocks() -> None:
-    lower, upper = block_boxes(blocks_of(boxes(CUBE, ((1, -2, 3), (2, 5, 4)))))
-    assert lower.tolist() == [[0, 0, 0], [1, -2, 3]]
-    assert upper.tolist() == [[1, 1, 1], [2, 5, 4]]
-
-
 def test_crowds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []
 
@@ -100,13 +82,6 @@ def test_crowds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     assert asked == [2, 3]
 
 
-@pytest.mark.parametrize(("angle", "faces"), [(0.0, True), (29.9, True), (30.1, False), (90.0, False), (180.0, False)])
-def test_facets_that_face_each_other(angle: float, faces: bool) -> None:
-    turned = np.radians(angle)
-    other = np.array([[np.sin(turned), 0.0, -np.cos(turned)]])
-    assert opposite(np.array([[0.0, 0.0, 1.0]]), other).tolist() == [faces]
-
-
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize(("gap", "near"), [(-0.0999, True), (0.0999, True), (0.1001, False), (-0.1001, False)])
 def test_facets_face_to_face(axis: int, gap: float, near: bool) -> None:
@@ -115,20 +90,6 @@ def test_facets_face_to_face(axis: int, gap: float, near: bool) -> None:
     up = np.eye(3)[axis].tolist()
     found = facet_pairs(blocks_of(boxes(CUBE, cube_at(corner))))
     assert found == ([(up, [-part if part else 0.0 for part in up])] if near else [])
-
-
-@pytest.mark.parametrize(("aside", "near"), [(1.0999, True), (1.1001, False), (-1.0999, True), (-1.1001, False)])
-def test_facets_beside_each_other(aside: float, near: bool) -> None:
-    """The upper cube stands beside the lower one's top: its box is near, and so is the top's."""
-    found = facet_pairs(blocks_of(boxes(CUBE, cube_at((aside, 0.0, 1.0)))))
-    assert (([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]) in found) == near
-
-
-@pytest.mark.parametrize("axis", [0, 1, 2])
-def test_blocks_that_touch_are_looked_at_however_small_the_tolerance(axis: int) -> None:
-    up = np.eye(3)[axis]
-    found = facet_pairs(blocks_of(boxes(CUBE, cube_at(up))), 1e-20)
-    assert found == [(up.tolist(), [-part if part else 0.0 for part in up.tolist()])]
 
 
 def test_facets_far_from_each_other_are_no_pair_though_each_is_near_the_other_block() -> None:
@@ -140,22 +101,6 @@ def test_facets_far_from_each_other_are_no_pair_though_each_is_near_the_other_bl
     )
     found = facet_pairs(blocks_of(join_polyhedra([lower, upper])))
     assert found == 2 * [([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])]
-
-
-def wedge(slope: float, lift: float) -> Blocks:
-    """The unit cube, and on it a block with a bottom that rises along x."""
-    low, high = 1.0 + lift, 1.0 + lift + slope
-    corners = [[0, 0, low], [1, 0, high], [1, 1, high], [0, 1, low], [0, 0, 2.5], [1, 0, 2.5], [1, 1, 2.5], [0, 1, 2.5]]
-    faces = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-    cube = [[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    return blocks_of(polyhedra_from_lists([cube, corners], [faces, faces]))
-
-
-@pytest.mark.parametrize(("lift", "near"), [(-0.3, True), (0.0, True), (0.05, True), (0.3, False), (-0.9, False)])
-def test_planes_that_are_not_parallel_are_near_where_they_meet(lift: float, near: bool) -> None:
-    """Amid the facets the planes are 0.25 + lift apart; over half a diagonal the slope takes up some 0.35."""
-    found = facet_pairs(wedge(0.5, lift))
-    assert any(a == [0.0, 0.0, 1.0] and b[2] < -0.8 for a, b in found) == near
 
 
 # What becomes of common surfaces, by their width, gap and share of the facet; and surfaces that the deck gives.
@@ -205,11 +150,6 @@ def test_a_gap_of_the_tolerance_but_for_rounding_is_a_contact(tolerance: float, 
     assert len(judge(patch(1.0, gap, gap), tolerance).contacts) == 1
 
 
-@pytest.mark.parametrize(("low", "high", "near"), [(0.0, 0.1999, 1), (0.0, 0.2001, 0), (-0.15, 0.15, 1)])
-def test_gaps_that_open_are_near_by_their_middle(low: float, high: float, near: int) -> None:
-    assert len(judge(patch(1.0, low, high), TOLERANCE).near_misses) == near
-
-
 def found_between(*extremes: tuple[list[float], list[float]]) -> Patches:
     blocks = blocks_of(boxes(*extremes))
     pairs = find_block_pairs(blocks, TOLERANCE)
@@ -242,15 +182,6 @@ def test_a_facet_over_the_ground(height: float, found: int) -> None:
     if found:
         assert patches.gaps == pytest.approx([0.0, height])
         assert patches.overlays.frames[1, 0].tolist() == [0, 0, 1]
-
-
-def test_a_share_of_the_ground_is_never_the_smaller_one() -> None:
-    """A large block that stands on it, and after it a small one that does not."""
-    blocks = blocks_of(boxes(([0, 0, 0], [2, 2, 1]), ([5, 0, 9], [5.1, 0.1, 9.1])))
-    facets, pairs = build_facets(blocks), find_block_pairs(blocks, TOLERANCE)
-    found = find_patches(blocks, facets, pairs, (ground(),), TOLERANCE)
-    assert found.overlays.bodies.tolist() == [[2, 0]]
-    assert found.coverage == pytest.approx([1.0])
 
 
 def test_surfaces_that_are_given() -> None:

@@ -53,13 +53,6 @@ def test_small_steps_go_and_large_ones_stay() -> None:
     assert len(needed_corners(polygons(step), 4e-4).points) == 6
 
 
-def test_corners_that_stay_are_not_moved() -> None:
-    outline: Outline = [[0, 0], [0.5, 1e-4], [1, 0], [1, 1], [0, 1]]
-    corners = needed_corners(polygons(outline), 1e-3)
-    original = {tuple(point) for point in np.array(outline, dtype=float).tolist()}
-    assert {tuple(point) for point in corners.points.tolist()} <= original
-
-
 @pytest.mark.parametrize("count", [50, 200, 1000])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_a_round_outline_is_not_eaten_away(count: int, tolerance: float) -> None:
@@ -75,11 +68,6 @@ def test_a_round_outline_is_not_eaten_away(count: int, tolerance: float) -> None
 def test_outlines_smaller_than_the_tolerance_keep_their_shape() -> None:
     tiny = (1e-4 * np.array(SQUARE)).tolist()
     assert len(needed_corners(polygons(tiny), 1e-2).points) == 4
-
-
-def test_three_corners_are_left_at_least() -> None:
-    triangle: Outline = [[0, 0], [0.5, 0], [1, 0], [0.5, 0.5], [0, 1], [0, 0.5]]
-    assert len(needed_corners(polygons(triangle), 1e-2).points) == 3
 
 
 def test_outlines_start_at_the_same_corner_whatever_their_order() -> None:
@@ -123,13 +111,6 @@ def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_th
     assert len(needed_corners(polygons([*outline[:5], [1, 1.5], *outline[6:]]), 1e-3).points) == len(outline) - 2
 
 
-def test_area_and_centroid_far_from_the_local_origin() -> None:
-    far = (np.array(SQUARE) + 1e6).tolist()
-    area, centroid = areas_and_centroids(needed_corners(polygons(far), 1e-3))
-    assert area == pytest.approx([1.0], rel=1e-9)
-    assert centroid == pytest.approx(np.array([[1e6 + 0.5, 1e6 + 0.5]]), rel=1e-12)
-
-
 # Facets of a block whose top is cut into faces of unequal size, near and far from the origin.
 
 
@@ -162,20 +143,6 @@ def test_a_facet_of_two_faces(turn: np.ndarray, shift: float) -> None:
     corners = np.array([[x, y, 1] for x in (0, 2) for y in (0, 1)]) @ turn.T + shift
     assert facets.lower[top] == pytest.approx(corners.min(axis=0), abs=1e-9)
     assert facets.upper[top] == pytest.approx(corners.max(axis=0), abs=1e-9)
-
-
-def test_facets_are_numbered_in_order_of_blocks() -> None:
-    both = join_polyhedra([cut_top(), boxes(([5, 0, 0], [6, 1, 1])), cut_top(0.5)])
-    facets = build_facets(blocks_of(both))
-    assert facets.facet_start.tolist() == [0, 6, 12, 18]
-    assert facets.blocks.tolist() == [0] * 6 + [1] * 6 + [2] * 6
-
-
-@pytest.mark.parametrize("beside", [2.0, 1e7])
-def test_the_middle_of_a_facet_does_not_hang_on_how_large_the_other_blocks_are(beside: float) -> None:
-    facets = build_facets(blocks_of(join_polyhedra([cut_top(), boxes(([5, 0, 0], [5 + beside, beside, beside]))])))
-    top = np.flatnonzero((facets.normals[:, 2] > 0.99) & (facets.blocks == 0))
-    assert facets.origins[top] == pytest.approx(np.array([[1.0, 0.5, 1.0]]))
 
 
 def test_what_uniting_faces_without_a_grid_loses_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,6 @@ from mbla.contacts import Contacts, find_contacts
 from mbla.contacts.glue import glue_blocks, held_model, solids_of
 from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.model.model import LoadCase, Model
-from mbla.model.solids.polyhedra import take_polyhedra
 from mbla.results.outcome import reaction_of
 from mbla.run import RunOptions, run
 from tests.contacts.structures import blocks_of, boxes, ground, model_of
@@ -98,23 +97,6 @@ def test_a_dry_joint_between_blocks_that_glue_or_a_support_holds_is_left_out(fix
     assert contacts.bodies.tolist() == [[0, 2], [1, 2]]
 
 
-def test_numbers_do_not_depend_on_the_order_of_blocks() -> None:
-    order = [3, 1, 4, 0, 2]
-    model = model_of(blocks_of(take_polyhedra(TOWER, np.array(order)), [GROUPS[i] for i in order]), grounds=(ground(),))
-    overrides = [ContactOverride(between=("b", "c"), joint="glued"), ContactOverride(between=("c", "d"), joint="glued")]
-    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
-    assert contacts.solid_of_block is not None
-    assert contacts.solid_of_block.tolist() == [0, 0, 1, 2, 0]
-    blocks = solids_of(model, contacts).model.blocks
-    np.testing.assert_allclose(blocks.centroids[:, 2], [2.5, 4.5, 0.5])
-    for solid, height in enumerate((3, 1, 1)):
-        vertices = blocks.vertices[blocks.vertex_start[solid] : blocks.vertex_start[solid + 1]]
-        assert np.ptp(vertices[:, 2]) == height
-        faces = slice(blocks.face_start[solid], blocks.face_start[solid + 1])
-        corners = blocks.loops[blocks.loop_start[faces.start] : blocks.loop_start[faces.stop]]
-        assert (blocks.block_of_vertex[corners] == solid).all()
-
-
 def test_loads_and_motions_keep_their_power() -> None:
     rng = np.random.default_rng(3)
     model, contacts = glued(("b", "c"), ("d", "e"))
@@ -140,18 +122,6 @@ def test_blocks_that_are_glued_may_not_overlap_either() -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.9], [1, 1, 2]))
     model = model_of(blocks_of(pair), grounds=(ground(),))
     assert len(find_contacts(model, ContactsSection(joint="glued")).report.overlaps) == 1
-
-
-def test_grounds_keep_their_order_behind_the_solids() -> None:
-    wall = ground(point=(0, 0, 0), normal=(1, 0, 0))
-    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(), wall))
-    overrides = [ContactOverride(between=("d", "e"), joint="glued")]
-    contacts = find_contacts(model, ContactsSection(joint="dry", overrides=overrides))
-    assert contacts.bodies.tolist() == [[0, 1], [1, 2], [2, 3], [5, 0], *([6, block] for block in range(5))]
-    assert solids_of(model, contacts).contacts.bodies.tolist() == [
-        *([0, 1], [1, 2], [2, 3], [4, 0]),
-        *([5, block] for block in (0, 1, 2, 3, 3)),
-    ]
 
 
 DECK = """

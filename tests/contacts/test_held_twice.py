@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -75,23 +74,6 @@ def test_a_strip_no_wider_than_the_tolerance_is_not_left_over() -> None:
     assert area == pytest.approx(1.9995 * 2)
 
 
-@pytest.mark.parametrize("angle", [0.0, 17.0, 80.0])
-def test_the_same_in_inclined_planes(angle: float) -> None:
-    t = np.radians(angle)
-    turn = np.array([[np.cos(t), 0, np.sin(t)], [0, 1, 0], [-np.sin(t), 0, np.cos(t)]])
-    shapes = boxes(BLOCK, HALF)
-    shapes = replace(shapes, vertices=shapes.vertices @ turn.T)
-    contacts = find_contacts(_model(shapes, (ground(normal=(np.sin(t), 0, np.cos(t))),)), section())
-    assert on(contacts) == [(0, 1, 2.0), (2, 0, 2.0)]
-
-
-def test_planes_that_differ_by_less_than_the_tolerance_are_one() -> None:
-    contacts = found([BLOCK], (ground(), ground(point=(0, 0, -2e-4), normal=(2e-4, 0, 1))))
-    ((*bodies, area),) = on(contacts)
-    assert bodies == [1, 0]
-    assert area == pytest.approx(4.0)
-
-
 def test_a_wall_and_a_floor_hold_different_faces() -> None:
     contacts = found([BLOCK], (ground(), ground(normal=(1, 0, 0))))
     assert on(contacts) == [(1, 0, 4.0), (2, 0, 1.0)]
@@ -103,20 +85,6 @@ def test_different_joints_are_refused(shapes: list[tuple[list[float], list[float
     grounds = (ground(), ground(joint="lead"))
     with pytest.raises(ContactsRefused, match=r"by different joints, dry and lead: leave one of them out"):
         found(shapes, grounds)
-
-
-def test_an_open_joint_leaves_the_piece_to_the_other_support() -> None:
-    model = _model(boxes(BLOCK, HALF), (ground(joint="lead"),))
-    with pytest.raises(ContactsRefused, match=r"footing\[0\] and ground hold .* or leave out one of the two"):
-        find_contacts(model, section())
-    contacts = find_contacts(model, section(overrides=[("block", "footing", "open")]))
-    assert on(contacts) == [(2, 0, 4.0)]
-
-
-def test_a_block_that_can_move_does_not_share_with_a_ground() -> None:
-    blocks = blocks_of(boxes(BLOCK, HALF), ["block", "slab"])
-    with pytest.raises(ContactsRefused, match=r"slab\[0\] and ground hold .*, slab\[0\] can move: "):
-        find_contacts(model_of(blocks, grounds=(ground(blocks=[0]),)), section())
 
 
 DECK = """\
@@ -243,14 +211,6 @@ def test_a_block_that_has_sunk_into_the_ground_by_less_than_the_tolerance_rests_
     assert contacts.areas == pytest.approx([1.0])
 
 
-@pytest.mark.parametrize("scale", [0.01, 1.0, 1000.0])
-def test_feet_at_the_edge_of_a_block_hold_it_off_the_ground_in_any_unit(scale: float) -> None:
-    block = boxes(([-5, -5, 1e-3], [5, 5, 10]))
-    feet = boxes(([3, -1, 0], [5, 1, 1e-3]), ([-5, -1, 0], [-3, 1, 1e-3]))
-    contacts = contacts_of(moved(join_polyhedra([block, feet]), scale=scale), grounds=(ground(),))
-    assert pairs(contacts) == [[0, 1], [0, 2], [3, 1], [3, 2]]
-
-
 @pytest.mark.parametrize("others", range(7))
 def test_a_thin_block_is_between_those_on_one_side_of_it_alone(others: int) -> None:
     """The lower of two plates lies just above the ground: the upper one, behind it, does not hold it off."""
@@ -258,12 +218,3 @@ def test_a_thin_block_is_between_those_on_one_side_of_it_alone(others: int) -> N
     far_away = [boxes(([10 + 2 * i, 0, 5], [11 + 2 * i, 1, 6])) for i in range(others)]
     contacts = contacts_of(join_polyhedra([plates, *far_away]), grounds=(ground(),), tolerance=1e-2)
     assert pairs(contacts) == [[0, 1], [2 + others, 0]]
-
-
-def test_the_pair_farthest_apart_is_told() -> None:
-    """A small pair with a wide gap for its size, and a large one with a wider one."""
-    small, large = on_foot(2e-3, 0.2), on_foot(1e-3, 0.2)
-    both = join_polyhedra([moved(small, scale=0.25), moved(large, shift=[5.0, 0.0, 0.0])])
-    told = said(contacts_of(both, grounds=(ground(),), tolerance=4e-3))["thin-block-between"]
-    assert told.startswith("2 common surfaces within the tolerance left out")
-    assert "ground and block[3] stand 0.001 m, 0.001 of the block size apart on block[2], and others" in told

@@ -40,19 +40,6 @@ def test_joint_of_each_interface(overrides: list[tuple[str, str, str]], expected
     assert joints(find_contacts(model, section(overrides=overrides))) == expected
 
 
-def test_a_group_called_ground_is_not_the_ground() -> None:
-    model = model_of(blocks_of(TOWER, GROUPS), fixed=[0])
-    contacts = find_contacts(model, section(overrides=[("arch", "ground", "mortar")]))
-    assert joints(contacts) == ["dry", "dry", "dry"]
-    assert [notice.identifier for notice in contacts.report.notices] == ["override-without-contact"]
-
-
-def test_only_laws_in_use_are_listed_in_the_order_of_the_deck() -> None:
-    model = model_of(blocks_of(TOWER, GROUPS), grounds=(ground(joint="lead"),))
-    contacts = find_contacts(model, section(overrides=[("pier", "pier", "mortar")]))
-    assert contacts.joint_names == ("dry", "mortar", "lead")
-
-
 def laws(overrides: list[dict[str, Any]], tilt: float = 0.0) -> list[tuple[str, bool]]:
     """Joint law of every interface of a wall of three courses, and whether it is a bed; turned about the y axis."""
     cosine, sine = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
@@ -180,12 +167,3 @@ def test_an_interface_at_the_limit_of_a_sloping_face() -> None:
     for orientation, law in (("bed", "mortar"), ("head", "dry")):
         given = ContactOverride.model_validate({"orientation": orientation, "joint": "mortar"})
         assert joints(find_contacts(model, ContactsSection(joint="dry", overrides=[given]))) == [law]
-
-
-@pytest.mark.parametrize(("top", "chosen"), [("0.4", [0.2, 0.4]), ("0.39", [0.2])])
-def test_a_box_holds_what_lies_on_its_border(top: str, chosen: list[float]) -> None:
-    """Centroids at 0.5, 0.5 and multiples of 0.2; the least corner is one of them as well."""
-    box = f"{{box: [[0, 0.5, 0.2], [0.5, 0.9, {top}]], joint: smooth}}"
-    line = line_of(f"{STACK}contacts: {{joint: dry, overrides: [{box}]}}\n")
-    smooth = line.contacts.joints == line.contacts.joint_names.index("smooth")
-    assert sorted(line.contacts.centroids[smooth, 2].tolist()) == pytest.approx(chosen, abs=1e-12)

@@ -108,12 +108,6 @@ def test_of_blocks_with_a_plane_between_them_neither_need_be_a_closed_solid() ->
         assert report.unchecked.tolist() == unchecked
 
 
-@pytest.mark.parametrize("shift", [1e6, 1e8])
-def test_the_depth_far_from_the_origin(shift: float) -> None:
-    pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0.75], [1, 1, 1.75]))
-    assert overlaps_of(moved(pair, shift=shift)).depths == pytest.approx([0.5 / 3], rel=1e-12)
-
-
 def test_of_many_overlaps_the_first_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.contacts.overlaps.MOST_FAULTS", 2)
     row = boxes(*(([0.9 * k, 0, 0], [0.9 * k + 1, 1, 1]) for k in range(6)))
@@ -151,19 +145,6 @@ SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 def shifted(x: float, y: float) -> FloatArray:
     return np.asarray(SQUARE + np.array([x, y]))
-
-
-def test_orientation_of_either_does_not_matter() -> None:
-    other = shifted(0.25, 0.5)
-    for first in (SQUARE, SQUARE[::-1]):
-        for second in (other, other[::-1]):
-            assert area(clip(first, second)) == pytest.approx(0.375, rel=1e-15)
-
-
-@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
-def test_size_of_both_does_not_matter(scale: float) -> None:
-    common = area(clip(scale * SQUARE, scale * shifted(0.25, 0.5)))
-    assert common / scale**2 == pytest.approx(0.375, rel=1e-14)
 
 
 def test_squares_that_differ_by_rounding_are_not_lost() -> None:

@@ -23,7 +23,6 @@ from mbla.contacts.polygons import (
     Polygons,
     box_pairs,
     connected_parts,
-    convex_polygons,
     intersect,
     polygons_from_loops,
     union_by_row,
@@ -62,15 +61,6 @@ def test_boxes_in_one_place_are_not_paired() -> None:
     assert 1000 <= caught.value.box < 1500
 
 
-@pytest.mark.parametrize("flat", [0, 1, 2])
-def test_box_pairs_of_a_flat_structure(flat: int) -> None:
-    lower = np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]])
-    upper = np.array([[1.0, 1, 1], [2, 2, 2], [4, 4, 4]])
-    lower[:, flat], upper[:, flat] = 0, 0
-    i, j = box_pairs(lower, upper)
-    assert (i.tolist(), j.tolist()) == ([0], [1])
-
-
 def test_width_is_exact_for_rectangles() -> None:
     boxes = [shapely.box(0, 0, length, 0.01) for length in (0.01, 0.02, 1.0, 1e4)]
     np.testing.assert_allclose(widths(array(*boxes)), 0.01, rtol=1e-9)
@@ -78,10 +68,6 @@ def test_width_is_exact_for_rectangles() -> None:
 
 def test_width_of_a_thin_triangle_is_half_its_height() -> None:
     assert widths(array(shapely.Polygon([[0, 0], [1, 0], [0.5, 1e-4]]))) == pytest.approx([0.5e-4], rel=1e-3)
-
-
-def test_width_of_nothing_is_nothing() -> None:
-    assert widths(array(shapely.Polygon())).tolist() == [0.0]
 
 
 def test_parts_are_the_polygons_of_collections() -> None:
@@ -114,13 +100,6 @@ def test_loop_with_a_bridge_to_its_hole_is_repaired() -> None:
     polygon = polygons_from_loops(loop, np.array([0, len(loop)]))
     assert polygon[0].is_valid
     assert polygon[0].area == pytest.approx(12.0)
-
-
-def test_convexity_of_polygons() -> None:
-    holed = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]])
-    two = shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 2, 3, 3)])
-    kinds = array(shapely.box(0, 0, 1, 1), holed, two, shapely.Polygon())
-    assert convex_polygons(kinds).tolist() == [True, False, False, False]
 
 
 def test_intersection_by_either_way_is_the_same() -> None:
@@ -208,13 +187,6 @@ def test_maps_from_a_facet_to_the_mean_plane() -> None:
 def test_tangents(normal: list[float], first: list[float], second: list[float]) -> None:
     frame = frames_from_normals(np.array([normal], dtype=float))[0]
     np.testing.assert_allclose(frame, [normal, first, second], atol=1e-15)
-
-
-def test_frames_are_right_handed() -> None:
-    normals = unit(np.random.default_rng(0).normal(size=(1000, 3)))
-    frames = frames_from_normals(normals)
-    np.testing.assert_allclose(np.cross(frames[:, 0], frames[:, 1]), frames[:, 2], atol=1e-14)
-    np.testing.assert_allclose(np.einsum("kij,kij->ki", frames, frames), 1.0, rtol=1e-14)
 
 
 @pytest.mark.parametrize("tilt", [1e-15, 1e-9, 1e-4])

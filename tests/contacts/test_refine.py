@@ -5,8 +5,6 @@ A block on a ring whose hole touches the block's edge between two corners: every
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 import shapely
@@ -19,19 +17,13 @@ from mbla.contacts.points import MOST_PARTS, in_pieces, interface_points
 from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
-from mbla.solution.solution import Status
-from tests.analytic.cases import ASSOCIATIVE, answer, answers
 from tests.contacts.structures import boxes, contacts_of, ground, section
-from tests.contacts.test_shapes import ring
-from tests.line import BLOCK, WALL, case_of, line_of, load_factor
+from tests.line import BLOCK, WALL, line_of, load_factor
 
 SQUARE = shapely.box(0, 0, 2, 2)
 L_SHAPE = shapely.Polygon([[0, 0], [4, 0], [4, 1], [1, 1], [1, 4], [0, 4]])
 WITH_HOLE = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[1, 1], [2, 1], [2, 2], [1, 2]]])
 TOUCHING_HOLE = shapely.Polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[[0, 2], [1, 1], [1, 3]]])
-RHOMBOID = shapely.Polygon([[0, 0], [2, 1], [2.5, 3], [0.5, 2]])
-UNIFORM = (math.sqrt(2) + math.log(1 + math.sqrt(2))) / 6
-"""Mean distance from the centre of a unit square: torsion under uniform pressure, over μWa."""
 
 
 def found(refine: int, inset: float, *polygons: shapely.Polygon) -> tuple[InterfacePoints, list[Notice]]:
@@ -56,12 +48,6 @@ def asked(points_asked: ContactPoints, *polygons: shapely.Polygon) -> tuple[Inte
         ring = points.points[start : start + points.outline[i]]
         assert shapely.is_ccw(shapely.linearrings(ring))
     return points, notices
-
-
-def test_one_point_an_edge_is_the_corners_alone() -> None:
-    corners = needed_corners(np.array([L_SHAPE, SQUARE], dtype=object), 1e-6)
-    points, _ = interface_points(corners, areas_and_centroids(corners)[1], np.ones(2), ContactPoints())
-    np.testing.assert_array_equal(points.points, corners.points)
 
 
 def test_shares_of_corners() -> None:
@@ -118,16 +104,6 @@ def test_areas_add_up_where_a_hole_touches_an_edge_between_its_corners(refine: i
     assert points.areas @ points.points == pytest.approx(area[0] * centroid[0], rel=1e-12)
 
 
-@pytest.mark.parametrize("refine", [1, 3])
-def test_all_kinds_together(refine: int) -> None:
-    kinds = [L_SHAPE, SQUARE, WITH_HOLE, shapely.box(1, 1, 2, 3), L_SHAPE, RHOMBOID]
-    together, _ = found(refine, 0.0, *kinds)
-    for i, kind in enumerate(kinds):
-        alone, _ = found(refine, 0.0, kind)
-        np.testing.assert_allclose(together.points[together.polygon == i], alone.points, rtol=1e-12)
-        np.testing.assert_allclose(together.areas[together.polygon == i], alone.areas, rtol=1e-12)
-
-
 @settings(max_examples=30)
 @given(st.integers(0, 10**6), st.integers(4, 20), st.integers(1, 6), st.floats(0.0, 0.9))
 def test_random_convex_polygons(seed: int, count: int, refine: int, inset: float) -> None:
@@ -168,37 +144,6 @@ def test_the_search_for_contacts_heeds_both_keys() -> None:
     np.testing.assert_allclose(first, 0.5 * (corners.contacts.points[:4] - corners.contacts.centroids[0]), atol=1e-12)
 
 
-def torsion(*overrides: str) -> float:
-    """Couple that a square block bears, over μWa."""
-    return answer("torque", *overrides).load_factor / 0.6
-
-
-def test_more_points_do_not_lower_torsion_under_associative_flow() -> None:
-    """The program may load the corners alone."""
-    for refine in (1, 4):
-        assert torsion(ASSOCIATIVE, f"contacts.points.per_edge={refine}") == pytest.approx(1 / math.sqrt(2), rel=1e-7)
-
-
-def test_more_points_lower_torsion_without_dilatancy() -> None:
-    """In the gravity state all points bear the same, and turning changes no normal force: λ is their mean distance."""
-    values = []
-    for refine in (1, 4, 8):
-        points, _ = found(refine, 0.0, shapely.box(-0.5, -0.5, 0.5, 0.5))
-        values.append(torsion("analysis.scheme=proximal", "analysis.range=false", f"contacts.points.per_edge={refine}"))
-        assert values[-1] == pytest.approx(np.linalg.norm(points.points, axis=1).mean(), rel=1e-6)
-    assert values[0] > values[1] > values[2] > UNIFORM
-    # nodes on the edge bear as much as those inside, so that the excess halves with the distance of the points
-    assert (values[2] - UNIFORM) / (values[1] - UNIFORM) == pytest.approx(0.5, abs=0.06)
-
-
-def test_inset_gives_a_square_its_torsion_under_uniform_pressure_at_a_price_in_rocking() -> None:
-    share = 1 - UNIFORM * math.sqrt(2)
-    assert torsion(ASSOCIATIVE, f"contacts.points.inset={share!r}") == pytest.approx(UNIFORM, rel=1e-7)
-    exact = {case.name: case.load_factor for case in answers("block_rocking", ASSOCIATIVE)}
-    for case in answers("block_rocking", ASSOCIATIVE, f"contacts.points.inset={share!r}"):
-        assert case.load_factor == pytest.approx((1 - share) * exact[case.name], rel=1e-7)
-
-
 def test_spacing_divides_each_edge_of_a_parallelogram_by_itself() -> None:
     points, _ = asked(ContactPoints(spacing=0.25), shapely.box(0, 0, 2, 0.3))
     assert points.outline.tolist() == [2 * (8 + 2)]
@@ -210,17 +155,6 @@ def test_spacing_divides_each_edge_of_a_parallelogram_by_itself() -> None:
 def test_spacing_divides_all_edges_of_other_polygons_by_the_longest() -> None:
     points, _ = asked(ContactPoints(spacing=1.01), L_SHAPE, SQUARE)
     assert points.outline.tolist() == [6 * 4, 4 * 2]
-
-
-def test_a_spacing_longer_than_all_edges_leaves_the_corners() -> None:
-    points, _ = asked(ContactPoints(spacing=4.0), L_SHAPE, SQUARE, WITH_HOLE)
-    np.testing.assert_array_equal(points.points, asked(ContactPoints(), L_SHAPE, SQUARE, WITH_HOLE)[0].points)
-
-
-def test_an_edge_that_is_a_multiple_of_the_spacing_is_divided_evenly() -> None:
-    """0.3 is a little more than three times 0.1 in binary."""
-    points, _ = asked(ContactPoints(spacing=0.1), shapely.box(0, 0, 0.3, 0.1))
-    assert points.outline.tolist() == [2 * (3 + 1)]
 
 
 def test_a_spacing_that_gives_too_many_points_is_refused_with_one_that_does_not() -> None:
@@ -235,13 +169,6 @@ def test_rounding_moves_the_edges_inwards() -> None:
     assert notices == []
     np.testing.assert_allclose(after.points, [0.1, 0.1] + before.points * [1.8 / 2, 0.8], rtol=1e-12)
     np.testing.assert_allclose(after.areas, before.areas, rtol=1e-12)
-
-
-def test_rounding_moves_every_edge_of_a_convex_outline_by_the_same_distance() -> None:
-    hexagon = shapely.Point(1, 2).buffer(1, quad_segs=2)
-    points, _ = asked(ContactPoints(rounding=0.2), hexagon)
-    expected = hexagon.buffer(-0.2, join_style="mitre")
-    assert shapely.Polygon(points.points).symmetric_difference(expected).area == pytest.approx(0.0, abs=1e-12)
 
 
 def test_where_rounding_leaves_nothing_points_stay_and_a_warning_says_so() -> None:
@@ -284,41 +211,3 @@ def test_areas_and_first_moments_are_those_of_the_whole(kept: str) -> None:
     expected = [1 if name == kept else count for name, (_, count) in OUTLINES.items()]
     assert np.bincount(row, minlength=n).tolist() == expected
     assert row.tolist() == sorted(row.tolist())
-
-
-def test_where_nothing_is_chosen_all_is_left_as_it_is() -> None:
-    corners = needed_corners(POLYGONS, 1e-6)
-    pieces, row = in_pieces(corners, np.zeros(len(OUTLINES), dtype=bool))
-    assert pieces is corners
-    assert row.tolist() == list(range(len(OUTLINES)))
-
-
-DECK = """\
-mbla: 1
-materials: {{stone: {{density: 2000}}}}
-joints: {{dry: {{friction: 0.6, cohesion: 1.0e5, tensile_strength: 1.0e5, compressive_strength: 1.0e6}}}}
-contacts: {{joint: dry, points: {{per_edge: {per_edge}}}}}
-blocks:
-  - polyhedron: {{group: ring, material: stone, vertices: {vertices}, faces: {faces}}}
-  - box: {{group: top, material: stone, min: [-0.5, -0.7, 1], max: [1.0, 0.9, 2]}}
-supports: [{{blocks: ring}}]
-load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}]}}}}
-analysis: {{flow_rule: {flow_rule}}}
-"""
-
-
-@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
-def test_strengths_of_points_along_an_edge_that_a_hole_touches(flow_rule: str) -> None:
-    """More points carry no more than those at the corners, and little less."""
-    inner, outer = ([[r, 0], [0, r], [-r, 0], [0, -r]] for r in (0.5, 2.0))
-    shape = ring(inner, outer, 0, 1)
-    faces = [shape.loops[a:b].tolist() for a, b in zip(shape.loop_start, shape.loop_start[1:], strict=False)]
-    factors = []
-    for per_edge in (1, 2, 3):
-        deck = DECK.format(per_edge=per_edge, vertices=shape.vertices.tolist(), faces=faces, flow_rule=flow_rule)
-        _, case = case_of(deck)
-        assert case.status is Status.SOLVED
-        assert case.solution.mechanics is not None
-        factors.append(case.solution.mechanics.load_factor)
-    assert factors == sorted(factors, reverse=True)
-    assert factors[-1] == pytest.approx(factors[0], rel=1e-3)

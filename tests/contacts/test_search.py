@@ -194,15 +194,6 @@ def test_tolerance_is_relative_to_the_smaller_block(relative: float, count: int)
     assert len(contacts) == count
 
 
-def test_model_without_contacts_has_empty_arrays() -> None:
-    contacts = contacts_of(boxes(([0, 0, 0], [1, 1, 1])))
-    assert len(contacts) == 0
-    assert contacts.points.shape == (0, 3)
-    assert contacts.frames.shape == (0, 3, 3)
-    assert contacts.joint_names == ()
-    assert [notice.identifier for notice in contacts.report.notices] == ["isolated-blocks"]
-
-
 @pytest.mark.parametrize(("tolerance", "count"), [(1e-4, 490), (1e-3, 487), (3e-3, 488), (1e-2, 488)])
 def test_cross_vault_as_exported(tolerance: float, count: int) -> None:
     """Faces of 184 blocks that do not match, as a survey gives them."""

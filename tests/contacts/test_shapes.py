@@ -69,17 +69,6 @@ def test_column_on_a_ring_has_an_interface_with_a_hole(turn: np.ndarray | None) 
     assert_consistent(contacts)
 
 
-def test_two_feet_give_two_interfaces(turn: np.ndarray | None) -> None:
-    portal = prism([[0, 0], [1, 0], [1, 1], [2, 1], [2, 0], [3, 0], [3, 2], [0, 2]], 0, 1)
-    upright = Polyhedra(
-        portal.vertices[:, [0, 2, 1]], portal.vertex_start, portal.loops, portal.loop_start, portal.face_start
-    )
-    pair = join_polyhedra([boxes(([0, 0, -1], [3, 1, 0])), upright])
-    contacts = contacts_of(moved(pair, turn=turn))
-    np.testing.assert_array_equal(contacts.bodies, [[0, 1], [0, 1]])
-    np.testing.assert_allclose(contacts.areas, 1.0, rtol=1e-9)
-
-
 def test_cylinder_in_a_socket_touches_all_around(turn: np.ndarray | None) -> None:
     outline = circle(1.0, 24)
     pair = join_polyhedra([ring(outline, circle(2.0, 24), 0, 1), prism(outline, 0, 1)])
@@ -92,15 +81,6 @@ def test_cylinder_in_a_socket_touches_all_around(turn: np.ndarray | None) -> Non
     inward = np.einsum("ki,ki->k", contacts.normals, axis - contacts.centroids)
     np.testing.assert_allclose(inward, np.cos(np.pi / 24), rtol=1e-9)
     assert len(contacts.report.overlaps) == 0
-
-
-@pytest.mark.parametrize("start", [0.0, 0.016])
-def test_finely_faceted_cylinder_in_a_socket_at_a_coarse_tolerance(start: float) -> None:
-    """Every facet is narrower than the tolerance, but they are no slivers."""
-    socket = ring(circle(1.0, 120), circle(2.0, 120), 0, 1)
-    contacts = contacts_of(join_polyhedra([socket, prism(circle(1.0, 120, start), 0, 1)]), tolerance=5e-2)
-    assert len(contacts) == 120
-    assert contacts.areas.sum() > 0.6 * 2 * np.pi
 
 
 def test_block_on_a_ridge_narrower_than_the_tolerance() -> None:

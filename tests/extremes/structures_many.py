@@ -1,18 +1,13 @@
-"""Many contacts and blocks: indeterminate to the thousands, hundreds of points in one interface, chains, walls."""
+"""Many contacts and blocks: indeterminate to the thousands, hundreds of points in one interface, chains, one wall."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from tests.extremes.decks import deck, under_both_rules
 from tests.extremes.outcome import Scene
 
 OUTLINES = "outlines-simplified"
-
-
-SPATIAL = ("analysis.reductions=false",)
 
 
 ON_MANY = deck(
@@ -25,13 +20,6 @@ ON_MANY = deck(
     supports="[{blocks: base}]",
 )
 """A block on a floor of n x n fixed blocks: min(mu, 1/h)."""
-
-
-ON_LOOSE = ON_MANY.replace("supports: [{blocks: base}]", "supports: [{ground: {z: 0}}]").replace(
-    "push: {live: [{acceleration: [1, 0, 0]}]}", "push: {live: [{acceleration: [1, 0, 0], on: block}]}"
-)
-"""The same floor, loose on the ground; only the block above is pushed. Its factor is that of ``tests.analytic.planar``:
-the tile under the toe tips with the block, and without dilatancy the block slides off it by a thousandth sooner."""
 
 
 POINTS = deck(
@@ -52,17 +40,6 @@ CORNERS = deck(
 """Two drums with faces of n corners: it slides at mu, or rocks about the edge at +x, at the distance r cos(pi/n)."""
 
 
-BEAM = deck(
-    """\
-  - box: {group: column, material: stone, min: [0, 0, 0], max: [0.5, 0.5, "=h"],
-          repeat: {count: "=n", translate: [1, 0, 0]}}
-  - box: {group: beam, material: stone, min: [0, 0, "=h"], max: ["=n - 0.5", 0.5, "=h + 0.5"]}
-""",
-    "n: 1000, h: 2, mu: 0.5",
-)
-"""n columns of weight w under one beam of weight W: all rock together, the beam riding on their edges."""
-
-
 def _statics() -> list[Scene]:
     family = "statically indeterminate to the thousands"
     scenes = []
@@ -76,36 +53,7 @@ def _statics() -> list[Scene]:
                 overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
                 long=long,
             )
-    for h, word in ((1.0, "slides"), (4.0, "rocks")):
-        scenes += under_both_rules(
-            f"block on 100 loose blocks, {word}",
-            family,
-            ON_LOOSE,
-            0.5 if word == "slides" else 0.238369047619,
-            1e-6 if word == "slides" else 1e-3,
-            overrides=("parameters.n=10", f"parameters.h={h!r}"),
-        )
-    for n, long in ((100, False), (2000, True)):
-        scenes += under_both_rules(
-            f"beam on {n} columns",
-            family,
-            BEAM,
-            beam_factor(n),
-            overrides=(f"parameters.n={n}",),
-            long=long,
-        )
     return scenes
-
-
-def beam_factor(n: int) -> float:
-    """Columns 0.5 by 2 turn about their feet, the beam moves along with their upper edges; forces by moments.
-
-    One column of weight w, the share q of the beam on its upper left corner and lambda q along its head: moments about
-    its right foot w b/2 + q b = lambda (w h/2 + q h), with friction 0.5 at head and foot enough.
-    """
-    b, h, depth = 0.5, 2.0, 0.5
-    w, q = b * h, (n - 0.5) * depth / n
-    return (w * b / 2 + q * b) / (w * h / 2 + q * h)
 
 
 def _points() -> list[Scene]:
@@ -155,9 +103,6 @@ STACK = deck(
 )
 """It rocks about its toe: min(mu, 1/(n h))."""
 
-TOP = STACK.replace("acceleration: [1, 0, 0]", "acceleration: [1, 0, 0], on: {group: stack, drum: -1}")
-"""Only the top block is pushed: it slides at mu or the stack rocks, b/2 n = factor (n - 1/2) h."""
-
 
 WALL = deck(
     """\
@@ -166,12 +111,6 @@ WALL = deck(
     "n: 20",
     joint="friction: 0.65",
 )
-
-
-def top_factor(n: int, height: float = 0.1, mu: float = 0.5) -> float:
-    """The top block alone slides, or the upper k blocks turn about the edge of a joint: k/2 = factor (k - 1/2) h."""
-    k = np.arange(1, n + 1)
-    return min(mu, float((k / 2 / ((k - 0.5) * height)).min()))
 
 
 def _chains() -> list[Scene]:
@@ -186,9 +125,6 @@ def _chains() -> list[Scene]:
         size = f"parameters.n={n}"
         scenes += under_both_rules(
             f"stack of {n} blocks", family, STACK, min(0.5, 1 / (n * 0.1)), overrides=(size,), long=long
-        )
-        scenes += under_both_rules(
-            f"stack of {n} blocks, the top pushed", family, TOP, top_factor(n), overrides=(size,), long=long
         )
     return scenes
 

@@ -1,4 +1,4 @@
-"""Models with more blocks that say the same: a block in two glued halves, a part far away, a block at rest beside."""
+"""Models with more blocks that say the same: a block in two glued halves."""
 
 from __future__ import annotations
 
@@ -11,14 +11,12 @@ from mbla.deck.sections.contacts import ContactOverride
 from mbla.deck.sections.materials import GLUED
 from mbla.deck.sections.selectors import SelectorTerm
 from mbla.model.join import polyhedra_of
-from mbla.model.model import Joint, LoadCase, Model
-from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels, no_labels
+from mbla.model.model import LoadCase, Model
+from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
 from mbla.model.solids.build import Labels, build_blocks
-from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
 from tests.properties.cells import below, indexed
 from tests.properties.scenes import Scene, with_section
-
-FAR_LAW = "law_of_the_far_part"
 
 
 def movable(model: Model) -> IntArray:
@@ -122,55 +120,3 @@ def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:
     if tilt is not None:
         tilt = replace(tilt, fixed=moved(tilt.fixed), turning=moved(tilt.turning), across=moved(tilt.across))
     return replace(case, dead_load=moved(case.dead_load), live_load=moved(case.live_load), tilt=tilt)
-
-
-def with_far_part(scene: Scene, factors: tuple[float, ...] | None) -> Scene | None:
-    """A fixed base and a squat block on it, far from everything.
-
-    factors : load factor at which the live load of each load case is to move that block; None for no live load on it
-    """
-    model, blocks = scene.model, scene.model.blocks
-    weight = model.load_cases[0].dead_load[:, :3].sum(axis=0)
-    if model.mirrors or model.interfaces is not None or not np.linalg.norm(weight) > 0.0:
-        return None
-    if any(case.tilt is not None for case in model.load_cases):
-        return None
-    up = -weight / np.linalg.norm(weight)
-    if abs(up[2]) < 1.0 - 1e-12:
-        return None
-    low, high = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
-    size = float(np.median(blocks.sizes))
-    corner = np.array([high[0] + 20.0 * (high - low).max(), high[1], (low[2] + high[2]) / 2 + 0.37 * size])
-    edges = size * np.array([1.0, 1.0, 0.5])
-    least = np.array([corner, corner + np.array([0.0, 0.0, 0.5 * size])])
-    more = cuboids(least, least + edges)
-    n, law = len(blocks), Joint(FAR_LAW, 0.7)
-    group = "part_far_away"
-    labels = Labels(
-        (*blocks.groups, group, group),
-        np.append(blocks.group_indices, [0, 1]),
-        np.append(blocks.densities, [1.0, 1.0]),
-        join_labels([blocks.labels, no_labels(2)]),
-    )
-    built = build_blocks(join_polyhedra([polyhedra_of(blocks), more]), labels, scene.deck.contacts.tolerance)
-    assert not built.defects
-    added = np.append(blocks.added_masses, [0.0, 0.0])
-    points = np.vstack([blocks.added_mass_points, built.blocks.centroids[-2:]])
-    joined = replace(built.blocks, added_masses=added, added_mass_points=points)
-    larger = _with_blocks(model, joined, 2, (True, False))
-    load = float(np.linalg.norm(weight)) / n
-    cases = []
-    for number, case in enumerate(larger.load_cases):
-        dead, live = case.dead_load.copy(), case.live_load.copy()
-        dead[n + 1, 2] = -load * up[2]
-        if factors is not None:
-            live[n + 1, 0] = 0.7 * load / factors[number]
-        cases.append(replace(case, dead_load=dead, live_load=live))
-    ends = (SelectorTerm.model_construct(group=group, index=0), SelectorTerm.model_construct(group=group, index=1))
-    override = ContactOverride(joint=FAR_LAW, between=ends)
-    scene = with_section(scene, overrides=[*scene.deck.contacts.overrides, override])
-    joints = {**model.joints, FAR_LAW: law}
-    grounds = tuple(
-        ground if ground.blocks is not None else replace(ground, blocks=np.arange(n)) for ground in model.grounds
-    )
-    return replace(scene, model=replace(larger, load_cases=tuple(cases), joints=joints, grounds=grounds))

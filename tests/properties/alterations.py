@@ -1,4 +1,4 @@
-"""Other mechanics: joints, contacts, supports and parts that admit more or fewer forces, or leave all as it was."""
+"""Other mechanics: joints, contacts and supports that admit more or fewer forces, or leave all as it was."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from tests.properties.additions import movable, split_in_two, with_far_part
-from tests.properties.restatements import taken, unloaded_by_scale
-from tests.properties.scenes import Scene, Solved, value_of, with_analysis, with_section
+from tests.properties.additions import movable, split_in_two
+from tests.properties.restatements import taken
+from tests.properties.scenes import Scene, Solved, with_analysis, with_section
 
 
 def open_an_interface(scene: Scene, solved: Solved) -> Scene | None:
@@ -67,19 +67,6 @@ def with_joints(change: Callable[..., dict[str, Any]]) -> Callable[[Scene, Solve
         return replace(scene, model=replace(scene.model, joints=joints))
 
     return make
-
-
-def far_part(scene: Scene, _: Solved) -> Scene | None:
-    """Base and block 20 lengths away, no live load on them."""
-    return with_far_part(scene, None)
-
-
-def part_at_rest(scene: Scene, solved: Solved) -> Scene | None:
-    """The same under live load that moves it at twice the load factor."""
-    factors = tuple(2.0 * value_of(case) for case in solved.cases)
-    if not all(np.isfinite(factors)) or min(factors) < 1e-6 or unloaded_by_scale(scene):
-        return None
-    return with_far_part(scene, factors)
 
 
 def fix_a_block(scene: Scene, solved: Solved) -> Scene | None:

@@ -80,8 +80,6 @@ TABLE = (
         "points bear; a theorem for triangles and parallelograms, whose corner shares the moments alone decide",
         alterations.refine(strengths=True),
     ),
-    Transformation("add a part far away", E_, "what nothing loads does not move", alterations.far_part, any_flow=True),
-    Transformation("add a part that stays at rest", E_, "the weakest part decides", alterations.part_at_rest),
     Transformation("without reductions", E_, "reductions are exact", restatements.unreduced),
     Transformation("another cone solver", E_, "the optimum is one", restatements.other_solver),
     Transformation("friction times 1.2", R_, "a wider cone", with_joints(lambda j, _: {"friction": 1.2 * j.friction})),

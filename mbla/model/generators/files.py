@@ -16,7 +16,7 @@ from mbla.deck.units import METRES
 from mbla.errors import Finding, Message, Notice
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.geometry import read_geometry
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, member_name
+from mbla.model.geometry.geometry import LONGEST_REASON, Geometry, GeometryFileError, member_name
 from mbla.model.geometry.repair import repair
 from mbla.model.geometry.surfaces import join_cells
 from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra
@@ -41,7 +41,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     try:
         geometry = _read(path, item)
     except GeometryFileError as error:
-        raise ItemRefused(Finding(error.message.identifier, str(error), "file")) from error
+        raise ItemRefused(Finding(error.message.identifier, str(error)[:LONGEST_REASON], "file")) from error
     if findings := list(_misfits(item, geometry)):
         raise ItemRefused(*findings)
     vertices = _placed(geometry, item, site)

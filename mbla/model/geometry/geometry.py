@@ -20,8 +20,8 @@ from mbla.errors import Notice, Refusal
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.wording import counted, was
 
-LONGEST_REASON = 300
-"""characters of what is said of a malformed file, some of which libraries say"""
+LONGEST_REASON = 500
+"""characters of what is said of a file that is refused, some of which libraries say, or the file itself"""
 LONGEST_LINE = 1_000_000
 """characters of a line of text, with those that continue it: a face of some hundred thousand corners"""
 
@@ -32,7 +32,7 @@ class GeometryFileError(Refusal):
 
 def malformed(kind: str, reason: str) -> GeometryFileError:
     """What a file is refused by that is not what its extension says."""
-    return GeometryFileError("geometry-file", f"is not a well-formed {kind} file: {reason}"[:LONGEST_REASON])
+    return GeometryFileError("geometry-file", f"is not a well-formed {kind} file: {reason}")
 
 
 def refuse_long_line(number: int, length: int) -> None:

@@ -6,6 +6,7 @@ it ends in its kind: ``.deck``, ``.sweep``, ``.obj``, ...
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -16,7 +17,6 @@ from hypothesis import strategies as st
 from tests.decks.folder import ROOT
 from tests.trust.counts import record_counts
 from tests.trust.hostile import subject
-from tests.trust.hostile.mutations import changed
 from tests.trust.hostile.samples import seeds, small_files
 
 FILES = 100_000
@@ -32,12 +32,28 @@ FAMILIES = (VALID, DECKS, SWEEPS, GEOMETRY)
 """what a file is made of: half of them are decks, and half of these are valid before they are changed"""
 
 
+PIECES = (
+    *(b"", b"\0", b"\xff", b"\n", b"\n  ", b" ", b": ", b"- ", b", ", b"[", b"]", b"{", b"}", b'"', b"'", b"#", b"&a "),
+    *(b"*a", b"-1", b"0", b"1e308", b"1e309", b"1e-320", b"nan", b".inf", b"9" * 30, b"2147483648", b"4294967295"),
+    *(b"~", b"true", b"=1/0", b"=9**9**9", b"../x", b"x" * 2000, b"[" * 200, b"mbla: 1\n", b"<", b"\0\0\x80\x7f"),
+)
+"""what is put into a file beside parts of its own"""
+LENGTHS = (0, 1, 4, 30, 300)
+"""of the part of a file that goes, or is repeated"""
+WORD = re.compile(rb"[^\s,\[\]{}:<>\"]+")
+
+
 @st.composite
 def files(draw: st.DrawFn) -> tuple[str, bytes]:
-    """Kind and content of a file changed up to five times."""
+    """Kind and content of a file changed up to five times: a word or another part of it gives way to something else."""
     kind, content = draw(st.sampled_from(draw(st.sampled_from(FAMILIES))))
     for _ in range(draw(st.integers(1, 5))):
-        content = changed(kind, content, lambda options: draw(st.sampled_from(options)))
+        spans = [word.span() for word in WORD.finditer(content)] if draw(st.booleans()) else []
+        spans = spans or [(at, at + draw(st.sampled_from(LENGTHS))) for at in (draw(st.integers(0, len(content))),)]
+        begin, end = draw(st.sampled_from(spans))
+        other = draw(st.integers(0, len(content)))
+        own = content[other : other + draw(st.sampled_from(LENGTHS))]
+        content = content[:begin] + draw(st.sampled_from((own, *PIECES))) + content[end:]
     return kind, content
 
 
