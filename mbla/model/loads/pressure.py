@@ -8,7 +8,7 @@ The pressure acts on the free parts of faces, unless all of them are asked for: 
 them, nor on the ground, whether or not the contact of the two carries anything there.
 
 Each face is a polygon in coordinates of its own plane. The faces of other blocks that lie against it are taken away
-from it; what is left is told by its rings, holes among them.
+from it; what is left is divided into triangles.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def _integrals(
     # a fan of triangles over every loop
     a, b, c = np.broadcast_arrays(loops[:, :1], loops[:, 1:-1], loops[:, 2:])
     normals = blocks.face_normals[faces][parts.faces]
-    areas = parts.signs[:, None] * np.einsum("nkj,nj->nk", np.cross(b - a, c - a), normals) / 2
+    areas = np.einsum("nkj,nj->nk", np.cross(b - a, c - a), normals) / 2
     centroids = blocks.centroids[blocks.block_of_face[faces]][parts.faces]
     force, moment = np.zeros((len(faces), 3)), np.zeros((len(faces), 3))
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
@@ -120,16 +120,14 @@ FACING = 0.99
 
 @dataclass(frozen=True)
 class FaceParts:
-    """Loops whose signed integrals add up to what is loaded.
+    """What is loaded of faces.
 
-    loops : (n, k, 3) corners on the planes of their faces, the last one repeated where there are fewer
-    signs : (n,) that make areas of outlines positive as the face is seen from outside, and those of holes negative
+    loops : (n, 3, 3) corners of triangles on the planes of their faces, counter-clockwise seen from outside
     faces : (n,) position of the face in the list asked for
     areas : (n_faces,) area of each face; covered : (n_faces,) the part of it that other blocks and grounds cover
     """
 
     loops: FloatArray
-    signs: FloatArray
     faces: IntArray
     areas: FloatArray
     covered: FloatArray
@@ -152,22 +150,14 @@ class _Frames:
         found = np.atleast_1d(shapely.polygons(shapely.linearrings(flat, indices=ring)))
         return np.where(shapely.is_valid(found), found, shapely.make_valid(found))
 
-    def loops(self, polygons: Any) -> tuple[FloatArray, FloatArray, IntArray]:
-        """Rings of polygons (n,), one for each frame: corners (m, k, 3), signs (m,), and their polygons (m,)."""
+    def triangles(self, polygons: Any) -> tuple[FloatArray, IntArray]:
+        """Triangles of polygons (n,), one for each frame: corners (m, 3, 3), outwards, and their polygons (m,)."""
         import shapely
 
-        parts, owner = shapely.get_parts(polygons, return_index=True)
-        rings, part = shapely.get_rings(parts, return_index=True)
-        points, ring = shapely.get_coordinates(rings, return_index=True)
-        if not len(rings):
-            return np.zeros((0, 3, 3)), np.zeros(0), np.zeros(0, dtype=np.int64)
-        start = starts(np.bincount(ring, minlength=len(rings)))
-        width = np.arange(np.diff(start).max())
-        flat = points[np.minimum(start[:-1, None] + width, start[1:, None] - 1)]
-        turns = np.sign(signed_areas(flat))
-        rows = owner[part].astype(np.int64)
-        corners = np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None]
-        return corners, np.where(np.diff(part, prepend=-1) != 0, turns, -turns), rows
+        parts, rows = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
+        flat = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
+        flat = np.where((signed_areas(flat) > 0)[:, None, None], flat, flat[:, ::-1])
+        return np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None], rows.astype(np.int64)
 
 
 def face_parts(
@@ -187,7 +177,7 @@ def face_parts(
         left = np.where(_on_ground(faces, blocks, grounds, tolerance), 0.0, shapely.area(polygons))
         left[left <= 2.0 * tolerance * areas] = 0.0  # what is left beside is the rounding of outlines
         polygons[left == 0.0] = shapely.Polygon()
-    return FaceParts(*frames.loops(polygons), areas, areas - left)
+    return FaceParts(*frames.triangles(polygons), areas, areas - left)
 
 
 def _on_ground(faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float) -> BoolArray:
