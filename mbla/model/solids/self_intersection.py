@@ -7,6 +7,8 @@ Convex polyhedra need no test.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
@@ -15,7 +17,7 @@ from mbla.model.solids.defects import Defect, Extents
 from mbla.model.solids.measures import Edges, FaceGeometry
 from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import chunks, items_of_rows, next_item, row_maxima
+from mbla.model.solids.ragged import chunks, items_of_rows, row_maxima
 
 AT_ONCE = 500_000
 """edge-face pairs held in memory together"""
@@ -65,6 +67,8 @@ def _edge_meets_face(
     polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, extents: Extents, edge: IntArray, face: IntArray
 ) -> BoolArray:
     """True where an edge passes through or touches a face away from the vertices they share, (n_pairs,)."""
+    import shapely
+
     ends = edges.ends[edge]
     eps = np.maximum(TOUCH * extents.diagonals, 4 * extents.rounding)[edges.block[edge]]
     points = polyhedra.local_vertices[ends]
@@ -72,22 +76,24 @@ def _edge_meets_face(
     distance = np.einsum("ijk,ik->ij", points - faces.centres[face][:, None, :], normals)
     # a corner that leaves a face within the tolerance must not count as going through it
     slack = np.maximum(eps, 2 * faces.deviations[face])
-    near, far = distance.min(axis=1), distance.max(axis=1)
-    through = (near < -slack) & (far > slack)
+    through = (distance.min(axis=1) < -slack) & (distance.max(axis=1) > slack)
     corner = _corner_of_face(polyhedra, ends, face)
     touching = (np.abs(distance) <= eps[:, None]) & ~corner
-    in_plane = (touching | corner).all(axis=1)
     share = np.divide(distance[:, 0], distance[:, 0] - distance[:, 1], out=np.zeros(len(edge)), where=through)
     crossing = points[:, 0] + share[:, None] * (points[:, 1] - points[:, 0])
-    middle = points.mean(axis=1)
     meets = np.zeros(len(edge), dtype=bool)
     for chosen, place in ((through, crossing), (touching[:, 0], points[:, 0]), (touching[:, 1], points[:, 1])):
         rows = np.flatnonzero(chosen)
-        meets[rows] |= _inside(polyhedra, faces, face[rows], place[rows], eps[rows], outline_counts=True)
-    rows = np.flatnonzero(in_plane)
-    # the middle of a face's own edge is on its outline
-    meets[rows] |= _inside(polyhedra, faces, face[rows], middle[rows], eps[rows], outline_counts=False)
-    meets[rows] |= _crosses_outline(polyhedra, faces, face[rows], points[rows], eps[rows])
+        outlines, places = _in_planes(polyhedra, faces, face[rows], place[rows][:, None])
+        meets[rows] |= shapely.dwithin(outlines, shapely.points(places[:, 0]), eps[rows])
+    in_plane = np.flatnonzero((touching | corner).all(axis=1) & ~meets)
+    outlines, places = _in_planes(polyhedra, faces, face[in_plane], points[in_plane])
+    lines = shapely.linestrings(places)
+    # an edge of the face itself runs along its outline; one that crosses it makes that outline cross itself
+    meets[in_plane] = ~shapely.is_valid(outlines)
+    sound = in_plane[~meets[in_plane]]
+    within = shapely.buffer(outlines[~meets[in_plane]], -eps[sound])
+    meets[sound] = shapely.intersects(within, lines[~meets[in_plane]])
     return meets
 
 
@@ -99,62 +105,15 @@ def _corner_of_face(polyhedra: Polyhedra, ends: IntArray, face: IntArray) -> Boo
     return np.asarray(np.logical_or.reduceat(same, starts(counts)[:-1], axis=0))
 
 
-def _plane_outlines(
-    polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray
-) -> tuple[FloatArray, FloatArray, IntArray, FloatArray]:
-    """Outlines of faces in coordinates of their planes: tails and heads (n, 2), start, and the axes (n_faces, 2, 3)."""
-    normals = faces.normals[face]
-    axes = plane_axes(normals)
-    counts = np.diff(polyhedra.loop_start)[face]
-    start = starts(counts)
+def _in_planes(polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray) -> tuple[Any, FloatArray]:
+    """Outlines of faces, (n,), and points beside each, (n, k, 3), in coordinates of their planes, (n, k, 2)."""
+    import shapely
+
+    axes, counts = plane_axes(faces.normals[face]), np.diff(polyhedra.loop_start)[face]
+    ring = np.repeat(np.arange(len(face)), counts)
     corners = polyhedra.local_vertices[polyhedra.loops[items_of_rows(polyhedra.loop_start, face)]]
-    corners = corners - np.repeat(faces.centres[face], counts, axis=0)
-    tails = np.einsum("ijk,ik->ij", np.repeat(axes, counts, axis=0), corners)
-    return tails, tails[next_item(start)], start, axes
-
-
-def _inside(
-    polyhedra: Polyhedra,
-    faces: FaceGeometry,
-    face: IntArray,
-    points: FloatArray,
-    eps: FloatArray,
-    outline_counts: bool,
-) -> BoolArray:
-    """True where a point in the plane of a face lies inside its outline, and on it if that counts, (n_pairs,)."""
-    tails, heads, start, axes = _plane_outlines(polyhedra, faces, face)
-    counts = np.diff(start)
-    place = np.repeat(np.einsum("ijk,ik->ij", axes, points - faces.centres[face]), counts, axis=0)
-    along, arms = heads - tails, place - tails
-    rises = (tails[:, 1] > place[:, 1]) != (heads[:, 1] > place[:, 1])
-    slope = np.divide(along[:, 0], along[:, 1], out=np.zeros(len(along)), where=rises)
-    right = rises & (arms[:, 0] < slope * arms[:, 1])
-    share = np.clip(np.einsum("ij,ij->i", arms, along) / np.einsum("ij,ij->i", along, along), 0, 1)
-    clear = np.linalg.norm(arms - share[:, None] * along, axis=1) > np.repeat(eps, counts)
-    odd = np.add.reduceat(right.astype(np.int64), start[:-1]) % 2 == 1
-    off_outline = np.logical_and.reduceat(clear, start[:-1])
-    return np.asarray(odd | ~off_outline if outline_counts else odd & off_outline)
-
-
-def _crosses_outline(
-    polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray, eps: FloatArray
-) -> BoolArray:
-    """True where an edge in the plane of a face crosses a side of its outline at an inner point of both, (n_pairs,)."""
-    tails, heads, start, axes = _plane_outlines(polyhedra, faces, face)
-    counts = np.diff(start)
-    flat = np.einsum("ijk,imk->imj", axes, points - faces.centres[face][:, None, :])
-    one, other = np.repeat(flat[:, 0], counts, axis=0), np.repeat(flat[:, 1], counts, axis=0)
-    margin = np.repeat(eps, counts)
-    proper = _strictly_apart(one, other, tails, heads, margin) & _strictly_apart(tails, heads, one, other, margin)
-    return np.asarray(np.logical_or.reduceat(proper, start[:-1]))
-
-
-def _strictly_apart(
-    tails: FloatArray, heads: FloatArray, one: FloatArray, other: FloatArray, margin: FloatArray
-) -> BoolArray:
-    """True where two points lie on different sides of the line through tail and head, off it by more than a margin."""
-    along = heads - tails
-    length = np.linalg.norm(along, axis=1)
-    left = (along[:, 0] * (one - tails)[:, 1] - along[:, 1] * (one - tails)[:, 0]) / length
-    right = (along[:, 0] * (other - tails)[:, 1] - along[:, 1] * (other - tails)[:, 0]) / length
-    return np.asarray((left * right < 0) & (np.minimum(np.abs(left), np.abs(right)) > margin))
+    flat = np.einsum("nj,nij->ni", corners - faces.centres[face][ring], axes[ring])
+    places = np.einsum("nkj,nij->nki", points - faces.centres[face][:, None], axes)
+    if not len(face):
+        return np.empty(0, dtype=object), places
+    return np.atleast_1d(shapely.polygons(shapely.linearrings(flat, indices=ring))), places
