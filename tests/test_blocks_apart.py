@@ -57,11 +57,9 @@ def test_the_tolerance_that_the_message_names_is_a_way_out(tmp_path: Path) -> No
     assert len(results.contacts) == 2
 
 
-def test_the_cause_stands_before_the_verdict_and_once(tmp_path: Path) -> None:
+def test_the_cause_is_told_once_with_the_verdict(tmp_path: Path) -> None:
     lines = summary_lines(results_of(tmp_path))
-    assert lines[1].startswith(
-        "  warning [isolated-blocks]: 1 of 2 blocks touches nothing: block[1]; with contacts.tolerance"
-    )
-    assert "with contacts.tolerance 0.021 all near misses are contacts" in " ".join(" ".join(lines).split())
+    words = " ".join(" ".join(lines).split())
+    assert "warning [isolated-blocks]: 1 of 2 blocks touches nothing: block[1]; with contacts.tolerance 0.021" in words
     assert sum("touches nothing" in line for line in lines) == 1
-    assert any("NO EQUILIBRIUM" in line for line in lines[2:])
+    assert any("NO EQUILIBRIUM" in line for line in lines)

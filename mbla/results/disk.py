@@ -1,11 +1,15 @@
 """Files and folders: errors of the operating system in our words, and files that are there as a whole or not at all.
 
-A file is written under a temporary name in the same folder, flushed to the disk and renamed into place. What killed
-runs left under temporary names is put right by the next one, for every process of this machine that no longer exists:
+A single file beside results, such as a picture, is written under a temporary name in the same folder, flushed to the
+disk and renamed into place. What killed runs left under temporary names is cleared away:
 
     ``.mbla-HOST-PID-new-NAME``       a file that is being written
-    ``.mbla-HOST-PID-earlier-NAME``   the file whose place one took that grows under its own name; empty: there was none
-    ``.mbla-HOST-PID-ready-STEM``     all files of a run are written, and these are to be put in place or removed
+    ``.mbla-HOST-PID-earlier-NAME``   the file that NAME replaces, until the run is complete
+    ``.mbla-HOST-PID-open-STEM``      there while a run puts files in place: the earlier ones still are the valid ones
+
+The last one has a line ``INODE NAME`` for every file that is put where there was none. A killed run cannot undo what it
+began; the next one in the folder does it then, for every process of this machine that no longer exists.
+
 
 A lock keeps two runs off one journal, or one result. It is one of the operating system (flock) on a file of its own
 beside what it keeps: it ends with the process that holds it, however that ends, so that none is ever left behind. The
@@ -25,7 +29,7 @@ import re
 import socket
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from mbla.errors import FileError
@@ -75,60 +79,54 @@ def flush_to_disk(path: Path) -> None:
 
 PREFIX = ".mbla-"
 _TEMPORARY = re.compile(
-    re.escape(PREFIX) + r"(?P<host>.+)-(?P<process>\d+)-(?P<kind>new|earlier|ready)-(?P<name>.+)", re.DOTALL
+    re.escape(PREFIX) + r"(?P<host>.+)-(?P<process>\d+)-(?P<kind>new|earlier|open)(?:-(?P<name>.+))?", re.DOTALL
 )
 
 
 def temporary_path(path: Path, kind: str = "new") -> Path:
-    """Where a file is while it is written, the earlier one while it waits (``earlier``), or what is to be done."""
+    """Where a file is while it is written, the earlier one while it waits (``kind`` "earlier"), or a mark ("open")."""
     return path.with_name(f"{PREFIX}{_host()}-{os.getpid()}-{kind}-{path.name}")
 
 
-def put_in_place(ready: Path) -> None:
-    """Do what a list says, lines of ``+NAME`` to put in place and ``-NAME`` to remove; done again it does the rest.
-
-    Raises OSError; the list stays then.
-    """
-    lead = ready.name.partition("-ready-")[0]
-    for line in ready.read_text(encoding="utf-8", errors="surrogateescape").split("\n")[:-1]:
-        if Path(line[1:]).name != line[1:]:  # of no run
-            continue
-        target = ready.with_name(line[1:])
-        with contextlib.suppress(FileNotFoundError):
-            if line[0] == "+":
-                ready.with_name(f"{lead}-new-{target.name}").replace(target)
-            else:
-                target.unlink()
-    flush_to_disk(ready.parent)
-    ready.unlink(missing_ok=True)
-
-
-def put_back(earlier: Path, target: Path) -> None:
-    """Put the earlier file back in place of one that grew there; raises OSError."""
-    if earlier.stat().st_size:
-        earlier.replace(target)
-    else:
-        target.unlink(missing_ok=True)
-        earlier.unlink()
+def mark_as_new(marker: Path, inodes: Mapping[str, int]) -> None:
+    """Add names of files that are about to be put where there was none, with the inodes that they will have."""
+    with marker.open("a", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
+        file.writelines(f"{inode} {name}\n" for name, inode in inodes.items())
 
 
 def clear_leftovers(folder: Path) -> None:
-    """Finish or undo what killed runs of this machine left: the new files in place if all were written, else none.
+    """Undo what killed runs of this machine left: earlier files back in place if their run never became complete.
 
-    Being killed here changes nothing: the next run does it again. Raises OSError.
+    Files that such a run put where there was none are removed, unless they were replaced by others since. Being killed
+    here changes nothing: the next run does it again. Raises OSError.
     """
     found = [(path, _TEMPORARY.fullmatch(path.name)) for path in sorted(folder.glob(f"{PREFIX}*"))]
     left = [(path, match) for path, match in found if match and match["host"] == _host()]
     dead = {match["process"] for _, match in left if not _process_exists(int(match["process"]))}
-    own = [(path, match) for path, match in left if match["process"] in dead]
-    ready = {match["process"]: path for path, match in own if match["kind"] == "ready"}
-    for path, match in own:
-        if match["kind"] == "earlier" and match["process"] not in ready:
-            put_back(path, folder / match["name"])
-    for path in ready.values():
-        put_in_place(path)
-    for path, _ in own:
-        path.unlink(missing_ok=True)
+    markers = [path for path, match in left if match["kind"] == "open" and match["process"] in dead]
+    unfinished = {match["process"] for path, match in left if path in markers}
+    for marker in markers:
+        remove_new(folder, marker)
+    for path, match in left:
+        if match["process"] not in dead or path in markers:
+            continue
+        if match["kind"] == "earlier" and match["process"] in unfinished and match["name"]:
+            path.replace(folder / match["name"])
+        else:
+            path.unlink(missing_ok=True)
+    for marker in markers:  # last: until then everything can be done again
+        marker.unlink(missing_ok=True)
+
+
+def remove_new(folder: Path, marker: Path) -> None:
+    """Remove the files that a run put where there was none, by its mark; raises OSError."""
+    with contextlib.suppress(FileNotFoundError):
+        for line in marker.read_text(encoding="utf-8", errors="surrogateescape").split("\n")[:-1]:
+            inode, _, name = line.partition(" ")
+            target = folder / name
+            with contextlib.suppress(FileNotFoundError):
+                if Path(name).name == name and str(target.lstat().st_ino) == inode:
+                    target.unlink()
 
 
 def _host() -> str:

@@ -1,11 +1,12 @@
 """The output folder of a run: all of its files appear together at the end, or none does.
 
-Every file is written under a temporary name in the folder itself (a rename is atomic only inside one file system) and
-flushed to the disk. When all are there, a list of what is to be put in place is written: from then on the new files are
-the valid ones, whoever puts them in place, this run or, where it is killed, the next one in the folder
-(:mod:`mbla.results.disk`). A run that fails or is interrupted before leaves the earlier files as they were (what it had
-done goes into files of other names, :mod:`mbla.results.write`, which the next whole result removes). Two runs of one
-deck into one folder exclude each other.
+Every file is written under a temporary name in the folder itself (a rename is atomic only inside one file system),
+flushed to the disk and renamed into place when the run has succeeded.
+
+A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
+:mod:`mbla.results.write`, which the next whole result removes); signals wait while it does that, and while it
+puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
+(:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.disk`).
 """
 
 from __future__ import annotations
@@ -28,10 +29,10 @@ from mbla.results.disk import (
     file_errors,
     flush_to_disk,
     locked,
+    mark_as_new,
     missing_folders,
-    put_back,
-    put_in_place,
     remove_folders,
+    remove_new,
     temporary_path,
 )
 
@@ -72,9 +73,11 @@ class OutputFolder:
         self.beside = beside
         self._names: list[str] = []
         self._live: dict[str, TextIO] = {}
+        self._aside: set[str] = set()
         self._created: list[Path] = []
         self._stale: tuple[str, ...] = ()
         self._process = 0
+        self._marked = False
         self.in_place = False
         self._locks = contextlib.ExitStack()
 
@@ -143,13 +146,10 @@ class OutputFolder:
 
     def open_live(self, name: str) -> TextIO:
         """Open a text file under its final name, to be watched while it grows; the earlier one waits aside."""
-        self.path(name)
-        target, earlier = self.folder / name, self._temporary("earlier", name)
+        temporary, target = self.path(name), self.folder / name
         with held_signals(), file_errors(target):
-            if os.path.lexists(target):
-                target.replace(earlier)
-            else:
-                earlier.touch()
+            temporary.touch()
+            self._place([name])
             self._live[name] = target.open("w", encoding="utf-8", newline="\n")
         return self._live[name]
 
@@ -175,6 +175,9 @@ class OutputFolder:
     def _temporary(self, kind: str, name: str) -> Path:
         return temporary_path(self.folder / name, kind)
 
+    def _marker(self) -> Path:
+        return self._temporary("open", self.stem)
+
     def _refuse(self, name: str) -> None:
         target = self.folder / name
         if target.is_dir():
@@ -187,6 +190,29 @@ class OutputFolder:
     def _refuse_earlier_result(self) -> None:
         for suffix in RESULT_SUFFIXES:
             self._refuse(self.stem + suffix)
+
+    def _set_aside(self, name: str) -> None:
+        """Move the earlier file away; the mark is there, which says that it still is the valid one."""
+        self._aside.add(name)
+        with file_errors(self.folder / name):
+            (self.folder / name).replace(self._temporary("earlier", name))
+
+    def _place(self, names: list[str]) -> None:
+        """Put written files under their names, the earlier ones aside; all is marked before it is done."""
+        inodes = {}
+        for name in names:
+            with file_errors(self.folder / name):
+                if not os.path.lexists(self.folder / name):
+                    inodes[name] = self._temporary("new", name).stat().st_ino
+        with file_errors(self.folder):
+            self._marked = True
+            mark_as_new(self._marker(), inodes)
+        for name in names:
+            if name not in inodes:
+                self._set_aside(name)
+        for name in names:
+            with file_errors(self.folder / name):
+                self._temporary("new", name).replace(self.folder / name)
 
     def _flush(self) -> None:
         """All contents on the disk, before any name changes."""
@@ -201,23 +227,22 @@ class OutputFolder:
                     flush_to_disk(self._temporary("new", name))
 
     def _commit(self) -> None:
-        stale = [name for name in self._stale if name not in self._names]
-        lines = [f"+{name}" for name in self._names if name not in self._live] + [f"-{name}" for name in stale]
-        ready, unsaid = self._temporary("ready", self.stem), self._temporary("new", "ready")
+        self._place([name for name in self._names if name not in self._live])
+        for name in self._stale:
+            if name not in self._names and os.path.lexists(self.folder / name):
+                self._set_aside(name)
         with file_errors(self.folder):
-            unsaid.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8", errors="surrogateescape")
-            flush_to_disk(unsaid)
-            unsaid.replace(ready)  # from here on the new files are the valid ones
-            put_in_place(ready)
+            flush_to_disk(self.folder)
+            self._marker().unlink(missing_ok=True)  # from here on the new files are the valid ones
         self.in_place = True
-        for name in self._live:
+        for name in self._aside:
             with contextlib.suppress(OSError):  # the next run removes it
                 self._temporary("earlier", name).unlink(missing_ok=True)
 
     def _discard(self, error: BaseException | None = None) -> None:
-        """Back to how it was, once; what cannot be done must not hide the error that led here, but is noted in it.
+        """Back to how it was, once; what cannot be undone must not hide the error that led here, but is noted in it.
 
-        The next run in the folder does it then, as it puts in place what was ready.
+        What is left stays marked then, and the next run in the folder puts it back.
         """
         if self._process != os.getpid():  # ended already, or a copy of the process
             return
@@ -225,19 +250,24 @@ class OutputFolder:
             for stream in self._live.values():
                 with contextlib.suppress(OSError, ValueError):
                     stream.close()
-            try:
-                if os.path.lexists(self._temporary("ready", self.stem)):
-                    raise OSError
-                for name in (*self._names, "ready"):
+            for name in self._names:
+                with contextlib.suppress(OSError):
                     self._temporary("new", name).unlink(missing_ok=True)
-                for name in self._names:
-                    if os.path.lexists(earlier := self._temporary("earlier", name)):
-                        put_back(earlier, self.folder / name)
+            try:
+                if self._marked:
+                    self._put_back()
             except OSError:
                 if error is not None:
-                    error.add_note(f"{self.folder}: its files are not in place; the next run into it puts that right")
+                    error.add_note(f"{self.folder}: is not as it was before; the next run into it puts that right")
             self._end()
             remove_folders(self._created)
+
+    def _put_back(self) -> None:
+        remove_new(self.folder, self._marker())
+        for name in self._aside:
+            with contextlib.suppress(FileNotFoundError):  # never moved
+                self._temporary("earlier", name).replace(self.folder / name)
+        self._marker().unlink(missing_ok=True)
 
     def _end(self) -> None:
         self._process = 0

@@ -15,6 +15,8 @@ from mbla.results.disk import (
     holder,
     lock_path,
     locked,
+    mark_as_new,
+    remove_new,
     temporary_path,
     writing_whole,
 )
@@ -25,19 +27,34 @@ def everybody_is_dead(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.results.disk._process_exists", lambda _: False)
 
 
-@pytest.mark.parametrize("ready", [False, True])
-def test_what_a_killed_run_left_is_finished_where_all_was_written_and_undone_else(tmp_path: Path, ready: bool) -> None:
-    for name, text in (("a.sta", "new"), ("b.sta", "new"), ("a.h5", "old"), ("stale.pvd", "old"), ("mine", "mine")):
-        (tmp_path / name).write_text(text)
-    temporary_path(tmp_path / "a.h5").write_text("new")
-    temporary_path(tmp_path / "a.sta", "earlier").write_text("old")
-    temporary_path(tmp_path / "b.sta", "earlier").touch()  # there was none
-    if ready:
-        temporary_path(tmp_path / "a", "ready").write_text("+a.h5\n+gone.h5\n-stale.pvd\n-../mine\n")
+def test_without_a_mark_the_new_files_are_the_valid_ones(tmp_path: Path) -> None:
+    (tmp_path / "a.h5").write_text("new")
+    temporary_path(tmp_path / "a.h5", "earlier").write_text("old")
     clear_leftovers(tmp_path)
-    found = {path.name: path.read_text() for path in tmp_path.iterdir()}
-    new = {"a.sta": "new", "b.sta": "new", "a.h5": "new", "mine": "mine"}
-    assert found == (new if ready else {"a.sta": "old", "a.h5": "old", "stale.pvd": "old", "mine": "mine"})
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("a.h5", "new")]
+
+
+def test_with_a_mark_the_earlier_ones_are(tmp_path: Path) -> None:
+    marker = temporary_path(tmp_path / "a", "open")
+    for name in ("a.h5", "a.pvd", "foreign.pvd"):
+        (tmp_path / name).write_text("new")
+    temporary_path(tmp_path / "a.h5", "earlier").write_text("old")
+    mark_as_new(marker, {"a.pvd": (tmp_path / "a.pvd").stat().st_ino, "foreign.pvd": 1, "gone.pvd": 2})
+    clear_leftovers(tmp_path)
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"a.h5": "old", "foreign.pvd": "new"}
+
+
+@pytest.mark.parametrize("line", ["{} ../mine", "{} mine", "mine\n", "\n"])
+def test_a_torn_or_strange_line_of_a_mark_removes_nothing(tmp_path: Path, line: str) -> None:
+    folder = tmp_path / "out"
+    folder.mkdir()
+    for path in (tmp_path / "mine", folder / "mine"):
+        path.touch()
+    marker = temporary_path(folder / "a", "open")
+    marker.write_text(line.format((tmp_path / "mine").stat().st_ino))  # the last line has no end: it was torn
+    remove_new(folder, marker)
+    assert (tmp_path / "mine").exists()
+    assert (folder / "mine").exists()
 
 
 @pytest.mark.parametrize(
