@@ -32,7 +32,7 @@ from mbla.results.tables.formats import csv_text
 from mbla.sweeps.answers import Answers, answers_of
 from mbla.sweeps.design.design import SweepColumn, header_of
 from mbla.sweeps.plan import Plain
-from mbla.sweeps.tables.sweep_table import SweepTable, as_text, column_values
+from mbla.sweeps.tables.sweep_table import SweepTable, as_text
 
 SAME = 1e-6
 """relative distance below a demand up to which a value still bears it: load factors are found to that accuracy, and one
@@ -165,50 +165,69 @@ SAMPLED = {
     "sobol": NOT_INDEPENDENT.format("Sobol sequence"),
 }
 """what is said of intervals of samples that are not drawn point by point"""
+UNKNOWN = (
+    "points without a verified answer are unknown: they are counted both as below and as above a demand, and the "
+    "interval holds both"
+)
 
 
 def fragility_lines(found: Sequence[Fragility]) -> list[str]:
-    """A table for each result, a line for each demand and combination, and what must be known of them."""
-    lines: list[str] = []
-    for name in dict.fromkeys(one.column.name for one in found):
-        own = [one for one in found if one.column.name == name]
-        lines += sentence(
-            f"probability that {name} lies below a demand, with its {100 * own[0].confidence:g} % interval:"
-        )
-        head = [
-            *(header_of(parameter, own[0].units[parameter]) for parameter in own[0].at),
-            header_of("demand", own[0].column.unit),
-            *("points", "below", "unknown", "probability", "interval"),
-        ]
-        lines += table(head, [_cells(one, row) for one in own for row in range(len(one.demands))], left=0)
-    return lines + [line for remark in _remarks(found) for line in sentence(remark)]
-
-
-def _cells(one: Fragility, row: int) -> list[str]:
-    least, greatest = one.least[row], one.greatest[row]
-    return [
-        *(_short(value) for value in one.at.values()),
-        f"{one.demands[row]:g}",
-        str(one.points),
-        str(one.below[row]),
-        str(one.unknown),
-        f"{least:.4f} to {greatest:.4f}" if one.unknown else f"{least:.4f}",
-        f"{one.lower[row]:.4f} to {one.upper[row]:.4f}",
+    """A table of every demand, combination and result, and what must be known of them."""
+    if not found:
+        return []
+    rows = _rows(found)
+    head = [name for name in rows if name not in ("confidence", "sampling")]
+    cells = [[_short(value) for value in row] for row in zip(*(rows[name] for name in head), strict=True)]
+    lines = sentence(
+        f"probability that a result lies below a demand, with its {100 * found[0].confidence:g} % interval:"
+    )
+    lines += table([SHORT.get(name, name) for name in head], cells)
+    remarks = [
+        *dict.fromkeys(SAMPLED[one.sampling] for one in found),
+        *([UNKNOWN] if any(one.unknown for one in found) else []),
     ]
+    return lines + [line for remark in remarks if remark for line in sentence(remark)]
+
+
+SHORT = {
+    "probability_least": "at least",
+    "probability_greatest": "at most",
+    "interval_lower": "from",
+    "interval_upper": "to",
+}
+"""names of columns on the terminal"""
 
 
 def _short(value: Plain) -> str:
-    return f"{value:g}" if isinstance(value, float) else as_text(value)
+    return f"{value:.4g}" if isinstance(value, float) else as_text(value)
 
 
-def _remarks(found: Sequence[Fragility]) -> list[str]:
-    remarks = list(dict.fromkeys(SAMPLED[one.sampling] for one in found))
-    if any(one.unknown for one in found):
-        remarks.append(
-            "points without a verified answer are unknown: they are counted both as below and as above a demand, and "
-            "the interval holds both"
-        )
-    return [remark for remark in remarks if remark]
+def _rows(found: Sequence[Fragility]) -> dict[str, list[Any]]:
+    """Columns by their headers: a row for each result, combination and demand."""
+    rows = [(one, row) for one in found for row in range(len(one.demands))]
+    first = found[0]
+    return {
+        "result": [one.column.name for one, _ in rows],
+        **{header_of(name, first.units[name]): [one.at[name] for one, _ in rows] for name in first.at},
+        header_of("demand", first.column.unit): [float(one.demands[row]) for one, row in rows],
+        "points": [one.points for one, _ in rows],
+        "below": [int(one.below[row]) for one, row in rows],
+        "unknown": [one.unknown for one, _ in rows],
+        "probability_least": [float(one.least[row]) for one, row in rows],
+        "probability_greatest": [float(one.greatest[row]) for one, row in rows],
+        "interval_lower": [float(one.lower[row]) for one, row in rows],
+        "interval_upper": [float(one.upper[row]) for one, row in rows],
+        "confidence": [one.confidence for one, _ in rows],
+        "sampling": [one.sampling for one, _ in rows],
+    }
+
+
+def fragility_csv(found: Sequence[Fragility]) -> str:
+    """The text of sweep_fragility.csv: a row for each result, combination and demand."""
+    if not found:
+        return ""
+    rows = _rows(found)
+    return csv_text(tuple(rows), [np.array(values, dtype=object) for values in rows.values()])
 
 
 def fragility_json(found: Sequence[Fragility]) -> list[dict[str, Any]]:
@@ -262,36 +281,3 @@ def fragility_keys(place: str) -> tuple[Key, ...]:
         Key(f"{place}[].demands[].interval", "list", "of Clopper and Pearson, over both counts"),
         Key(f"{place}[].demands[].interval[]", "number", "an end"),
     )
-
-
-def fragility_csv(found: Sequence[Fragility]) -> str:
-    """The text of sweep_fragility.csv: a row for each result, combination and demand."""
-    if not found:
-        return ""
-    rows = [(one, row) for one in found for row in range(len(one.demands))]
-    columns = {
-        "result": column_values("text", [one.column.name for one, _ in rows]),
-        **{
-            header_of(name, found[0].units[name]): column_values(
-                _kind([one.at[name] for one in found]), [one.at[name] for one, _ in rows]
-            )
-            for name in found[0].at
-        },
-        header_of("demand", found[0].column.unit): np.array([one.demands[row] for one, row in rows]),
-        "points": np.array([one.points for one, _ in rows]),
-        "below": np.array([one.below[row] for one, row in rows]),
-        "unknown": np.array([one.unknown for one, _ in rows]),
-        "probability_least": np.array([one.least[row] for one, row in rows]),
-        "probability_greatest": np.array([one.greatest[row] for one, row in rows]),
-        "interval_lower": np.array([one.lower[row] for one, row in rows]),
-        "interval_upper": np.array([one.upper[row] for one, row in rows]),
-        "confidence": np.array([one.confidence for one, _ in rows]),
-        "sampling": column_values("text", [one.sampling for one, _ in rows]),
-    }
-    return csv_text(tuple(columns), tuple(columns.values()))
-
-
-def _kind(values: Sequence[Plain]) -> str:
-    """Kind of the column of a parameter, by its values."""
-    types = {type(value) for value in values}
-    return {float: "float", int: "int", bool: "bool"}.get(types.pop(), "text") if len(types) == 1 else "text"

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
 from mbla.results.listing.text import INDENT, counted, entry, number, sentence
 from mbla.results.listing.text import table as text_table
 from mbla.sweeps.answers import ALIKE, answers_of
@@ -124,54 +123,34 @@ def result_lines(table: SweepTable) -> list[str]:
     for column in columns:
         if column.kind in TEXTS:
             lines += entry(column.name, _counts_words(column, table[column.name]))
-    ranges = [_range_of(table, column) for column in columns if column.kind not in TEXTS]
-    return lines + (_range_lines(table, ranges) if ranges else [])
+    numeric = [column for column in columns if column.kind not in TEXTS]
+    return lines + (_range_lines(table, numeric) if numeric else [])
 
 
-@dataclass(frozen=True)
-class Range:
-    """Least and greatest verified value of a result, nan where no point has one.
+def _range_cells(table: SweepTable, column: SweepColumn) -> tuple[list[str], list[int]]:
+    """Least and greatest verified value of a result with their points, points without one; rows of these points.
 
-    rows    : of the first points that have them, as far as can be told; none where all are alike
-    without : points that have none
-    alike   : all are the same as far as they are shown: which is the least is a matter of the solver's last digits
+    Where all values are the same as far as they are shown, which is the least is a matter of the solver's last digits.
     """
-
-    column: SweepColumn
-    least: float
-    greatest: float
-    rows: tuple[int, ...]
-    without: int
-    alike: bool = False
-
-
-def _range_of(table: SweepTable, column: SweepColumn) -> Range:
     answers = answers_of(table, column)
     known = np.flatnonzero(answers.good)
+    without = str(len(table) - known.size)
     if not known.size:
-        return Range(column, np.nan, np.nan, (), len(table))
+        return [column.header, "-", "-", "-", "-", without], []
     values = answers.values[known]
-    least, greatest = float(values.min()), float(values.max())
-    alike = known.size > 1 and bool(_near(values, least).all())
-    rows = () if alike else tuple(int(known[np.argmax(_near(values, end))]) for end in (least, greatest))
-    return Range(column, least, greatest, rows, len(table) - known.size, alike)
+    ends = float(values.min()), float(values.max())
+    near = [np.abs(values - end) <= ALIKE * abs(end) for end in ends]
+    alike = known.size > 1 and bool(near[0].all())
+    rows = [] if alike else [int(known[np.argmax(own)]) for own in near]
+    points = ["all", "all"] if alike else [str(table["point"][row]) for row in rows]
+    return [column.header, number(ends[0]), points[0], number(ends[1]), points[1], without], rows
 
 
-def _near(values: FloatArray, end: float) -> BoolArray:
-    """Those that cannot be told from an end of the range."""
-    return np.abs(values - end) <= ALIKE * abs(end)
-
-
-def _range_lines(table: SweepTable, ranges: Sequence[Range]) -> list[str]:
-    missing = any(one.without for one in ranges)
-    cells = []
-    for one in ranges:
-        at = [str(table["point"][row]) for row in one.rows] or (["all", "all"] if one.alike else ["-", "-"])
-        shown = [one.column.header, number(one.least), at[0], number(one.greatest), at[1]]
-        cells.append([*shown, *([str(one.without)] if missing else [])])
-    head = ["result", "least", "point", "greatest", "point", *(["without"] if missing else [])]
-    lines = ["", *text_table(head, cells)]
-    named = list(dict.fromkeys(row for one in ranges for row in one.rows))
+def _range_lines(table: SweepTable, columns: Sequence[SweepColumn]) -> list[str]:
+    found = [_range_cells(table, column) for column in columns]
+    head = ["result", "least", "point", "greatest", "point", "without"]
+    lines = ["", *text_table(head, [cells for cells, _ in found])]
+    named = list(dict.fromkeys(row for _, rows in found for row in rows))
     for row in named[:NAMED]:
         lines += sentence(point_words(table, row))
     if len(named) > NAMED:

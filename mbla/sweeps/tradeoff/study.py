@@ -33,7 +33,7 @@ from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 from mbla.sweeps.tables.write_tables import Conclusion
 from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, ladder_of, named_rungs
 from mbla.sweeps.tradeoff.picture import draw_trade
-from mbla.sweeps.tradeoff.trade import VERDICTS, Advice, CaseTrade, Row, advice, case_trade
+from mbla.sweeps.tradeoff.trade import VERDICTS, Advice, CaseTrade, advice
 
 RESIDUALS = (
     *("equilibrium_residual", "yield_violation", "tension_violation", "penetration", "complementarity_residual"),
@@ -93,8 +93,8 @@ def conclusion_of(
         before = f"{trade.name}." if len(trades) > 1 else ""
         distance = SweepColumn(f"{before}distance", "", "relative distance from the reference", "float", "result")
         front = SweepColumn(f"{before}front", "", "on the Pareto front of time and distance", "bool", "result")
-        columns.append((distance, np.array([row.distance for row in trade.rows])))
-        columns.append((front, np.array([row.front for row in trade.rows])))
+        columns.append((distance, trade.distance))
+        columns.append((front, trade.front))
     pairs = list(zip(trades, advices, strict=False))
     return Conclusion(
         columns=columns,
@@ -112,7 +112,7 @@ def _exit_code(trades: Sequence[CaseTrade], results: SweepTable) -> int:
     settings = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
     if any(name == REFERENCE and reason in (STOPPED, NOT_BEGUN) for name, reason in settings):
         return LimitError.exit_status
-    return 0 if all(trade.verified for trade in trades) else SolverError.exit_status
+    return 0 if all(trade.reference_verified for trade in trades) else SolverError.exit_status
 
 
 def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTable) -> CaseTrade:
@@ -125,32 +125,27 @@ def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTa
     def texts(path: str) -> list[str]:
         return [value or "" for value in results[columns[path].name].tolist()]
 
-    answers, lowers, uppers = map(figures, ANSWERS[kind])
-    residuals = np.fmax.reduce([figures(path) for path in RESIDUALS])
+    answer, lower, upper = map(figures, ANSWERS[kind])
+    residual = np.fmax.reduce([figures(path) for path in RESIDUALS])
     associative = np.array(texts("flow_rule")) == "associative"
-    accuracies = np.where(np.isnan(answers), np.nan, np.nan_to_num(np.where(associative, figures("gap"), residuals)))
-    done = results["state"] == DONE
-    verified = figures("verified") == 1.0
-    seconds = figures("time.total")
-    rows = [
-        Row(
-            rung=rung,
-            status=status,
-            verified=bool(
-                done[n]
-                if status == Status.APPROXIMATE  # as sharp as the setting asks for
-                else verified[n] and status in (Status.SOLVED, *VERDICTS)
-            ),
-            answer=float(answers[n]),
-            accuracy=float(accuracies[n]),
-            residual=float(residuals[n]),
-            lower=float(lowers[n]),
-            upper=float(uppers[n]),
-            seconds=float(seconds[n]),
-        )
-        for n, (rung, status) in enumerate(zip(rungs, texts("status"), strict=True))
-    ]
-    return case_trade(case.deck_name, rows, least, f"{kind} [{unit}]" if unit else kind)
+    accuracy = np.nan_to_num(np.where(associative, figures("gap"), residual))
+    status = np.array(texts("status"), dtype=object)
+    answered = (figures("verified") == 1.0) & np.isin(status, (Status.SOLVED.value, *(each.value for each in VERDICTS)))
+    as_asked = (status == Status.APPROXIMATE.value) & (results["state"] == DONE)
+    return CaseTrade(
+        name=case.deck_name,
+        what=f"{kind} [{unit}]" if unit else kind,
+        rungs=tuple(rungs),
+        status=status,
+        verified=np.asarray(answered | as_asked, dtype=bool),
+        answer=answer,
+        accuracy=np.where(np.isnan(answer), np.nan, accuracy),
+        residual=residual,
+        lower=lower,
+        upper=upper,
+        seconds=figures("time.total"),
+        least=least,
+    )
 
 
 def _kind(model: Model, case: LoadCase) -> tuple[str, str, float]:
@@ -194,44 +189,41 @@ def reference_words(trade: CaseTrade) -> str:
     """What the errors are distances from, and how small ones it can tell."""
     if trade.reference is None:
         return "no setting gave a result, so there is no reference"
-    unsure = "" if trade.verified else ", which is NOT VERIFIED"
-    return f"errors are relative to {trade.reference.rung.name}{unsure}, good to {small(trade.resolution)}"
+    unsure = "" if trade.reference_verified else ", which is NOT VERIFIED"
+    return f"errors are relative to {trade.rungs[trade.reference].name}{unsure}, good to {small(trade.resolution)}"
 
 
 def _table(trade: CaseTrade) -> list[str]:
     head = ["setting", "time", trade.what, "error", "lower", "upper", "resid.", ""]
     rows = [
         [
-            ("* " if row.front else "  ") + row.rung.name,
-            "-" if math.isnan(row.seconds) else f"{row.seconds:.3f}",
-            number(row.answer),
-            _error(trade, row),
-            number(row.lower),
-            number(row.upper),
-            small(row.residual),
-            _mark(row),
+            ("* " if trade.front[n] else "  ") + rung.name,
+            "-" if math.isnan(trade.seconds[n]) else f"{trade.seconds[n]:.3f}",
+            number(trade.answer[n]),
+            "ref." if n == trade.reference else _error(trade, n),
+            number(trade.lower[n]),
+            number(trade.upper[n]),
+            small(trade.residual[n]),
+            _mark(trade, n),
         ]
-        for row in trade.rows
-        if row.status
+        for n, rung in enumerate(trade.rungs)
+        if trade.status[n]
     ]
     return table(head, rows) if rows else []
 
 
-def _error(trade: CaseTrade, row: Row) -> str:
+def _error(trade: CaseTrade, n: int) -> str:
     """The distance; ``<1e-9`` where it is less than can be told."""
-    if trade.reference is not None and row.rung == trade.reference.rung:
-        return "ref."
-    if math.isnan(row.distance):
-        return "-"
-    return f"<{small(trade.resolution)}" if row.distance < trade.resolution else small(row.distance)
+    return f"<{small(trade.resolution)}" if trade.distance[n] < trade.resolution else small(trade.distance[n])
 
 
-def _mark(row: Row) -> str:
+def _mark(trade: CaseTrade, n: int) -> str:
     """What the last column says of a setting: its status where it is not solved, its model where it is another."""
-    words = [] if row.status == Status.SOLVED else [status_name(Status(row.status))]
-    words += ["stands only by self-stress"] if row.verdict == Status.SOLVED else []
-    words += ["not verified"] if not row.verified and row.status in (Status.SOLVED, *VERDICTS) else []
-    words += ["other model"] if row.rung.model else []
+    status = Status(trade.status[n])
+    words = [] if status == Status.SOLVED else [status_name(status)]
+    words += ["stands only by self-stress"] if status == Status.SOLVED and math.isnan(trade.answer[n]) else []
+    words += ["not verified"] if not trade.verified[n] and status in (Status.SOLVED, *VERDICTS) else []
+    words += ["other model"] if trade.rungs[n].model else []
     return ", ".join(words)
 
 
@@ -243,10 +235,10 @@ def _record(
         {
             "name": trade.name,
             "answer": trade.what,
-            "reference": None if trade.reference is None else trade.reference.rung.name,
-            "reference_verified": trade.verified,
+            "reference": None if trade.reference is None else trade.rungs[trade.reference].name,
+            "reference_verified": trade.reference_verified,
             "resolution": trade.resolution,
-            "front": [row.rung.name for row in trade.rows if row.front],
+            "front": [rung.name for rung, best in zip(trade.rungs, trade.front, strict=True) if best],
             "advice": one,
         }
         for trade, one in zip(trades, advices, strict=False)

@@ -10,8 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
 from mbla.results.listing.text import small
 from mbla.solution.solution import Status
 from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung
@@ -30,9 +35,10 @@ PRESETS = ("accuracy: standard", "accuracy: draft", "accuracy: reference")
 
 
 @dataclass(frozen=True)
-class Row:
-    """What one setting gave for one load case, a travelling load by its worst position; nan where there is no figure.
+class CaseTrade:
+    """What each setting gave for one load case, a travelling load by its worst position; (n,), nan for no figure.
 
+    what     : load factor, or angle or reaction with its unit
     status   : of the load case; empty where it was not solved
     verified : as sharply as the setting asks for, or that there is no load factor
     answer   : load factor, angle of a tilting table, or reaction of a support that gives way
@@ -40,150 +46,111 @@ class Row:
     residual : the largest
     lower, upper : proved bounds of associative flow, in the unit of the answer
     seconds  : of the load case by the clock
-    distance : relative, from the reference; 0 where both say that there is no load factor
-    front    : on the Pareto front
-    """
-
-    rung: Rung
-    status: str = ""
-    verified: bool = False
-    answer: float = NAN
-    accuracy: float = NAN
-    residual: float = NAN
-    lower: float = NAN
-    upper: float = NAN
-    seconds: float = NAN
-    distance: float = NAN
-    front: bool = False
-
-    @property
-    def verdict(self) -> str:
-        """``answer``, or the status without one: ``solved`` is what stands only by self-stress."""
-        return self.status if math.isnan(self.answer) else "answer"
-
-    @property
-    def sound(self) -> bool:
-        """Verified, of the deck's own model, and comparable with the reference: may be on the front and be advised."""
-        return self.verified and not self.rung.model and not math.isnan(self.distance)
-
-
-@dataclass(frozen=True)
-class CaseTrade:
-    """The trade of one load case.
-
-    reference  : the row that the others are held against, without distance; None where nothing has an answer
-    resolution : distances below this are none that can be told
-    verified   : the reference is verified
-    what       : load factor, or angle or reaction with its unit
+    least    : size below which differences of answers are relative to this
     """
 
     name: str
-    rows: tuple[Row, ...]
-    reference: Row | None
-    resolution: float
-    verified: bool
-    what: str = "load factor"
+    what: str
+    rungs: tuple[Rung, ...]
+    status: np.ndarray[Any, np.dtype[Any]]
+    verified: BoolArray
+    answer: FloatArray
+    accuracy: FloatArray
+    residual: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    seconds: FloatArray
+    least: float = 0.0
 
+    @cached_property
+    def reference(self) -> int | None:
+        """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
+        own = (self.status != "") & self._same_model
+        sharp = np.flatnonzero(own & self._sharp)
+        named = [number for number in sharp if self.rungs[number].name == REFERENCE]
+        found = named or list(sharp) or list(np.flatnonzero(own & np.isfinite(self.answer)))
+        return min(map(int, found), key=lambda number: np.nan_to_num(self.accuracy[number], nan=np.inf), default=None)
 
-def case_trade(name: str, rows: Sequence[Row], least: float = 0.0, what: str = "load factor") -> CaseTrade:
-    """The trade of one load case from its rows, which have no distances yet.
+    @cached_property
+    def reference_verified(self) -> bool:
+        """Whether others may be held against the reference."""
+        return self.reference is not None and bool(self._sharp[self.reference])
 
-    least : size below which differences of answers are relative to this
-    """
-    chosen = _reference(rows)
-    if chosen is None:
-        return CaseTrade(name, tuple(rows), None, NAN, False, what)
-    resolution = max(ROUNDING, _sharpness(chosen) if math.isfinite(_sharpness(chosen)) else 0.0)
-    placed = [replace(row, distance=distance(row, chosen, least)) for row in rows]
-    sharp = _is_sharp(chosen)
-    points = [(row.seconds, max(row.distance, resolution)) if sharp and row.sound else None for row in placed]
-    marked = [replace(row, front=best) for row, best in zip(placed, on_front(points), strict=True)]
-    return CaseTrade(name, tuple(marked), chosen, resolution, sharp, what)
+    @property
+    def resolution(self) -> float:
+        """Distances below this are none that can be told; nan without a reference."""
+        if self.reference is None:
+            return NAN
+        return max(ROUNDING, float(np.nan_to_num(self.accuracy[self.reference])))
 
+    @cached_property
+    def distance(self) -> FloatArray:
+        """Relative, from the reference; 0 where both confirm that there is no figure, nan where only one has one."""
+        if self.reference is None:
+            return np.full(len(self.rungs), NAN)
+        answer, both = self.answer[self.reference], self.verified & self.verified[self.reference]
+        if np.isnan(answer):
+            return np.where(both & np.isnan(self.answer) & (self.status == self.status[self.reference]), 0.0, NAN)
+        size = np.where(self.answer == answer, 1.0, max(abs(answer), self.least) or np.abs(self.answer))
+        return np.asarray(np.abs(self.answer - answer) / size)
 
-def _reference(rows: Sequence[Row]) -> Row | None:
-    """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
-    own = [row for row in rows if row.status and not row.rung.model]
-    verified = [row for row in own if _is_sharp(row)]
-    preset = next((row for row in verified if row.rung.name == REFERENCE), None)
-    answers = [row for row in own if row.verdict == "answer"]
-    return preset or min(verified or answers, key=_sharpness, default=None)
+    @property
+    def sound(self) -> BoolArray:
+        """Verified, of the deck's own model, and comparable with the reference: may be on the front and be advised."""
+        return np.asarray(self.verified & self._same_model & np.isfinite(self.distance))
 
+    @property
+    def front(self) -> BoolArray:
+        """Sound settings than which no other is at least as good in time and distance and better in one."""
+        if not self.reference_verified:
+            return np.zeros(len(self.rungs), dtype=bool)
+        seconds = np.where(self.sound, self.seconds, np.inf)
+        errors = np.where(self.sound, np.maximum(self.distance, self.resolution), np.inf)
+        as_good = (seconds[:, None] <= seconds) & (errors[:, None] <= errors)
+        better = (seconds[:, None] < seconds) | (errors[:, None] < errors)
+        return np.asarray(self.sound & ~(as_good & better).any(axis=0))
 
-def _is_sharp(row: Row) -> bool:
-    """Verified and not only as sharply as a draft asks for: others may be held against it."""
-    return row.verified and row.status != Status.APPROXIMATE
+    @cached_property
+    def _sharp(self) -> BoolArray:
+        """Verified and not only as sharply as a draft asks for."""
+        return np.asarray(self.verified & (self.status != Status.APPROXIMATE.value))
 
-
-def _sharpness(row: Row) -> float:
-    return math.inf if math.isnan(row.accuracy) else row.accuracy
-
-
-def distance(row: Row, reference: Row, least: float = 0.0) -> float:
-    """Relative difference of two answers; 0 where both confirm that there is none, nan where only one has one."""
-    if not row.status or row.verdict != reference.verdict:
-        return NAN
-    if row.verdict != "answer":
-        return 0.0 if row.verified and reference.verified else NAN
-    size = max(abs(reference.answer), least) or abs(row.answer)
-    return abs(row.answer - reference.answer) / size if size > 0.0 else 0.0
-
-
-def on_front(points: Sequence[tuple[float, float] | None]) -> list[bool]:
-    """Whether of each point (time, error) no other is at least as good in both and better in one; None is never.
-
-    Of points that are the same in both every one is on the front.
-    """
-    known = [point for point in points if point is not None]
-
-    def best(point: tuple[float, float]) -> bool:
-        return not any(other[0] <= point[0] and other[1] <= point[1] and other != point for other in known)
-
-    return [point is not None and best(point) for point in points]
+    @property
+    def _same_model(self) -> BoolArray:
+        return np.array([not rung.model for rung in self.rungs])
 
 
 @dataclass(frozen=True)
 class Advice:
-    """What is advised.
-
-    rung    : the setting; None where none can be advised
-    seconds : that it takes, all load cases of the advice together
-    error   : largest distance from the reference
-    sentence: the advice, or why there is none
-    """
+    """The setting that is advised, None where none can be; its seconds over all load cases, and the sentence."""
 
     rung: Rung | None
     seconds: float
-    error: float
     sentence: str
 
 
 def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     """For some load cases together: a setting must be sound and near enough under every one of them."""
-    unsure = [trade.name for trade in trades if not trade.verified]
+    unsure = [trade.name for trade in trades if not trade.reference_verified]
     if unsure:
         return _none(f"no setting is verified for {', '.join(unsure)}")
     coarse = max(trade.resolution for trade in trades)
     if coarse > wanted:
         return _none(f"an error of {wanted:g} is asked for, and the reference itself is good to {small(coarse)}")
-    fit = [one for rows in zip(*(trade.rows for trade in trades), strict=True) if (one := _candidate(rows, wanted))]
-    fastest = min(each.seconds for each in fit)  # the reference is always among them
-    enough = max((1.0 + SAME_TIME) * fastest, fastest + SAME_SECONDS * len(trades))
-    near = {each.rung.name: each for each in fit if each.rung is not None and each.seconds <= enough}
-    chosen = next((near[name] for name in PRESETS if name in near), min(fit, key=lambda each: each.seconds))
-    assert chosen.rung is not None
-    words = " without ".join([chosen.rung.name, *(f"analysis.{name}" for name in chosen.rung.without)])
-    near_to = small(max(chosen.error, coarse))
-    sentence = f"For an error of {wanted:g} take {words} ({chosen.seconds:.3g} s, within {near_to} of the reference)."
-    return replace(chosen, sentence=sentence)
-
-
-def _candidate(rows: Sequence[Row], wanted: float) -> Advice | None:
-    """A setting over all load cases; None where it is not sound under one, or too far from the reference."""
-    error = max(row.distance for row in rows)
-    fits = all(row.sound for row in rows) and error <= wanted
-    return Advice(rows[0].rung, sum(row.seconds for row in rows), error, "") if fits else None
+    errors = np.max([np.where(trade.sound, trade.distance, np.inf) for trade in trades], axis=0)
+    seconds = np.where(errors <= wanted, np.sum([trade.seconds for trade in trades], axis=0), np.inf)
+    fastest = int(seconds.argmin())  # the reference is always among those that are near enough
+    enough = max((1.0 + SAME_TIME) * seconds[fastest], seconds[fastest] + SAME_SECONDS * len(trades))
+    names = [rung.name for rung in trades[0].rungs]
+    near = [names.index(name) for name in PRESETS if name in names and seconds[names.index(name)] <= enough]
+    chosen = (near or [fastest])[0]
+    rung, took = trades[0].rungs[chosen], float(seconds[chosen])
+    words = " without ".join([rung.name, *(f"analysis.{name}" for name in rung.without)])
+    reached = small(max(float(errors[chosen]), coarse))
+    return Advice(
+        rung, took, f"For an error of {wanted:g} take {words} ({took:.3g} s, within {reached} of the reference)."
+    )
 
 
 def _none(why: str) -> Advice:
-    return Advice(None, NAN, NAN, f"No setting can be advised: {why}.")
+    return Advice(None, NAN, f"No setting can be advised: {why}.")

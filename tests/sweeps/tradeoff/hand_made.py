@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
-from mbla.sweeps.tradeoff.ladder import Rung
-from mbla.sweeps.tradeoff.trade import CaseTrade, Row, case_trade
+import numpy as np
 
-SOLVED = Row(Rung(""), status="solved", verified=True, answer=0.5, accuracy=1e-9, seconds=1.0)
+from mbla.sweeps.tradeoff.ladder import Rung
+from mbla.sweeps.tradeoff.trade import CaseTrade
+
+
+@dataclass(frozen=True)
+class Row:
+    """A solved and verified load factor."""
+
+    rung: Rung
+    answer: float = 0.5
+    seconds: float = 1.0
+    accuracy: float = 1e-9
+    status: str = "solved"
+    verified: bool = True
 
 
 def row(name: str, answer: float, seconds: float, model: str = "", **changes: Any) -> Row:
-    """A solved and verified load factor that took so many seconds."""
+    """One that took so many seconds."""
     key, _, value = name.partition(": ")
-    rung = Rung(name, {f"analysis.{key}": value}, model=model)
-    return replace(SOLVED, rung=rung, answer=answer, seconds=seconds, **changes)
+    return replace(Row(Rung(name, {f"analysis.{key}": value}, model=model), answer, seconds), **changes)
 
 
 def ladder() -> list[Row]:
@@ -32,4 +43,18 @@ def ladder() -> list[Row]:
 
 def trade_of(rows: list[Row], name: str = "push", least: float = 0.0) -> CaseTrade:
     """The trade of one load case."""
-    return case_trade(name, rows, least)
+    figures = {
+        key: np.array([getattr(one, key) for one in rows]) for key in ("answer", "seconds", "accuracy", "verified")
+    }
+    none = np.full(len(rows), np.nan)
+    return CaseTrade(
+        name=name,
+        what="load factor",
+        rungs=tuple(one.rung for one in rows),
+        status=np.array([one.status for one in rows], dtype=object),
+        residual=none,
+        lower=none,
+        upper=none,
+        least=least,
+        **figures,
+    )

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from mbla.sweeps.tradeoff.ladder import Rung
-from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, Row, advice, distance, on_front
-from tests.sweeps.tradeoff.hand_made import ladder, row, trade_of
+from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, advice
+from tests.sweeps.tradeoff.hand_made import Row, ladder, row, trade_of
 
 
 def rung_of(one: Advice) -> str:
@@ -17,21 +17,24 @@ def rung_of(one: Advice) -> str:
 
 
 def names_on_front(trade: CaseTrade) -> set[str]:
-    return {row.rung.name for row in trade.rows if row.front}
+    return {rung.name for rung, best in zip(trade.rungs, trade.front, strict=True) if best}
 
 
 def test_front_of_points() -> None:
-    points = [(1.0, 1e-3), (2.0, 1e-3), (2.0, 1e-6), (0.5, 1e-2), (3.0, 1e-5), None, (0.5, 1e-2)]
-    assert on_front(points) == [True, False, True, True, False, False, True]
+    """Of points that are the same in both every one is on the front."""
+    points = [(1.0, 1e-3), (2.0, 1e-3), (2.0, 1e-6), (0.5, 1e-2), (3.0, 1e-5), (9.0, 0.0), (0.5, 1e-2)]
+    rows = [row(f"x: {n}", 1 + error, seconds) for n, (seconds, error) in enumerate(points)]
+    rows[5] = row("accuracy: reference", 1.0, 9.0)
+    assert trade_of(rows).front.tolist() == [True, False, True, True, False, True, True]
 
 
 def test_distances_and_front_of_the_ladder() -> None:
     trade = trade_of(ladder())
     assert trade.reference is not None
-    assert trade.reference.rung.name == "accuracy: reference"
-    assert trade.verified
+    assert trade.rungs[trade.reference].name == "accuracy: reference"
+    assert trade.reference_verified
     assert trade.resolution == 1e-9
-    assert [row.distance for row in trade.rows] == pytest.approx([2e-5, 0.0, 1e-3, 4e-5, 0.0, 0.0], abs=1e-12)
+    assert trade.distance.tolist() == pytest.approx([2e-5, 0.0, 1e-3, 4e-5, 0.0, 0.0], abs=1e-12)
     assert names_on_front(trade) == {"accuracy: standard", "accuracy: reference", "accuracy: draft"}
 
 
@@ -81,8 +84,8 @@ def test_the_sharpest_verified_takes_the_place_of_a_reference_that_is_not() -> N
     runs[3] = row("solver: mbla", 0.50002, 1.5, accuracy=1e-10)
     trade = trade_of(runs)
     assert trade.reference is not None
-    assert trade.reference.rung.name == "solver: mbla"
-    assert trade.verified
+    assert trade.rungs[trade.reference].name == "solver: mbla"
+    assert trade.reference_verified
 
 
 def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
@@ -92,9 +95,9 @@ def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
         row("flow_rule: associative", 0.6, 0.1, model="flow_rule"),
     ]
     trade = trade_of(runs)
-    assert not trade.verified
+    assert not trade.reference_verified
     assert not names_on_front(trade)
-    assert trade.rows[1].distance == pytest.approx(0.02)
+    assert trade.distance[1] == pytest.approx(0.02)
     assert "no setting is verified for push" in advice([trade], 0.1).sentence
 
 
@@ -104,13 +107,13 @@ def test_a_draft_as_sharp_as_it_asks_for_is_advised_but_is_no_reference() -> Non
     assert names_on_front(trade_of(runs)) == {"accuracy: reference", "accuracy: draft"}
     assert rung_of(advice([trade_of(runs)], 1e-2)) == "accuracy: draft"
     alone = trade_of([draft])
-    assert not alone.verified
+    assert not alone.reference_verified
     assert not names_on_front(alone)
     assert rung_of(advice([alone], 1e-2)) == ""
 
 
 def test_nothing_to_compare_with() -> None:
-    trade = trade_of([Row(Rung("accuracy: reference"))])
+    trade = trade_of([Row(Rung("accuracy: reference"), math.nan, math.nan, math.nan, "", False)])
     assert trade.reference is None
     assert advice([trade], 0.1).rung is None
 
@@ -119,9 +122,8 @@ NONE = row("accuracy: reference", math.nan, 1.0, status="no_equilibrium", accura
 
 
 def test_verdicts_without_a_figure() -> None:
-    assert distance(NONE, NONE) == 0.0
-    assert math.isnan(distance(replace(NONE, verified=False), NONE))
-    assert math.isnan(distance(row("solver: mbla", 0.5, 1.0), NONE))
+    others = [replace(NONE, verified=False), row("solver: mbla", 0.5, 1.0)]
+    assert trade_of([NONE, *others]).distance.tolist() == pytest.approx([0.0, math.nan, math.nan], nan_ok=True)
     runs = [NONE, replace(NONE, rung=Rung("accuracy: draft"), seconds=0.1)]
     assert names_on_front(trade_of(runs)) == {"accuracy: draft"}
     assert rung_of(advice([trade_of(runs)], 1e-4)) == "accuracy: draft"
@@ -129,7 +131,7 @@ def test_verdicts_without_a_figure() -> None:
 
 def test_a_load_factor_of_nothing_is_compared_with_the_least_that_counts() -> None:
     zero, near = row("accuracy: reference", 0.0, 1.0), row("accuracy: draft", 1e-9, 1.0)
-    assert trade_of([zero, near], least=1e-3).rows[1].distance == pytest.approx(1e-6)
+    assert trade_of([zero, near], least=1e-3).distance[1] == pytest.approx(1e-6)
 
 
 def test_advice_for_several_load_cases_must_hold_in_each() -> None:
