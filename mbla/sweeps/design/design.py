@@ -209,7 +209,7 @@ def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) ->
 
 
 def _cell(value: Plain) -> str:
-    return f"{value:.9g}" if isinstance(value, float) else shortened(str(value), LONGEST)
+    return f"{value:.6g}" if isinstance(value, float) else shortened(str(value), LONGEST)
 
 
 def _tables(widths: Sequence[int]) -> Iterator[tuple[int, int]]:
