@@ -51,21 +51,12 @@ def test_paths_units_vectors(base: Base) -> None:
 @pytest.mark.parametrize(
     ("key", "unit"),
     [
-        ("joints.dry.friction", ""),
         ("joints.dry.cohesion", "N/cm^2"),
         ("blocks.0.arch.thickness", "cm"),
-        ("blocks.0.arch.voussoirs", ""),
-        ("blocks.0.arch.shape", ""),
         ("materials.stone.unit_weight", "N/cm^3"),
         ("load_cases.push_x.live.0.acceleration", ""),
         ("load_cases.push_x.live.0.force", "N"),
-        ("load_cases.push_x.live.0.moment", "N*cm"),
-        ("load_cases.push_x.live.0.line.force_per_length", "N/cm"),
-        ("load_cases.push_x.dead", ""),
         ("load_cases.push_x.live.0.on", ""),  # a section, or the name of a group in its place
-        ("blocks.0.arch.group", ""),
-        ("contacts.points.rounding", "cm"),
-        ("contacts.points.per_edge", ""),
         ("analysis.time_limit", "s"),
         ("parameters.t", ""),
     ],

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import signal
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -13,10 +10,7 @@ from random import Random
 import pytest
 
 from mbla.cli import main
-from mbla.sweeps.journal import journal_name
-from tests.sweeps.commands import Command, check_clean, rows_in, run
-from tests.sweeps.engine.test_supervised import wait_for
-from tests.sweeps.journal.forked import forked
+from tests.sweeps.commands import check_clean, rows_in, run
 from tests.sweeps.killed_sweeps import written
 
 pytestmark = pytest.mark.long
@@ -82,43 +76,3 @@ def check_cut(path: Path, clean: Path, folder: Path, length: int, after: bytes) 
     (folder / "journal.csv").write_bytes((clean / "journal.csv").read_bytes()[:length] + after)
     assert go_on(path, folder) == 8
     check_clean(folder, clean)
-
-
-def test_two_runs_at_once(path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The second is told who has the journal, and takes nothing from the first."""
-    folder = tmp_path / "two"
-    command = ["sweep", str(path), "-o", str(folder), "-q"]
-    with forked(lambda report: report(f"exit {main(command)}")) as first:
-        wait_for(lambda: rows_in(folder))
-        os.kill(first.pid, signal.SIGSTOP)  # so that it is still at work when the others come
-        for options in ("--resume",), ("--force",), ("--shard", "1/2"):
-            assert main([*command, *options]) == 6
-            said = capsys.readouterr().err
-            assert re.fullmatch(rf"mbla: \S+/journal\.csv: process {first.pid} on \S+ is at work on it; .*\n", said)
-
-
-def test_a_job_array(path: Path, clean: Path, tmp_path: Path) -> None:
-    """Four jobs together, one of which is killed in the middle; a run of the whole goes on with what they left."""
-    folder = tmp_path / "array"
-    with (
-        Command(path, folder, "--shard", "1/4") as first,
-        Command(path, folder, "--shard", "2/4") as second,
-        Command(path, folder, "--shard", "3/4") as third,
-        Command(path, folder, "--shard", "4/4") as fourth,
-    ):
-        while not rows_in_shard(folder, 2):
-            assert second.process.poll() is None
-            time.sleep(0.001)
-        second.process.kill()
-        for job in (first, third, fourth):
-            assert job.end().status in (0, 8)
-    assert [rows_in_shard(folder, part) for part in (1, 3, 4)] == [POINTS // 4] * 3
-    assert not (folder / "sweep.csv").exists() or rows_in(folder) == POINTS
-    assert go_on(path, folder) == 8
-    check_clean(folder, clean)
-
-
-def rows_in_shard(folder: Path, part: int) -> int:
-    """Rows in the journal of a shard of four."""
-    journal = folder / journal_name(part, 4)
-    return journal.read_bytes().count(b"\n") - HEADER if journal.exists() else 0

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mbla.sweeps.tables.sweep_table import sweep_table
-from mbla.sweeps.words import Progress, duration_words, failure_lines, rate_words, result_lines
+from mbla.sweeps.words import Progress, duration_words, failure_lines, result_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic
 
@@ -18,14 +18,6 @@ def test_a_line_has_counts_rate_and_time_left() -> None:
         progress.add(failed=number == 3, seconds=0.5 * number)
     assert progress.words() == "10 of 100 points, 1 failed, 2 points/s, 45 s left"
     assert progress.bar() == "[##......................] 10 of 100 points, 1 failed, 2 points/s, 45 s left"
-
-
-@pytest.mark.parametrize(
-    ("rate", "words"),
-    [(25.04, "25 points/s"), (0.5, "30 points/min"), (0.001, "3.6 points/h"), (1e-5, "0.036 points/h")],
-)
-def test_slow_rates_are_told_by_the_minute_or_the_hour(rate: float, words: str) -> None:
-    assert rate_words(rate) == words
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -47,17 +46,6 @@ def test_a_value_goes_to_every_key_and_to_the_parameter_of_the_deck_where_none_i
     }
     [point] = design(parameters).points
     assert point.settings == {"a.x": 1, "b.x": 1, "parameters.mu": 2, "joints.dry.cohesion": 3}
-
-
-NORMAL = {"key": "n", "normal": {"mean": 1, "deviation": 0.1}}
-
-
-@pytest.mark.parametrize("kind", ["random", "latin_hypercube", "sobol"])
-def test_a_sample_of_distributions_is_told_as_one(kind: str) -> None:
-    found = design({"n": NORMAL, "t": T}, design=[{kind: {"of": ["n"], "points": 4}}, {"grid": {}}])
-    assert (found.samples, found.sampling) == (kind, kind)
-    assert [column.random for column in found.columns] == [True, False]
-    assert found.remarks == ()
 
 
 def test_the_order_of_parameters_does_not_change_what_is_drawn() -> None:

@@ -92,7 +92,6 @@ def test_how_many_points_break_each_constraint() -> None:
     [
         ("t + 1", 'is no comparison: write one such as "t < 0.2*radius"'),
         ("t != 0.2", "compares by something other than < <= > >= =="),
-        ("t in radius", "compares by something other than < <= > >= =="),
         ("t < 1 and radius > 2", "joins comparisons by and/or: write each as one of its own; all of them must hold"),
         (
             "joints.dry.friction < 1",
@@ -101,19 +100,11 @@ def test_how_many_points_break_each_constraint() -> None:
         ("radus < 3", "unknown parameter radus; did you mean radius? known: "),
         ("shape < 3", "shape has values that are no numbers, which cannot be compared"),
         ("t < radius^2", "^ is not an operator of expressions: write ** for powers"),
-        ("t <", "cannot be read as an expression: "),
         ("t = 1", "= compares nothing: write == for equal numbers"),
-        (
-            "blocks.0.arch.span > 3",
-            "blocks.0.arch.span is no name of letters, digits and _: give that parameter one, with its key",
-        ),
         ("", "is an expression without content: "),
         ("t < bad", "bad divides by zero, where t = 0.2 and bad = =1/0"),
         ("1/(radius - 3) < t", "divides by zero, where radius = 3 and t = 0.2"),
         ("sqrt(2 - radius*t) < 1", "sqrt(-0.4) is not defined, where radius = 3 and t = 0.8"),
-        ("__import__(1) < 1", "unknown function __import__; allowed: "),
-        ("(lambda: 1)() < 2", "holds something other than numbers, parameters, "),
-        ("(t < 1) < 2", "holds something other than numbers, parameters, "),
     ],
 )
 def test_refusals(text: str, message: str) -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 
 import pytest
 
 from mbla.deck import read_deck
-from mbla.errors import DeckError, Message
-from mbla.sweeps.file.content import MAX_POINTS, WAYS, design_parts, is_random, key_paths, level_count, spelt, way_of
+from mbla.errors import DeckError
+from mbla.sweeps.file.content import MAX_POINTS, design_parts, is_random
 from mbla.sweeps.file.read import Sweep, read_sweep
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
@@ -25,23 +24,6 @@ def faults(folder: Path, text: str | bytes) -> list[str]:
     with pytest.raises(DeckError) as caught:
         read_sweep(path)
     return [str(fault).removeprefix(f"{path}:") for fault in caught.value.faults]
-
-
-def test_content_text_and_places(tmp_path: Path) -> None:
-    sweep = sweep_of(tmp_path, GOOD)
-    assert sweep.content.parameters["mu"].linear is not None
-    assert sweep.content.parameters["mu"].linear.end == 0.7
-    assert sweep.text == GOOD
-    assert sweep.sha256 == hashlib.sha256(GOOD.encode()).hexdigest()
-    assert sweep.overrides == ("title=x",)
-    fault = sweep.fault_at(("parameters", "mu", "linear", "to"), Message("not-a-number", "no"))
-    assert str(fault) == f"{tmp_path}/sweep.yaml:5:32 parameters.mu.linear.to = 0.7: no"
-
-
-def test_every_way_is_read(tmp_path: Path) -> None:
-    content = sweep_of(tmp_path, ALL_WAYS).content
-    assert {way_of(each) for each in content.parameters.values()} == set(WAYS)
-    assert content.limits.time == 120.0
 
 
 def test_values_keep_their_kinds(tmp_path: Path) -> None:
@@ -63,26 +45,6 @@ def test_parts_of_the_design(tmp_path: Path) -> None:
         ("grid", ("d",), 0, None),
     ]
     assert [is_random(part, content) for part in parts] == [False, False, True, True, True, False]
-
-
-def test_levels_and_key_paths(tmp_path: Path) -> None:
-    parameters = sweep_of(tmp_path, ALL_WAYS).content.parameters
-    assert {name: level_count(each) for name, each in parameters.items()} == {
-        "mu": 3,
-        "t": 3,
-        "n": 3,
-        "joints.dry.cohesion": None,
-        "tension": None,
-        "density": None,
-        "radius": None,
-        "d": 4,
-        "g": None,
-        "law": 2,
-    }
-    assert key_paths("mu", parameters["mu"]) == ("parameters.mu",)
-    assert key_paths("joints.dry.cohesion", parameters["joints.dry.cohesion"]) == ("joints.dry.cohesion",)
-    assert key_paths("density", parameters["density"]) == ("materials.stone.density",)
-    assert spelt(" blocks.007.arch") == ("blocks", "7", "arch")
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import resource
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,6 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.sweeps.journal import Journal, read_journal
-from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, point
 
 POINTS = [point(number) for number in range(1, 13)]
@@ -72,28 +70,3 @@ def test_the_disk_does_not_take_what_was_written(tmp_path: Path, at: int) -> Non
     assert said == f"{path}: Input/output error"
     rows = read_journal(path, HEADER)
     assert (set(rows.finished), rows.torn, len(added)) == (added, 0, at - 1)
-
-
-@pytest.mark.parametrize("room", [1, 700, 5000, 12000])
-def test_a_file_system_without_room(tmp_path: Path, room: int) -> None:
-    """No wrapper: the operating system itself refuses what lies beyond the largest file that it allows."""
-    path = tmp_path / "journal.csv"
-
-    def write(report: Callable[[str], None]) -> None:
-        with Journal(path, HEADER, resume=False, force=False) as journal:
-            limit = path.stat().st_size + room
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-            for task, outcome in POINTS:
-                try:
-                    journal.add(task, outcome)
-                except FileError as error:
-                    return report(str(error))
-                report(task.key)
-
-    with forked(write) as child:
-        *added, said = child.lines()
-    assert said == f"{path}: File too large"
-    rows = read_journal(path, HEADER)
-    assert (list(rows.finished), rows.torn) == (added, 0)
-    assert add_all(path, {})[1] == ""
-    assert len(read_journal(path, HEADER).finished) == len(POINTS)

@@ -154,21 +154,6 @@ def test_a_broken_row_is_told_with_its_line(path: Path, column: int | None, text
     assert "or delete the line, so that its point is solved again" in said
 
 
-def test_a_deleted_row_is_a_point_to_be_solved(path: Path) -> None:
-    lines = path.read_bytes().split(b"\n")
-    del lines[4]
-    path.write_bytes(b"\n".join(lines))
-    with gone_on(path) as journal:
-        assert EXPECTED.keys() - journal.finished.keys() == {POINTS[2][0].key}
-
-
-def test_the_same_row_twice_counts_once(path: Path) -> None:
-    lines = path.read_bytes().splitlines(keepends=True)
-    path.write_bytes(b"".join(lines + lines[2:]))
-    with gone_on(path) as journal:
-        assert journal.finished == EXPECTED
-
-
 def test_failed_points_are_begun_anew_on_request_and_their_last_row_counts(path: Path) -> None:
     failed = [(task, outcome) for task, outcome in POINTS if outcome.state == FAILED]
     with gone_on(path, retry_failed=True) as journal:
@@ -219,13 +204,6 @@ def check(path: Path, content: bytes, count: int) -> None:
 def test_cut_at_every_byte(tmp_path: Path) -> None:
     for size in range(len(HEAD), len(WHOLE_FILE) + 1):
         check(tmp_path / "journal.csv", WHOLE_FILE[:size], whole_rows(size))
-
-
-def test_bytes_that_had_not_reached_the_disk(tmp_path: Path) -> None:
-    """After a loss of power a file can have its length but not yet its content: NUL bytes stand there."""
-    for size in range(len(HEAD), len(WHOLE_FILE), 3):
-        for zeros in (1, 5, 5000):
-            check(tmp_path / "journal.csv", WHOLE_FILE[:size] + bytes(zeros), whole_rows(size))
 
 
 def test_the_end_of_a_row_reached_the_disk_and_its_beginning_did_not(tmp_path: Path) -> None:

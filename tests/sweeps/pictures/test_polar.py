@@ -1,34 +1,15 @@
 """Diagrams around the horizon, and maps of a sphere."""
 
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
-from tests.sweeps.drawn import names_in_legend
-from tests.sweeps.pictures.drawing import draw
 from tests.sweeps.pictures.hand_made import Row, grid, sample, sphere
 
 QUARTERS = [0.0, 90.0, 180.0, 270.0]
 OVER = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0)]
-
-
-def curves(axes: Any) -> list[Any]:
-    return [line for line in axes.lines if line.get_linestyle() == "-"]
-
-
-def test_each_value_of_a_third_parameter_has_its_diagram(tmp_path: Path, figures: list[Any]) -> None:
-    levels = {"to_azimuth": QUARTERS, "height": [1.0, 2.0, 3.0, 4.0], "thickness": [0.1, 0.2, 0.3]}
-    draw(grid(levels, lambda to_azimuth, height, thickness: height + thickness), tmp_path, "polar")
-    titles = [axes.get_title() for axes in figures[0].axes]
-    assert titles == ["thickness 0.1 m", "thickness 0.2 m", "thickness 0.3 m", ""]
-    assert [axes.axison for axes in figures[0].axes] == [True, True, True, False]
-    for axes, thickness in zip(figures[0].axes, levels["thickness"], strict=False):
-        assert [set(line.get_ydata()) for line in curves(axes)] == [{height + thickness} for height in (1, 2, 3, 4)]
-    assert names_in_legend(figures[0]) == ["height 1", "height 2", "height 3", "height 4"]
 
 
 def text_of(**values: float) -> Row:

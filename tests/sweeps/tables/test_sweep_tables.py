@@ -69,13 +69,6 @@ def test_rows_stand_in_the_order_of_the_design_whatever_order_outcomes_came_in()
     assert same_tables(found, other)
 
 
-def test_a_point_without_verified_answer_has_no_load_factor() -> None:
-    found = table()
-    assert np.isnan(found["load_factor"]).tolist() == [False, True, False, True, False]
-    assert found["mechanism.hinges"].tolist() == [4, None, 0, None, 4]
-    assert found["verified"].tolist() == [True, True, True, False, True]
-
-
 def test_points_of_one_key_share_their_outcome() -> None:
     one = outcomes()["key1"]
     found = sweep_table("", design(), table().of_role("result"), {"same": one}, ["same"] * 5)
