@@ -10,7 +10,7 @@ from pathlib import Path
 from mbla.deck.deck import Deck, check_regular, read_deck
 from mbla.deck.include import confined
 from mbla.deck.overrides import LABEL, RefusedError
-from mbla.deck.references import SIDE_FILES, side_files
+from mbla.deck.references import side_files
 from mbla.deck.suggestions import unknown
 from mbla.deck.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
@@ -70,33 +70,30 @@ class Base:
         """Key of a point: hash of the base and of the values set in it, with the content of files among them."""
         files: list[str] = []
         for key, value in settings.items():
-            path = self._naming_files.get(key)
-            if path is not None:
-                files += [line for named in side_files(value, path) for line in self._file_hashes(named)]
+            if isinstance(value, str | list | dict):
+                files += [line for named in side_files(value, self._path_of[key]) for line in self._file_hashes(named)]
         return key_hash(self.fingerprint, settings, sorted(files))
 
     @cached_property
-    def _naming_files(self) -> Mapping[str, KeyPath]:
-        """Those key paths of parameters below which names of files may stand."""
-        parameters = self.sweep.content.parameters
-        return {
-            key: path
-            for name, paths in self.paths.items()
-            for key, path in zip(key_paths(name, parameters[name]), paths, strict=True)
-            if any(_reaches(pattern.split("."), path) for pattern in SIDE_FILES)
-        }
+    def _path_of(self) -> Mapping[str, KeyPath]:
+        """Path of each key of a parameter."""
+        named = ((key_paths(name, self.sweep.content.parameters[name]), paths) for name, paths in self.paths.items())
+        return {key: path for keys, paths in named for key, path in zip(keys, paths, strict=True)}
 
     def _file_hashes(self, named: tuple[KeyPath, str]) -> list[str]:
         """Hashes of a file that a point names, read once; a file that is missing is the fault of its points."""
         if named not in self._files:
             try:
-                self._files[named] = file_hashes([named], self._resolve)
-            except DeckError:
+                self._files[named] = file_hashes([named], self._side_file)
+            except FileError:
                 self._files[named] = [f"{key_text(named[0])} cannot be read"]
         return self._files[named]
 
-    def _resolve(self, path: KeyPath, name: str) -> Path:
-        return set_file(self.path, path, name)
+    def _side_file(self, path: KeyPath, name: str) -> Path:
+        """A file that a point names: relative to the deck, as what ``--set`` sets; raises FileError for none."""
+        found = confined(self.path.parent, name)
+        check_regular(found)
+        return found
 
     def _unit(self, name: str) -> str:
         parameter = self.sweep.content.parameters[name]
@@ -106,29 +103,6 @@ class Base:
             return parameter.unit  # a text may bring a unit of its own
         units = {unit_at(path, self.deck.units) for path in self.paths[name]}
         return (units.pop() if len(units) == 1 else "") or parameter.unit
-
-
-def set_file(deck: Path, path: KeyPath, name: str) -> Path:
-    """A file that a point names: relative to the deck, as what ``--set`` sets.
-
-    Raises
-    ------
-    DeckError
-        if it is missing or outside the deck's folder
-    """
-    try:
-        found = confined(deck.parent, name)
-        check_regular(found)
-    except FileError as error:
-        raise DeckError([Fault(Place(LABEL, 1, 1), key_text(path), error.message, name)]) from error
-    return found
-
-
-def _reaches(pattern: list[str], path: KeyPath) -> bool:
-    """Whether what a pattern names stands at a path or below it."""
-    return len(pattern) >= len(path) and all(
-        isinstance(key, int) if word == "#" else word in ("*", key) for word, key in zip(pattern, path, strict=False)
-    )
 
 
 def read_base(sweep: Sweep) -> Base:

@@ -51,28 +51,18 @@ class Progress:
         return (len(self._times) - 1) / passed if passed > 0 else 0.0
 
     def words(self) -> str:
-        """``312 of 1000 points, 2 failed, 23.4 points/s, 29 s left``."""
+        """``312 of 1000 points, 2 failed, 29 s left``."""
         words = [f"{self.done} of {self.total} points"]
         if self.failed:
             words.append(f"{self.failed} failed")
-        if self.rate:
-            words.append(rate_words(self.rate))
-            if self.done < self.total:
-                words.append(f"{duration_words((self.total - self.done) / self.rate)} left")
+        if self.rate and self.done < self.total:
+            words.append(f"{duration_words((self.total - self.done) / self.rate)} left")
         return ", ".join(words)
 
     def bar(self) -> str:
         """The same behind a bar, for a line that rewrites itself."""
         full = BAR * self.done // self.total if self.total else BAR
         return f"[{'#' * full}{'.' * (BAR - full)}] {self.words()}"
-
-
-def rate_words(rate: float) -> str:
-    """Points a second, or a minute or an hour where they are slow."""
-    for seconds, name in ((1.0, "s"), (MINUTE, "min"), (HOUR, "h")):
-        if rate * seconds >= 1 or name == "h":
-            return f"{rate * seconds:.3g} points/{name}"
-    raise AssertionError
 
 
 def duration_words(seconds: float) -> str:

@@ -32,9 +32,8 @@ THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_
 """variables that are set whatever the user's own say: with more than one thread the last digits may be others"""
 TRIES = 2
 """of a point whose process dies"""
-STARTS = 20
-"""of a process that is ended by a signal before it is ready: no point is to blame, and what sent it may be over soon;
-one that ends by itself then would do so again"""
+STARTS = 5
+"""of a process that ends before it is ready: no point is to blame, and what ended it may be over soon"""
 START = 120.0
 """seconds in which a process must be ready; importing takes a few, and some more from a busy network disk"""
 PATIENCE = 5.0
@@ -134,7 +133,7 @@ class SupervisedRunner:
             words = f"stopped at the limit of {limit:g} s for a point" if own else STOPPED
             return failed(LimitError.exit_status, words), True
         except (EOFError, OSError):
-            said, (words, _) = self._last_words(), self._death()
+            said, words = self._last_words(), self._death()
             if self.plan.memory_limit is not None and any(sign in said for sign in NO_MEMORY):
                 return failed(LimitError.exit_status, f"{self._memory_words()} ({words})"), fresh
             return failed(1, f"{words}; given up after {TRIES} tries"), False
@@ -150,22 +149,23 @@ class SupervisedRunner:
     # --- the process ------------------------------------------------------------------------------------------------
 
     def _make_ready(self) -> bool:
-        """Have a process that is ready for a point; whether it is a new one."""
+        """Have a process that is ready for a point; whether it is a new one.
+
+        Raises UsageError where none can be had, or it refuses the plan.
+        """
         if not self.stopped and self._process is not None and self._process.poll() is None:
             return False
-        words, status = "", 0
-        for number in range(1, STARTS + 1):
+        words = ""
+        for _ in range(STARTS):
             if self.stopped:
                 raise StoppedError
-            words, status = self._begin()
+            words = self._begin()
             if not words:
                 return True
-            if status >= 0 and number >= TRIES:
-                break
         raise UsageError("worker-refused", f"the process that solves points cannot be started: {words}")
 
-    def _begin(self) -> tuple[str, int]:
-        """Start a process; what went wrong in words, and its exit status. UsageError where it refuses the plan."""
+    def _begin(self) -> str:
+        """Start a process; what went wrong in words. UsageError where it refuses the plan."""
         self._stop()
         try:
             self._start()
@@ -175,13 +175,13 @@ class SupervisedRunner:
             refused: str = self._ask(self.plan, time.monotonic() + START)
         except TimeoutError:
             self._stop()
-            return f"not ready after {START:g} s", 0
+            return f"not ready after {START:g} s"
         except (EOFError, OSError) as error:
-            return (str(error), 0) if self._process is None else self._death()
+            return str(error) if self._process is None else self._death()
         if refused:
             self._stop()
             raise UsageError("worker-refused", refused)
-        return "", 0
+        return ""
 
     def _start(self) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the process
@@ -206,8 +206,8 @@ class SupervisedRunner:
             raise TimeoutError
         return self._pipe.recv()
 
-    def _death(self) -> tuple[str, int]:
-        """How a process ended that closed its end of the pipe, in words, and its exit status, negative for a signal."""
+    def _death(self) -> str:
+        """How a process ended that closed its end of the pipe, in words."""
         assert self._process is not None
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(PATIENCE)
@@ -216,8 +216,8 @@ class SupervisedRunner:
         if status < 0:
             name = signal.Signals(-status).name if -status in list(signal.Signals) else f"signal {-status}"
             memory = ", as the system does where memory runs out" if name == "SIGKILL" else ""
-            return f"its process was ended by {name}{memory}", status
-        return f"its process ended with status {status}{f': {said}' if said else ''}", status
+            return f"its process was ended by {name}{memory}"
+        return f"its process ended with status {status}{f': {said}' if said else ''}"
 
     def _last_words(self) -> str:
         """The last line that it wrote to standard error; empty where there is none."""

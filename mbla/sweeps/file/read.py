@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,15 +26,11 @@ class Sweep:
 
     path      : the file
     content   : what it says
-    text      : as read
-    sha256    : of the text, 64 hex digits
     overrides : ``--set`` texts for the deck, for every point, after those of `set`
     """
 
     path: Path
     content: SweepContent
-    text: str
-    sha256: str
     overrides: tuple[str, ...]
     fault_at: Callable[[KeyPath, Message], Fault]
     """Fault for a key path such as ("parameters", "mu", "linear") with a message; finds place and value itself."""
@@ -74,9 +69,7 @@ def _read(path: Path, overrides: Sequence[str]) -> Sweep:
     faults += [fault for fault in first_faults(_unknown_parameters(tree)) if (fault.place, fault.key) not in seen]
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
-    text = reading.sources[0].text
-    sha256 = hashlib.sha256(text.encode()).hexdigest()
-    return Sweep(path, content, text, sha256, tuple(overrides), tree.fault)
+    return Sweep(path, content, tuple(overrides), tree.fault)
 
 
 def _number(text: str, dimension: str) -> float:

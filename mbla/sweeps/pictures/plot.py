@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import file_errors
 from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
@@ -42,18 +41,16 @@ KINDS: dict[str, Kind] = {
 def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
     """Demands on each result column by its name, ascending; none where the sweep asks for no fragility.
 
-    Raises FileError where the record cannot be read or is none.
+    Raises FileError where the record is none.
     """
-    path = folder / JSON
-    with file_errors(path):
-        text = path.read_bytes()
-    found: dict[str, set[float]] = {}
+    found: dict[str, tuple[float, ...]] = {}
     try:
-        for one in json.loads(text)["fragility"]:
-            found.setdefault(str(one["result"]), set()).update(float(each["demand"]) for each in one["demands"])
+        for one in json.loads((folder / JSON).read_bytes())["fragility"]:
+            demands = {float(each["demand"]) for each in one["demands"]}
+            found[str(one["result"])] = tuple(sorted({*found.get(str(one["result"]), ()), *demands}))
     except (KeyError, TypeError, ValueError, RecursionError) as error:
-        raise FileError("sweep-table-damaged", f"{path}: its fragility cannot be read") from error
-    return {name: tuple(sorted(demands)) for name, demands in found.items()}
+        raise FileError("sweep-table-damaged", f"{folder / JSON}: its fragility cannot be read") from error
+    return found
 
 
 CLASS = "mechanism.class"

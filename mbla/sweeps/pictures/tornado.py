@@ -32,12 +32,7 @@ LEAST_POINTS = 10
 
 @dataclass(frozen=True)
 class Correlation:
-    """Rank correlation with one parameter.
-
-    value : -1 to 1; nan where either does not vary
-    low, high : of the interval
-    points : those with a verified value
-    """
+    """Rank correlation with one parameter, nan where either does not vary; its interval; points with a value."""
 
     name: str
     value: float
@@ -75,8 +70,8 @@ def correlation(view: View, column: SweepColumn) -> Correlation:
     if not np.isfinite(rho) or count <= 3:
         return Correlation(column.name, rho, np.nan, np.nan, count)
     reach = NormalDist().inv_cdf((1 + CONFIDENCE) / 2) * np.sqrt((1 + rho**2 / 2) / (count - 3))
-    centre = np.arctanh(np.clip(rho, -1 + 1e-15, 1 - 1e-15))
-    return Correlation(column.name, rho, float(np.tanh(centre - reach)), float(np.tanh(centre + reach)), count)
+    low, high = np.tanh(np.arctanh(np.clip(rho, -1 + 1e-15, 1 - 1e-15)) + np.array([-reach, reach]))
+    return Correlation(column.name, rho, float(low), float(high), count)
 
 
 def rank_correlation(x: FloatArray, y: FloatArray) -> float:
@@ -93,16 +88,13 @@ def swing(view: View, axis: Axis) -> Swing:
     group = group.reshape(-1)
     result = np.full((int(group.max()) + 1, len(axis.levels)), np.nan)
     result[group, axis.place] = np.where(view.answers.good, view.answers.values, np.nan)
-    whole = np.isfinite(result).all(axis=1)
-    own = told_apart(result[whole])
-    count = len(own)
-    if not count:
+    own = told_apart(result[np.isfinite(result).all(axis=1)])
+    if not len(own):
         return Swing(axis.column.name, np.nan, np.nan, np.nan, np.nan, 0, len(result))
-    span = float(np.ptp(own, axis=1).mean())
     ordered = not axis.categorical and axis.column.role == "parameter"
     change = own[:, -1] - own[:, 0] if ordered else np.array([np.nan])
-    least, most = float(change.min()), float(change.max())
-    return Swing(axis.column.name, float(change.mean()), least, most, span, count, len(result) - count)
+    ends = float(change.min()), float(change.max()), float(np.ptp(own, axis=1).mean())
+    return Swing(axis.column.name, float(change.mean()), *ends, len(own), len(result) - len(own))
 
 
 INTERVAL = f"{CONFIDENCE:.0%} interval"

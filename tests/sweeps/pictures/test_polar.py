@@ -1,6 +1,5 @@
 """Diagrams around the horizon, and maps of a sphere."""
 
-
 import pytest
 
 from mbla.errors import UsageError
