@@ -24,6 +24,7 @@ from mbla.deck.sources import SourceText
 from mbla.errors import DeckError, UsageError
 from mbla.sweeps.identity import effective_tree
 from mbla.sweeps.plan import Plain, override_texts
+from mbla.sweeps.tables.sweep_table import as_text
 
 REFERENCE = "accuracy: reference"
 """name of the setting that the others are held against"""
@@ -48,7 +49,6 @@ MODEL_KEYS = ("flow_rule", "contact_model")
 NO_MODEL = {"analysis", "output", "expected", "title"}
 MOST = 200
 """settings in one study"""
-BRACKETS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
 @dataclass(frozen=True)
@@ -143,32 +143,26 @@ def other_model(deck: DeckContent, changed: DeckContent) -> str:
 
 def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
     """Settings of the two options, none if neither is given; raises UsageError for a text that is none."""
-    choices = [_values(text) for text in knobs]
+    choices = [_choice(text) for text in knobs]
     count = len(settings) + (prod(len(choice) for choice in choices) if knobs else 0)
     if count > MOST:
         raise UsageError("tradeoff-option", f"--knob: {count} settings, more than {MOST}; name fewer values")
-    return [*(_combination(texts) for texts in product(*choices) if texts), *map(_named, settings)]
+    return [*(_combination(chosen) for chosen in product(*choices) if chosen), *map(_named, settings)]
 
 
-def _values(text: str) -> list[str]:
-    """``key=value`` for each value; commas inside of brackets do not part them."""
+def _choice(text: str) -> list[tuple[str, Plain]]:
+    """Key path and value for each value."""
     key, equals, listed = text.partition("=")
-    parts, depth = [""], 0
-    for letter in listed:
-        depth += BRACKETS.get(letter, 0)
-        if letter == "," and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += letter
-    values = [part.strip() for part in parts]
-    if not equals or not key.strip() or not all(values):
+    document = read_yaml(SourceText("--knob", f"values: [{listed}]", line=1), 0)
+    values: list[Plain] = [] if document.faults else document.data["values"]
+    if not equals or not key.strip() or not values or None in values:
         raise UsageError("tradeoff-option", f"--knob {text}: must be KEY.PATH=VALUE,VALUE,...")
-    return [f"{key.strip()}={value}" for value in values]
+    return [(key.strip(), value) for value in values]
 
 
-def _combination(texts: Sequence[str]) -> Rung:
-    shown = [text.removeprefix("analysis.").replace("=", ": ", 1) for text in texts]
-    return Rung(", ".join(shown), dict(map(_setting, texts)))
+def _combination(chosen: Sequence[tuple[str, Plain]]) -> Rung:
+    shown = [f"{key.removeprefix('analysis.')}: {as_text(value)}" for key, value in chosen]
+    return Rung(", ".join(shown).replace("e-0", "e-"), dict(chosen))  # 1e-6, as people write it
 
 
 def _named(text: str) -> Rung:
