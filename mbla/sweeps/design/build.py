@@ -4,7 +4,7 @@ several together, and the points at their positions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -112,13 +112,12 @@ def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list
     faults: list[Fault] = []
     taken = set(sources.content.parameters)
     for part in design_parts(sources.content):
+        kinds = [part.kind, *(f"{part.kind}_{number}" for number in range(2, len(taken) + 3))]
         try:
-            made = _axes_of_part(sources, part)
+            made = _axes_of_part(sources, part, next(name for name in kinds if name not in taken))
         except DeckError as error:
             faults += error.faults
             continue
-        if part.kind != "grid":
-            made = [_renamed(made[0], _free(part.kind, taken))]
         taken.update(axis.dimension.name for axis in made)
         axes += made
         told.append((part, tuple(axis.dimension.name for axis in made)))
@@ -127,52 +126,30 @@ def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list
     return told, axes
 
 
-def _axes_of_part(sources: Sources, part: Part) -> list[Axis]:
-    """The axes of one part; that of parameters which change together has the name of the kind."""
-    if part.kind in SAMPLED:
-        return [_drawn(sources, part)]
-    axes = _each(sources, part.parameters, lambda name: _levels(sources, name))
-    return axes if part.kind == "grid" else [_joined(part.kind, axes)]
-
-
-def _drawn(sources: Sources, part: Part) -> Axis:
-    """Parameters drawn together."""
-    owners: list[str] = []
-    streams: list[str] = []
-    for name in part.parameters:
-        how, section = _way(sources, name)
-        forms = how.forms(section)
-        owners += [name] * len(forms)
-        streams += [name + form.suffix for form in forms]
-    u = quantiles(part.kind, part.points, part.seed or 0, streams)
-    own = {name: [i for i, owner in enumerate(owners) if owner == name] for name in part.parameters}
-
-    def axis(name: str) -> Axis:
-        how, section = _way(sources, name)
-        return _axis(
-            sources,
-            name,
-            how.at(section, u[:, own[name]], sources.vectors.get(name)),
-            way_of(sources.content.parameters[name]) in RANDOM,
-        )
-
-    whole = _joined(part.kind, _each(sources, part.parameters, axis))
-    return replace(whole, sampling=part.kind if all(column.random for column in whole.columns) else "")
-
-
-def _each(sources: Sources, names: Sequence[str], axis_of: Callable[[str], Axis]) -> list[Axis]:
-    """An axis for each parameter, all faults told together."""
+def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
+    """The axes of one part; ``together``: name of that of parameters which change together."""
+    ways = {name: _way(sources, name) for name in part.parameters}
+    owners = [(name, form) for name, (how, section) in ways.items() for form in how.forms(section)]
+    sampled = part.kind in SAMPLED
+    streams = [name + form.suffix for name, form in owners]
+    drawn = quantiles(part.kind, part.points, part.seed or 0, streams) if sampled else np.zeros((0, len(streams)))
     axes: list[Axis] = []
     faults: list[Fault] = []
-    for name in names:
+    for name, (how, section) in ways.items():
+        key = way_of(sources.content.parameters[name])
         try:
-            axes.append(axis_of(name))
+            u = how.grid(section) if how.grid and not sampled else drawn[:, [owner == name for owner, _ in owners]]
+            filled = how.at(section, u, sources.vectors.get(name))
+            if not sampled and key in RANGES and len(set(map(str, filled.columns[0]))) < len(u):
+                few = f"has {len(u)} points that numbers do not tell apart: widen the range, or take fewer"
+                raise WayError("sweep-values", few)
         except WayError as error:
-            key = way_of(sources.content.parameters[name])
             faults.append(sources.fault_at(("parameters", name, key), error.message))
+        else:
+            axes.append(_axis(sources, name, filled, sampled and key in RANDOM))
     if faults:
         raise DeckError(faults)
-    return axes
+    return axes if part.kind == "grid" else [_joined(together, axes, part.kind if sampled else "")]
 
 
 def _way(sources: Sources, name: str) -> tuple[Way, Any]:
@@ -180,17 +157,6 @@ def _way(sources: Sources, name: str) -> tuple[Way, Any]:
     parameter = sources.content.parameters[name]
     key = way_of(parameter)
     return WAYS[key], getattr(parameter, key)
-
-
-def _levels(sources: Sources, name: str) -> Axis:
-    how, section = _way(sources, name)
-    assert how.grid is not None  # a sweep file with a distribution in a grid is refused
-    filled = how.at(section, how.grid(section), sources.vectors.get(name))
-    values = filled.columns[0]
-    if way_of(sources.content.parameters[name]) in RANGES and len(set(map(str, values))) < len(values):
-        few = f"has {len(values)} points that numbers do not tell apart: widen the range, or take fewer"
-        raise WayError("sweep-values", few)
-    return _axis(sources, name, filled, random=False)
 
 
 def _axis(sources: Sources, name: str, filled: Filled, random: bool) -> Axis:
@@ -219,26 +185,13 @@ def _column(name: str, form: Form, unit: str, keys: Sequence[str], random: bool)
     return SweepColumn(name + form.suffix, shown, words, form.kind, form.role, name, random)
 
 
-def _joined(name: str, axes: Sequence[Axis]) -> Axis:
+def _joined(name: str, axes: Sequence[Axis], sampling: str) -> Axis:
     """One axis along which several change together."""
-    columns = tuple(column for axis in axes for column in axis.columns)
-    values = tuple(
-        tuple(value for row in rows for value in row) for rows in zip(*(axis.values for axis in axes), strict=True)
-    )
-    settings = tuple(
+    columns = tuple(replace(column, dimension=name) for axis in axes for column in axis.columns)
+    values = [sum(rows, ()) for rows in zip(*(axis.values for axis in axes), strict=True)]
+    settings = [
         {key: value for row in rows for key, value in row.items()}
         for rows in zip(*(axis.settings for axis in axes), strict=True)
-    )
-    return Axis(Dimension(name, len(values)), columns, values, settings)
-
-
-def _renamed(axis: Axis, name: str) -> Axis:
-    """An axis with its columns under another name."""
-    columns = tuple(replace(column, dimension=name) for column in axis.columns)
-    return replace(axis, dimension=Dimension(name, axis.dimension.size), columns=columns)
-
-
-def _free(kind: str, taken: set[str]) -> str:
-    """``sobol``, or ``sobol_2`` where there is one already."""
-    names = [kind, *(f"{kind}_{number}" for number in range(2, len(taken) + 3))]
-    return next(name for name in names if name not in taken)
+    ]
+    random = all(column.random for column in columns)
+    return Axis(Dimension(name, len(values)), columns, tuple(values), tuple(settings), sampling if random else "")
