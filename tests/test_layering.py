@@ -16,7 +16,7 @@ WHOLE_LINE = ("api", "run")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")
 DOORS = {
-    "yaml": "deck/reader.py",
+    "yaml": "deck/text/reader.py",
     "pint": "deck/units.py",
     "meshio": "model/geometry/meshio_files.py",
     "ezdxf": "model/geometry/dxf.py",

@@ -2,7 +2,7 @@
 
 Bounding boxes give pairs of blocks (:mod:`~mbla.contacts.broad_phase`), opposite facets of a pair that lie on one
 plane are clipped against each other (:mod:`~mbla.contacts.narrow_phase`), the corners of what they share become
-contact points (:mod:`~mbla.contacts.corners`).
+contact points (:mod:`~mbla.contacts.outlines.corners`).
 """
 
 from mbla.contacts.contacts import ContactReport, Contacts

@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
-from mbla.contacts.polygons import CrowdedError, box_pairs
+from mbla.contacts.outlines.polygons import CrowdedError, box_pairs
 from mbla.model.generators.amounts import most_pairs
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import chunks, rows_and_items

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
 
 

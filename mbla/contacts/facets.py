@@ -11,8 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
-from mbla.contacts.overlay import frames_from_normals, unit
-from mbla.contacts.polygons import Polygons, areas, convex_polygons, map_polygons, polygons_from_loops, union_by_row
+from mbla.contacts.outlines.overlay import frames_from_normals, unit
+from mbla.contacts.outlines.polygons import (
+    Polygons,
+    areas,
+    convex_polygons,
+    map_polygons,
+    polygons_from_loops,
+    union_by_row,
+)
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import next_item, rows_and_items

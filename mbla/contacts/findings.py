@@ -16,7 +16,7 @@ from mbla.contacts.glue import Solids, guides_at_odds, held_model, solids_of
 from mbla.contacts.notices import overlap_messages
 from mbla.contacts.search import find_contacts
 from mbla.deck.deck import Deck
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message, first_faults
 from mbla.model.items import defects_in_words
 from mbla.model.model import LoadCase, Model

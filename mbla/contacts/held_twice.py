@@ -18,8 +18,8 @@ from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.joints import Laws
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.overlay import local_maps
-from mbla.contacts.polygons import (
+from mbla.contacts.outlines.overlay import local_maps
+from mbla.contacts.outlines.polygons import (
     Polygons,
     connected_parts,
     difference,

@@ -23,8 +23,8 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
-from mbla.contacts.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
-from mbla.contacts.polygons import (
+from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.outlines.polygons import (
     Polygons,
     areas,
     boxes_overlap,

@@ -8,10 +8,10 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
-from mbla.contacts.corners import Corners
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.polygons import areas
+from mbla.contacts.outlines.corners import Corners
+from mbla.contacts.outlines.polygons import areas
 from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap
 from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.sections.contacts import ContactsSection

@@ -16,7 +16,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
-from mbla.contacts.overlay import frames_from_normals
+from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.errors import MOST_FAULTS
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import chunks, ranges, rows_and_items

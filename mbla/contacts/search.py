@@ -9,18 +9,18 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.held_twice import counted_once
 from mbla.contacts.joints import Sites, joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, drop_covered_near_misses, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
+from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
+from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
+from mbla.contacts.outlines.points import in_pieces, interface_points
+from mbla.contacts.outlines.polygons import centroids, polygons_from_loops, widths
+from mbla.contacts.outlines.refine import InterfacePoints, point_starts
 from mbla.contacts.overlaps import find_overlaps
-from mbla.contacts.overlay import Overlays, frames_from_normals
-from mbla.contacts.points import in_pieces, interface_points
-from mbla.contacts.polygons import centroids, polygons_from_loops, widths
-from mbla.contacts.refine import InterfacePoints, point_starts
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
@@ -38,7 +38,7 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count,
-    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.points`).
+    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.outlines.points`).
 
     Raises
     ------

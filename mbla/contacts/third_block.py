@@ -16,8 +16,8 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.narrow_phase import Patches, Verdicts
-from mbla.contacts.overlay import concatenate, local_maps
-from mbla.contacts.polygons import areas, box_pairs, corners, intersect, map_polygons, widths
+from mbla.contacts.outlines.overlay import concatenate, local_maps
+from mbla.contacts.outlines.polygons import areas, box_pairs, corners, intersect, map_polygons, widths
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import rows_and_items
 

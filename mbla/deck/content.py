@@ -13,7 +13,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from mbla.deck.include import MAX_FILES
 from mbla.deck.items import BlockItem
 from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
@@ -23,6 +22,7 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.supports import Support, SymmetryPlane
+from mbla.deck.text.include import MAX_FILES
 from mbla.errors import Finding
 
 

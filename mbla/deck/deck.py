@@ -11,14 +11,14 @@ from typing import Any
 
 from mbla.deck.content import DeckContent, UnitsSection
 from mbla.deck.expressions import Parameters, is_expression
-from mbla.deck.include import Reading, confined, read_files
 from mbla.deck.notices import notices_of
-from mbla.deck.overrides import apply_override
 from mbla.deck.references import check_references, side_files
 from mbla.deck.section import built
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.deck.tree import KeyPath, Tree
+from mbla.deck.text.include import Reading, confined, read_files
+from mbla.deck.text.overrides import apply_override
+from mbla.deck.text.tree import KeyPath, Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, Notice, first_faults

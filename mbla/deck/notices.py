@@ -13,7 +13,7 @@ from mbla.deck.expressions import Parameters
 from mbla.deck.references import unused_names
 from mbla.deck.sections.analysis import APPLIES
 from mbla.deck.sections.loads import Load
-from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
 from mbla.errors import Message, Notice
 

@@ -15,7 +15,7 @@ from typing import Any
 from mbla.deck.items import BlockItem
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import KeyPath, Tree
+from mbla.deck.text.tree import KeyPath, Tree
 from mbla.errors import Fault, Message
 
 GROUND = "ground"

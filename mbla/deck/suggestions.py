@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from mbla.deck.tree import shorten
+from mbla.deck.text.tree import shorten
 
 _MOST_NAMES = 20
 _MOST_COMPARED = 200

@@ -11,7 +11,7 @@ from mbla.deck.fields import allowed_keys, description, sections_at
 from mbla.deck.quantities import PATTERNS
 from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
-from mbla.deck.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
+from mbla.deck.text.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.errors import Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]

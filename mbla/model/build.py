@@ -19,7 +19,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words

@@ -13,7 +13,7 @@ from mbla.deck.deck import Deck
 from mbla.deck.items import BlockItem
 from mbla.deck.items.item import Item
 from mbla.deck.sections.materials import Material
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Message, Notice
 from mbla.model.generators import KINDS, amount_of, amounts, generator_of

@@ -13,7 +13,7 @@ from mbla.deck.references import GROUND
 from mbla.deck.sections.contacts import ContactOverride
 from mbla.deck.sections.selectors import POSITIONS, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Finding, Message, Notice
 from mbla.model.solids.blocks import Blocks
 from mbla.model.wording import vector

@@ -19,7 +19,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.load_cases import SettlementSection
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase, Settlement

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.supports import GroundPlane, SymmetryPlane
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground

@@ -19,7 +19,7 @@ from mbla.deck.section import EXACTLY_ONE, given
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
 from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of

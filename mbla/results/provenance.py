@@ -19,8 +19,8 @@ from pathlib import Path
 from mbla import __version__
 from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck, read_deck
-from mbla.deck.include import confined
 from mbla.deck.sections.accuracy import knobs_of
+from mbla.deck.text.include import confined
 from mbla.errors import FileError, Notice
 from mbla.model.geometry.geometry import companions
 from mbla.model.model import Model

@@ -8,11 +8,11 @@ from functools import cached_property
 from pathlib import Path
 
 from mbla.deck.deck import Deck, check_regular, read_deck
-from mbla.deck.include import confined
-from mbla.deck.overrides import LABEL, RefusedError
 from mbla.deck.references import side_files
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.deck.text.include import confined
+from mbla.deck.text.overrides import LABEL, RefusedError
+from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
 from mbla.sweeps.base_rules import base_faults

@@ -12,10 +12,10 @@ from pydantic.fields import FieldInfo
 from mbla.deck.content import DeckContent
 from mbla.deck.deck import Deck
 from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at, takes_names
-from mbla.deck.overrides import RefusedError, item_index, next_key
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
-from mbla.deck.tree import KeyPath, key_text, shorten
+from mbla.deck.text.overrides import RefusedError, item_index, next_key
+from mbla.deck.text.tree import KeyPath, key_text, shorten
 from mbla.deck.units import Units
 
 FIXED = {

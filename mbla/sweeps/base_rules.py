@@ -12,9 +12,9 @@ from mbla.deck.content import DeckContent
 from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
-from mbla.deck.overrides import LABEL, RefusedError
 from mbla.deck.suggestions import did_you_mean, listed
-from mbla.deck.tree import KeyPath, key_text, shorten
+from mbla.deck.text.overrides import LABEL, RefusedError
+from mbla.deck.text.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Finding, Message, Notice, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of

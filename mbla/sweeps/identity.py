@@ -12,10 +12,10 @@ from typing import Any
 
 from mbla import __version__
 from mbla.deck.deck import Deck, read_deck
-from mbla.deck.include import read_files
-from mbla.deck.overrides import apply_override
 from mbla.deck.references import side_files
-from mbla.deck.tree import KeyPath, Tree, key_text
+from mbla.deck.text.include import read_files
+from mbla.deck.text.overrides import apply_override
+from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError
 from mbla.model.geometry.geometry import companions
 

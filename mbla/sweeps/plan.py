@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
-from mbla.deck.overrides import LABEL
+from mbla.deck.text.overrides import LABEL
 
 Plain: TypeAlias = "bool | int | float | str | list[Plain] | dict[str, Plain] | None"
 """what JSON holds, numbers finite"""

@@ -16,9 +16,9 @@ import shapely
 from scipy.optimize import linprog, minimize
 
 from mbla.arrays import FloatArray
-from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.points import interface_points
-from mbla.contacts.refine import InterfacePoints
+from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
+from mbla.contacts.outlines.points import interface_points
+from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.deck.sections.contacts import ContactPoints
 from tests.line import HEAD, factor_of
 

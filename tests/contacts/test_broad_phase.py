@@ -18,7 +18,7 @@ from mbla.contacts.broad_phase import (
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
-from mbla.contacts.overlay import Overlays
+from mbla.contacts.outlines.overlay import Overlays
 from mbla.contacts.search import patches_of_prescribed
 from mbla.model.model import PrescribedInterfaces
 from mbla.model.solids.blocks import Blocks

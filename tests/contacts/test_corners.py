@@ -9,9 +9,9 @@ import pytest
 import shapely
 
 from mbla.arrays import IntArray
-from mbla.contacts.corners import areas_and_centroids, needed_corners
 from mbla.contacts.facets import Facets, build_facets, facets_on_one_plane
-from mbla.contacts.polygons import Polygons, union_by_row
+from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
+from mbla.contacts.outlines.polygons import Polygons, union_by_row
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
 

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from mbla.arrays import FloatArray, starts
 from mbla.contacts import find_contacts
 from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.convex import clip_convex, convex_loops
 from mbla.contacts.facets import build_facets
+from mbla.contacts.outlines.convex import clip_convex, convex_loops
 from mbla.contacts.overlaps import Overlaps, find_overlaps
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import (

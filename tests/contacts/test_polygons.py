@@ -8,7 +8,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mbla.contacts.overlay import (
+from mbla.contacts.outlines.overlay import (
     Overlays,
     Planes,
     build_overlays,
@@ -18,7 +18,7 @@ from mbla.contacts.overlay import (
     local_maps,
     unit,
 )
-from mbla.contacts.polygons import (
+from mbla.contacts.outlines.polygons import (
     CrowdedError,
     Polygons,
     box_pairs,

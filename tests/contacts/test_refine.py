@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.contacts.contacts import ContactsRefused
-from mbla.contacts.corners import areas_and_centroids, needed_corners
-from mbla.contacts.points import MOST_PARTS, in_pieces, interface_points
-from mbla.contacts.refine import InterfacePoints, point_starts
+from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
+from mbla.contacts.outlines.points import MOST_PARTS, in_pieces, interface_points
+from mbla.contacts.outlines.refine import InterfacePoints, point_starts
 from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
 from tests.contacts.structures import boxes, contacts_of, ground, section

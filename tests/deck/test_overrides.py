@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import Deck, read_deck
-from mbla.deck.overrides import next_key
+from mbla.deck.text.overrides import next_key
 from mbla.errors import Message
 from tests.deck.decks import BLOCK, changed, faults, write
 

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mbla.deck.reader import MAX_DEPTH, MOST_ITEMS, MOST_KEYS, read_yaml
-from mbla.deck.sources import SourceText
-from mbla.deck.tree import (
+from mbla.deck.text.reader import MAX_DEPTH, MOST_ITEMS, MOST_KEYS, read_yaml
+from mbla.deck.text.sources import SourceText
+from mbla.deck.text.tree import (
     FILE_SHIFT,
     OFFSET_MASK,
     KeyPath,

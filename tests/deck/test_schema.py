@@ -12,7 +12,6 @@ from mbla.deck import read_deck
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, annotations_at, takes_names
 from mbla.deck.quantities import PositiveLength, PositiveNumber
-from mbla.deck.reader import read_yaml
 from mbla.deck.schema import (
     REPOSITORY,
     deck_schema,
@@ -21,7 +20,8 @@ from mbla.deck.schema import (
     with_key_reference,
     write_schema,
 )
-from mbla.deck.sources import SourceText
+from mbla.deck.text.reader import read_yaml
+from mbla.deck.text.sources import SourceText
 from mbla.errors import DeckError
 from tests.deck.decks import BLOCK, changed, write
 from tests.deck.test_reading import COMPLETE, FRAGMENTS

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck import read_deck, sources
-from mbla.deck.sources import SourceText
+from mbla.deck import read_deck
+from mbla.deck.text import sources
+from mbla.deck.text.sources import SourceText
 from mbla.errors import DeckError, FileError, Message, Place
 from tests.deck.decks import BLOCK
 

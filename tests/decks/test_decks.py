@@ -14,7 +14,7 @@ import jsonschema
 import pytest
 
 from mbla.deck.content import Expectation
-from mbla.deck.include import read_files
+from mbla.deck.text.include import read_files
 from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.decks.folder import LONG, PATHS, ROOT, deck_of, every_deck, name_of, outcome_of
 

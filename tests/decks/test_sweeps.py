@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from mbla.deck.include import read_files
+from mbla.deck.text.include import read_files
 from mbla.sweeps.command import dry_run_json
 from mbla.sweeps.file.read import SWEEP_FILE
 from tests.analytic.frictional_arch import least_thickness

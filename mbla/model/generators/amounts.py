@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mbla.deck.items.item import Item, Repetition
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Message
 from mbla.model.generators.generator import ItemRefused
 

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
 from mbla.model.solids.polyhedra import Polyhedra
 

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Buttress, Gable, Masonry, Opening
 from mbla.deck.items.walls import WallItem, WallsItem
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.deck.sections.loads import Load
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
 from mbla.model.solids.blocks import distance_outside

@@ -28,7 +28,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.loads import HeightPattern, Load
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.section import given
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS

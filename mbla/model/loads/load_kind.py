@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.loads import Load
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
 from mbla.model.model import Ground

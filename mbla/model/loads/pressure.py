@@ -21,7 +21,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.deck.sections.loads import Load, PressureLoad
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
 from mbla.model.model import Ground

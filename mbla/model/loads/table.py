@@ -7,7 +7,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.loads import Load
 from mbla.deck.suggestions import did_you_mean, listed
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Message
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.tables import Table, TableRefused, read_table

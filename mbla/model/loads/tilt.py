@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.loads import Tilt as TiltSection
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import mass_forces, vector_of
 from mbla.model.loads.load_kind import Entry, LoadSite

@@ -2,7 +2,7 @@
 
 A stress σ between 0 and f_c carries N = ∫σ and m = ∫σ x = (−M_2, M_1), x from the centroid. What such fields carry is
 bounded, with F = f_c A, by two kinds of inequalities in linear forms of N and m; for parallelograms and triangles no
-others are needed (interfaces of other outlines come in such pieces, :mod:`mbla.contacts.points`):
+others are needed (interfaces of other outlines come in such pieces, :mod:`mbla.contacts.outlines.points`):
 
 *Corner* (L, Q_1, Q_2; K):  L³ ≤ K Q_1 Q_2. Where full stress covers a triangle at a corner it holds with equality.
     parallelogram  L = N,      Q_i ≤ N ∓ s_i·m,         K = 9/8 F     s_i = ν_i/d_i: gauge of a pair of edges

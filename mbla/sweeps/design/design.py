@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.suggestions import listed
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Message
 from mbla.results.listing.text import INDENT, WIDTH, counted, entry, heading, sentence, shortened, table
 from mbla.sweeps.file.content import Part, SweepContent

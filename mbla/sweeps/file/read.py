@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.deck.expressions import is_expression
-from mbla.deck.include import read_files
 from mbla.deck.references import find
-from mbla.deck.sources import FileKind
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import KeyPath, Tree
+from mbla.deck.text.include import read_files
+from mbla.deck.text.sources import FileKind
+from mbla.deck.text.tree import KeyPath, Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults

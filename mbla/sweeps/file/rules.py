@@ -12,7 +12,7 @@ from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
 from mbla.deck.section import one_of, rule
 from mbla.deck.suggestions import listed
-from mbla.deck.tree import shorten
+from mbla.deck.text.tree import shorten
 from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types

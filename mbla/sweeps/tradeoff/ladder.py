@@ -18,9 +18,9 @@ from typing import Any
 
 from mbla.deck import Deck, read_deck
 from mbla.deck.content import DeckContent
-from mbla.deck.reader import read_yaml
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.deck.sources import SourceText
+from mbla.deck.text.reader import read_yaml
+from mbla.deck.text.sources import SourceText
 from mbla.errors import DeckError, UsageError
 from mbla.sweeps.identity import effective_tree
 from mbla.sweeps.plan import Plain, override_texts

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from mbla.deck.reader import read_yaml
-from mbla.deck.sources import SourceText
+from mbla.deck.text.reader import read_yaml
+from mbla.deck.text.sources import SourceText
 from mbla.errors import DeckError
 from mbla.sweeps.base import read_base
 from mbla.sweeps.design.build import design_of

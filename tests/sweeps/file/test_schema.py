@@ -8,10 +8,10 @@ import jsonschema
 import pytest
 
 from mbla.deck.fields import section_keys
-from mbla.deck.reader import read_yaml
 from mbla.deck.schema import REPOSITORY
 from mbla.deck.section import Section
-from mbla.deck.sources import SourceText
+from mbla.deck.text.reader import read_yaml
+from mbla.deck.text.sources import SourceText
 from mbla.errors import DeckError
 from mbla.sweeps.file import content
 from mbla.sweeps.file.read import read_sweep

@@ -22,9 +22,10 @@ from mbla import api
 from mbla.cli import main
 from mbla.cli.decks import refuse_unfit_name
 from mbla.contacts.findings import contacts_of
-from mbla.deck import read_deck, reader, sources, validation
+from mbla.deck import read_deck, validation
 from mbla.deck.content import DeckContent
-from mbla.deck.include import confined
+from mbla.deck.text import reader, sources
+from mbla.deck.text.include import confined
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model, geometry
 from mbla.results import disk as journal_lock

@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.walls import WallsItem
-from mbla.deck.tree import KeyPath
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.generators.masonry.leg import Passage
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.polygons import Polygons, polygons_from_rings, rings, valid, widths
+from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, valid, widths
 from mbla.model.solids.ragged import next_item
 
 # Corners this close to the chord are dropped even where dropping more would make the outline cross itself.

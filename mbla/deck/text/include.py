@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.reader import Document, Remarks, read_yaml
-from mbla.deck.sources import DECK, FileKind, SourceText, read_source, source_of_text
-from mbla.deck.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
+from mbla.deck.text.reader import Document, Remarks, read_yaml
+from mbla.deck.text.sources import DECK, FileKind, SourceText, read_source, source_of_text
+from mbla.deck.text.tree import MappingMarks, Marks, SequenceMarks, Tree, key_text, own_mark
 from mbla.errors import DeckError, Fault, FileError, Message
 
 MAX_FILES = 100

@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.convex import clip_convex, convex_loops, signed_areas
+from mbla.contacts.outlines.convex import clip_convex, convex_loops, signed_areas
 
 Polygons: TypeAlias = NDArray[np.object_]
 

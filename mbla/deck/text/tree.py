@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from mbla.deck.sources import SourceText
+from mbla.deck.text.sources import SourceText
 from mbla.errors import Fault, Message, Place, ValueRefused, printable
 
 KeyPath: TypeAlias = tuple[str | int, ...]

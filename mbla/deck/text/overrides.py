@@ -6,10 +6,10 @@ from typing import Any
 
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import takes_names
-from mbla.deck.reader import read_yaml
-from mbla.deck.sources import SourceText
 from mbla.deck.suggestions import unknown
-from mbla.deck.tree import FILE_SHIFT, KeyPath, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
+from mbla.deck.text.reader import read_yaml
+from mbla.deck.text.sources import SourceText
+from mbla.deck.text.tree import FILE_SHIFT, KeyPath, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
 from mbla.errors import Fault, Message, Refusal
 
 LABEL = "--set"

@@ -11,8 +11,8 @@ from typing import Any
 
 import yaml
 
-from mbla.deck.sources import DECK, FileKind, SourceText, has_control_character
-from mbla.deck.tree import (
+from mbla.deck.text.sources import DECK, FileKind, SourceText, has_control_character
+from mbla.deck.text.tree import (
     FILE_SHIFT,
     OFFSET_MASK,
     KeyPath,
