@@ -43,8 +43,9 @@ class Below:
 
     @cached_property
     def hair(self) -> float:
-        """Distance that decides nothing but on which side of a joint a point lies."""
-        return BEHIND * float(self.blocks.sizes[self.chosen].min(initial=np.inf))
+        """Distance that decides nothing but on which side of a joint a point lies; refused blocks have no size."""
+        sizes = self.blocks.sizes[self.chosen]
+        return BEHIND * float(sizes[sizes > 0].min(initial=np.inf))
 
     def flat(self, points: FloatArray) -> FloatArray:
         """Points in the plane across the direction, (n, 2)."""
