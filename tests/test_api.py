@@ -103,12 +103,6 @@ def test_a_text_that_is_no_text_is_a_mistake_in_the_deck() -> None:
             mbla.run(text)
 
 
-def test_a_text_finds_files_in_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("base.yaml").write_text(SLIDES, encoding="utf-8")
-    assert mbla.run("mbla: 1\ninclude: [base.yaml]\n").load_factor == pytest.approx(0.5, rel=1e-6)
-
-
 def test_missing_files_are_told(tmp_path: Path) -> None:
     with pytest.raises(mbla.FileError, match=r"none\.yaml"):
         mbla.run(tmp_path / "none.yaml")
@@ -117,12 +111,6 @@ def test_missing_files_are_told(tmp_path: Path) -> None:
     with pytest.raises(mbla.FileError, match=r"none\.h5"):
         mbla.read_results(tmp_path / "none.h5")
     assert issubclass(mbla.FileError, mbla.MblaError)
-
-
-def test_progress_is_told() -> None:
-    told: list[str] = []
-    mbla.run(SLIDES, progress=lambda name, record: told.append(f"{name} {record.program}"))
-    assert "push 1" in told
 
 
 def test_arrays_fit_the_model() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 import mbla
 from mbla import cli
-from mbla.errors import FileError, SolverError
+from mbla.errors import SolverError
 from mbla.process.signals import Terminated
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
@@ -107,20 +107,6 @@ def test_an_earlier_result_stays_and_a_whole_one_takes_the_place_of_what_was_lef
     assert names() == sorted(earlier)
 
 
-def test_the_result_of_a_deck_of_that_name_is_not_replaced(
-    deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    other = Path("block.partial.yaml")
-    other.write_text(DECK, encoding="utf-8")
-    assert cli.main(["run", str(other), "-q", "-o", "block.out"]) == 0
-    before = Path("block.out/block.partial.h5").read_bytes()
-    stop_at("pull", KeyboardInterrupt(), monkeypatch)
-    code, record, err = printed(capsys, "run", str(deck))
-    assert (code, record["files"], len(record["cases"])) == (130, [], 1)
-    assert "load cases done: 1 of 2, which could not be written: block.out/block.partial.h5: exists already" in err
-    assert Path("block.out/block.partial.h5").read_bytes() == before
-
-
 def test_before_any_load_case_is_done_nothing_is_left(
     deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -143,14 +129,6 @@ def test_stopped_while_its_files_are_written(
     code, record, _ = printed(capsys, "run", str(deck))
     assert (code, len(record["cases"]), record["complete"], record["not_done"]) == (130, 2, False, [])
     assert names() == PARTIAL
-
-
-def test_a_disk_that_fails_leaves_nothing(
-    deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    stop_at("pull", FileError("file-not-written", "block.sta: full"), monkeypatch)
-    assert printed(capsys, "run", str(deck))[0] == 6
-    assert not Path("block.out").exists()
 
 
 def test_in_python_it_is_the_interruption_itself(deck: Path, monkeypatch: pytest.MonkeyPatch) -> None:

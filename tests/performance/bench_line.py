@@ -1,4 +1,4 @@
-"""Where the time of whole runs goes, import to last file, and what of it is not the solver: results/line.csv.
+"""Where the time of whole runs goes, import to last file: results/line.csv.
 
 ::
 
@@ -7,10 +7,9 @@
     python -m tests.performance.bench_line --flow-rule non_associative --limit 1200
     python -m tests.performance.bench_line --of CHECKOUT    of another checkout of mbla
 
-Each structure runs in a process of its own with every file that ``mbla run`` writes by default; seconds are those of
-the processor, imports included. ``programs`` is the solver: cone programs and steps of the joint law, as in
-``time.solver`` of the JSON; of these ``least_forces`` choose one of many force fields. All else is ``outside``. A run
-that takes more seconds than the limit is stopped and recorded as such.
+Each structure runs in a process of its own, on one thread, with every file that ``mbla run`` writes by default;
+``processor`` are its seconds of the processor, imports included; the stages are those of its JSON object, by the clock.
+A run that takes more seconds than the limit is stopped and recorded as such.
 """
 
 from __future__ import annotations
@@ -19,79 +18,69 @@ import argparse
 import json
 import os
 import resource
-import signal
 import subprocess
 import sys
 import tempfile
+import time
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tests.performance.recording import PROJECT, RESULTS, commit, read_rows, record
-from tests.performance.standard_set import DECKS, FLOW_RULES, STANDARD_SET, Structure
+from tests.performance.recording import PROJECT, commit, record
+from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure
 
 LIMIT = 3600
 """seconds of the processor for one run"""
 GRACE = 10
 """seconds from the signal that ends a run at its limit to the one that it cannot ignore"""
+SOLVE = ("assemble", "programs", "repair", "standing", "verify")
+FIGURES = ("blocks", "points", "status", "load_factor", "clock", "processor", "peak_mb")
 
 
-def environment_of(checkout: Path, compiled: str) -> dict[str, str]:
-    """One thread, and modules compiled once into a folder of their own, as they are where mbla is installed."""
-    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    return kept | threads | {"PYTHONPATH": str(checkout), "PYTHONPYCACHEPREFIX": compiled}
-
-
-def compile_modules(checkout: Path, environment: dict[str, str]) -> None:
-    """A small run, after which all modules that a run needs are there compiled."""
+def measured(structure: Structure, flow_rule: str, checkout: Path, limit: int) -> dict[str, object]:
+    """One run of a structure: what is recorded of it."""
+    settings = [f"--set={value}" for value in structure.overrides]
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PYTHONPATH": str(checkout)}
     with tempfile.TemporaryDirectory() as folder:
-        words = ["-m", "mbla", "run", str(DECKS / "tradeoff" / "arch.yaml"), "-q", "-o", folder]
-        subprocess.run([sys.executable, *words], cwd=checkout, env=environment, check=True)
-
-
-def measured(
-    structure: Structure, flow_rule: str, checkout: Path, environment: dict[str, str], limit: int
-) -> dict[str, Any] | None:
-    """One run of a structure by ``line_run``; None where it was stopped."""
-    script = str(Path(__file__).with_name("line_run.py"))
-    values = (*structure.overrides, f"analysis.flow_rule={flow_rule}")
-    with tempfile.TemporaryDirectory() as folder:
-        options = [*(word for value in values for word in ("--set", value)), "--case", structure.load_case]
-        done = subprocess.run(
-            [sys.executable, script, str(structure.deck), *options, "-o", folder],
+        command = [sys.executable, "-m", "mbla", "run", str(structure.deck), "--case", structure.load_case, *settings]
+        started = time.perf_counter()
+        child = subprocess.Popen(
+            [*command, "--flow-rule", flow_rule, "--json", "-q", "-o", folder],
             cwd=checkout,
             env=environment,
             stdout=subprocess.PIPE,
             text=True,
             preexec_fn=partial(resource.setrlimit, resource.RLIMIT_CPU, (limit, limit + GRACE)),
         )
-    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return None
-    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
-    return found
+        assert child.stdout is not None
+        output = child.stdout.read()
+        _, _, used = os.wait4(child.pid, 0)
+        clock = time.perf_counter() - started
+    if not output:
+        stopped: dict[str, object] = dict.fromkeys((*FIGURES, *stages({})), "")
+        return stopped | {"status": "stopped"}
+    used_up = {"clock": clock, "processor": used.ru_utime + used.ru_stime, "peak_mb": used.ru_maxrss / 1024}
+    return row_of(json.loads(output), used_up)
 
 
-def row_of(found: dict[str, Any]) -> dict[str, object]:
-    """What is recorded of a run: totals, shares, stages."""
-    stages: dict[str, float] = found["stages"]
-    total = found["processor"]
-    outside = total - stages["programs"]
-    (factor,) = found["load_factors"]
+def row_of(found: dict[str, Any], used_up: dict[str, float]) -> dict[str, object]:
+    """What is recorded of a run by its JSON object."""
+    (case,) = found["cases"]
+    factor = case["load_factor"]
     return {
-        "blocks": found["blocks"],
-        "points": found["points"],
-        "status": found["status"],
+        "blocks": found["model"]["blocks"],
+        "points": found["model"]["contact_points"],
+        "status": case["status"],
         "load_factor": "" if factor is None else f"{factor:.9g}",
-        "clock": found["clock"],
-        "processor": total,
-        "outside": outside,
-        "share_outside": outside / total,
-        "peak_mb": found["peak_mb"],
-        **stages,
-        "least_forces": found["least_forces"],
-        "rest": total - sum(stages.values()),
+        **used_up,
+        **stages(found["time"]),
     }
+
+
+def stages(spent: dict[str, float]) -> dict[str, float]:
+    """Seconds of reading, contacts, the parts of solving, and writing."""
+    names = {"read": "read", "contacts": "contacts", **{part: f"solve/{part}" for part in SOLVE}, "write": "write"}
+    return {name: spent.get(key, 0.0) for name, key in names.items()}
 
 
 def main() -> None:
@@ -102,18 +91,11 @@ def main() -> None:
     parser.add_argument("--limit", type=int, default=LIMIT, metavar="SECONDS", help="of the processor for one run")
     parser.add_argument("--of", type=Path, default=PROJECT, metavar="CHECKOUT", help="checkout of mbla to measure")
     options = parser.parse_args()
-    chosen = [each for each in STANDARD_SET if not options.names or any(name in each.name for name in options.names)]
-    if not chosen:
-        parser.error(f"no structure of that name; there are {'; '.join(each.name for each in STANDARD_SET)}")
     checkout = options.of.resolve()
-    occasion = {"flow_rule": options.flow_rule, "commit": commit(checkout)}
-    with tempfile.TemporaryDirectory() as compiled:
-        environment = environment_of(checkout, compiled)
-        compile_modules(checkout, environment)
-        for structure in chosen:
-            found = measured(structure, options.flow_rule, checkout, environment, options.limit)
-            stopped = dict.fromkeys(list(read_rows(RESULTS / "line.csv")[0])[4:-2], "") | {"status": "stopped"}
-            row = stopped if found is None else row_of(found)
+    for structure in STANDARD_SET:
+        if not options.names or any(name in structure.name for name in options.names):
+            row = measured(structure, options.flow_rule, checkout, options.limit)
+            occasion = {"flow_rule": options.flow_rule, "commit": commit(checkout)}
             record("line", {"structure": structure.name} | occasion | row)
 
 

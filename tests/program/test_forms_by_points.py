@@ -11,10 +11,9 @@ from mbla.arrays import FloatArray
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.resultants.assemble import assemble_convex, convex_form
-from mbla.program.resultants.static import convex_proximal_form
 from mbla.program.static import PointMotion, fixed_mechanism_form, gravity_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from tests.line import BLOCK, WALL, line_of
+from tests.line import WALL, line_of
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])
@@ -146,26 +145,6 @@ def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -
         assert np.array_equal(form.velocities(x), u)
         seen.add(bool(allowed))
     assert seen == {False, True}
-
-
-@pytest.mark.parametrize("text", [BLOCK, WALL], ids=["block", "wall"])
-def test_matrices_of_forms_hold_no_zeros_and_their_rows_in_order(text: str) -> None:
-    """Zeros that are stored fill the factors of the solver."""
-    line = line_of(text)
-    program, convex = line.program, assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    nothing = np.zeros(program.n_points, dtype=bool)
-    still = PointMotion(nothing, nothing, nothing, np.zeros((program.n_points, 2)))
-    for number, form in enumerate(
-        (
-            kinematic_form(program, program.limits).cone_program,
-            gravity_form(program).cone_program,
-            fixed_mechanism_form(program, still).cone_program,
-            convex_form(convex).cone_program,
-            convex_proximal_form(convex, 1.0).cone_program,
-        )
-    ):
-        assert form.matrix.data.all(), number
-        assert form.matrix.has_canonical_format, number
 
 
 def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_most() -> None:

@@ -8,7 +8,7 @@ from scipy.optimize import linprog
 
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import kinematic_form
-from tests.line import BLOCK, HEAD, WALL, line_of, load_factor
+from tests.line import BLOCK, WALL, line_of, load_factor
 
 
 def planar_static_factor(text: str, *overrides: str) -> float:
@@ -62,36 +62,3 @@ def test_dry_points_take_no_multiplier_and_others_do() -> None:
     weak = line_of(BLOCK, "joints.dry.compressive_strength=1e5").program
     form = kinematic_form(weak, weak.limits)
     assert (len(form.cone_program.cost), form.cone_program.n_cones, form.cone_program.n_half_lines) == (14, 4, 8)
-
-
-def test_mixed_joints_in_one_program() -> None:
-    """A stack: smooth, dry, cohesive and crushable joints; the smooth one slides first, at zero."""
-    text = (
-        HEAD
-        + """\
-joints:
-  dry: {friction: 0.6}
-  smooth: {friction: 0}
-  mortar: {friction: 0.5, cohesion: 1000, tensile_strength: 500}
-  weak: {friction: 0.5, compressive_strength: 1.0e+7}
-blocks:
-  - box: {group: a, material: stone, min: [0, 0, 0], max: [1, 1, 0.2]}
-  - box: {group: b, material: stone, min: [0, 0, 0.2], max: [1, 1, 0.4]}
-  - box: {group: c, material: stone, min: [0, 0, 0.4], max: [1, 1, 0.6]}
-  - box: {group: d, material: stone, min: [0, 0, 0.6], max: [1, 1, 0.8]}
-supports: [{ground: {z: 0}}]
-load_cases:
-  slide: {live: [{force: [1, 0, 0], on: d}]}
-  lift: {live: [{force: [0, 0, 1], on: d}]}
-analysis: {flow_rule: associative}
-"""
-    ).replace(
-        "contacts: {joint: dry}",
-        "contacts: {joint: dry, overrides: [{between: [a, b], joint: weak}, {between: [b, c], joint: mortar}, "
-        "{between: [c, d], joint: smooth}]}",
-    )
-    weight = 0.2 * 2000 * 9.81
-    assert load_factor(text, case=1) == pytest.approx(weight)
-    rough = text.replace("friction: 0}", "friction: 2}")
-    assert load_factor(rough) == pytest.approx(min(2 * weight, 0.5 * 2 * weight + 1000, 0.6 * 4 * weight), rel=1e-6)
-    assert abs(load_factor(text)) < 1e-6 * weight

@@ -9,7 +9,6 @@ import pytest
 
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.mirror import half_of, mirror_about, mirror_candidates
-from mbla.program.reductions.planar import planar_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.solution import Status
 from tests.line import BLOCK, HEAD, WALL, case_of, line_of, verified
@@ -76,29 +75,6 @@ def test_an_interface_and_its_image_may_name_their_blocks_in_opposite_orders(flo
     assert result.checks.equilibrium_residual < 1e-9
     assert result.solution.mechanics is not None
     assert result.solution.mechanics.load_factor == pytest.approx(1.48 / 4.0, rel=1e-6)  # about the edge of the ground
-
-
-@pytest.mark.parametrize("per_edge", [1, 2])
-def test_squares_of_forces_in_the_plane_add_up_to_half_of_those_in_it(per_edge: int) -> None:
-    """Two or three points one behind the other: least forces of the plane are those of the model."""
-    whole = scene(BLOCK, f"contacts.points.per_edge={per_edge}", "parameters.c=1000", "parameters.ft=500")
-    mirror = mirror_about(whole, np.array([0.0, 1.0, 0.0]))
-    assert mirror is not None
-    program = planar_program(whole, mirror)
-    assert program.n_points == per_edge + 1
-    assert program.reduction is not None
-    forces = program.reduction.forces
-    behind = per_edge + 1
-    gram = (forces.T @ forces).toarray()
-    if per_edge == 1:
-        assert gram == pytest.approx(0.5 * np.eye(4))
-    else:
-        assert np.diag(gram) == pytest.approx(np.full(6, 0.5))
-    # all of the strength is there, whatever the unknowns
-    for strength, expected in ((program.limits.cohesion, 1000.0), (program.limits.tension, 500.0)):
-        shares = strength[:, None] * np.abs(forces[::3, ::2].toarray().T)
-        assert shares.sum() == pytest.approx(expected / (2000 * 9.81 * 2))
-        assert (shares > 0).sum() == behind * (per_edge + 1)
 
 
 FIXED_COURSE = (
@@ -207,12 +183,3 @@ def test_without_dilatancy_a_half_is_left_out_about_a_given_plane_alone(offset: 
     model = replace(line.model, mirrors=((1.0, 0.0, 0.0, offset * middle),))
     reduced = reduce_program(model, line.contacts, line.program, ReductionSwitches(), associative=False)
     assert reduced.size.mirror_planes == planes
-
-
-def test_a_part_that_touches_nothing_has_no_plane() -> None:
-    flying = BLOCK.replace(
-        "supports:", "  - box: {group: flying, material: stone, min: [5, 0, 9], max: [6, 1, 10]}\nsupports:"
-    )
-    line = line_of(flying)
-    reduced = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=True)
-    assert sorted((part.n_points, part.components) for part in reduced.parts) == [(0, 3), (2, 2)]

@@ -97,17 +97,6 @@ def assert_state_of(program: Program, state: LawState) -> None:
     assert program.live_load @ state.velocities == pytest.approx(1.0)
 
 
-def test_a_push_along_the_middle_of_a_wall_halves_it() -> None:
-    live = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
-    line = line_of(WALL, live)
-    whole, half, part = both(line)
-    size = reduced(line).size
-    assert (size.dimension, size.mirror_planes) == (3, 1)
-    assert size.dropped_points == pytest.approx(line.program.n_points / 2, abs=10)
-    assert half.load_factor == pytest.approx(whole.load_factor, rel=1e-6)
-    assert_state_of(*to_full(part, half))
-
-
 def test_points_inside_the_hull_are_left_out_of_associative_programs_only() -> None:
     """An L-shaped base: the inner corner lies within the hull of the others."""
     outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]

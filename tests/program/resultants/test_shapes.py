@@ -97,13 +97,3 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
     assert not shapes.convex.any()
     assert shapes.radii == pytest.approx(disc_radius(np.array([0.84])))
     assert shapes.thetas == pytest.approx(1.0)
-
-
-def test_where_nothing_touches_there_are_no_shapes() -> None:
-    line = prism_line(
-        [(0, 0), (1, 0), (1, 1), (0, 1)], "supports=[{blocks: block, turn: {axis: [0, 1, 0], about: [0, 0, 0]}}]"
-    )
-    shapes = interface_shapes(line.contacts)
-    assert len(line.contacts) == 0
-    assert (len(shapes.radii), len(shapes.corners), len(shapes.rectangles)) == (0, 0, 0)
-    assert shapes.start.tolist() == [0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -133,16 +132,3 @@ def test_each_of_two_rectangles_has_bounds_of_its_own() -> None:
             forces[:, :, 0] = share * strength / 4
             forces[pressed, :, 0] *= 1.0 + 0.5 * np.sign(way * arms[pressed, :, axis])
             assert (room(form, rhs, forces.reshape(8, 3)) > 0) == held
-
-
-def test_velocities_and_motions_are_read_from_their_rows() -> None:
-    convex = convex_program("rectangle", f"friction: 0.5, {STRENGTH}")
-    form = convex_proximal_form(convex, 1.0)
-    z = np.random.default_rng(3).normal(size=len(form.cone_program.rhs))
-    assert np.array_equal(form.velocities(z), z[:6])
-    tail = z[-form.conditions.shape[0] :]
-    zeroed = np.where(np.arange(len(tail)) < form.n_torsion, tail, 0.0)
-    torsion, crushing = form.motions(z)[0]
-    assert torsion == pytest.approx(form.conditions.T @ zeroed)
-    assert torsion + crushing == pytest.approx(form.conditions.T @ tail)
-    assert replace(form, n_torsion=0).motions(z)[0, 0] == pytest.approx(np.zeros(6))
