@@ -45,7 +45,7 @@ class Below:
     def hair(self) -> float:
         """Distance that decides nothing but on which side of a joint a point lies; refused blocks have no size."""
         sizes = self.blocks.sizes[self.chosen]
-        return BEHIND * float(sizes[sizes > 0].min(initial=np.inf))
+        return BEHIND * float(sizes[sizes > 0].min(initial=1e300))
 
     def flat(self, points: FloatArray) -> FloatArray:
         """Points in the plane across the direction, (n, 2)."""
@@ -70,7 +70,7 @@ class Below:
     def under(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
         """The block under each point (n, 3), -1 where there is none, and how far the point lies before its near side.
 
-        That is negative inside a block. On a joint it is the block with the lower number.
+        That is negative inside a block.
         """
         import shapely
 
@@ -90,6 +90,14 @@ class Below:
         entry = (leads < 0) & (owner == found[row]) & (away <= above[row])
         np.maximum.at(near, row[entry], away[entry])
         return found, np.where(np.isfinite(near), near, 0.0)
+
+    def at(self, points: FloatArray) -> IntArray:
+        """The block under each point (n, 3), (n,), -1 where there is none; on a joint that with the lower number."""
+        first, second = self.hair * plane_axes(self.down[None])[0]
+        around = [self.under(points + one * first + other * second)[0] for one in (-1, 1) for other in (-1, 1)]
+        none = np.iinfo(np.int64).max
+        lowest = np.where(np.stack(around) >= 0, around, none).min(axis=0)
+        return np.where(lowest < none, lowest, -1)
 
     def parts(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
         """Parts of a line between two points, (3,): ends from 0 to 1 along it, (n + 1,), what lies under them just left

@@ -62,7 +62,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
     positions, bare = [], []
     for number, (points, distances, acting) in enumerate(vehicle, start=1):
         under = np.full(len(points), -1)
-        under[acting] = below.under(points[acting])[0]
+        under[acting] = below.at(points[acting])
         positions.append(TravelPosition(name, number, len(vehicle), points, distances, forces, under))
         bare += [(number, points[axle]) for axle in np.flatnonzero(acting & (under < 0))[:1]]
     if bare:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import Any
 
@@ -78,7 +77,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "motion": packed(scene.motion) if moves else None,
         "motionWords": motion_words(scene) if moves else "",
         "texts": block_texts(model, scene.clusters if moves else None),
-        "colourings": [_colouring(each) for each in colourings(scene)],
+        "colourings": colourings(scene),
         "marks": [_mark(mark, offset) for mark in marks],
         "forceWords": "" if scene.forces is None else _with_mark(scene, scene.force_words),
         "ground": ground or None,
@@ -129,19 +128,8 @@ def block_texts(model: Model, parts: IntArray | None) -> list[str]:
 # --- Colours of blocks ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Colouring:
-    """Colour of every block.
-
-    colours : as #RRGGBB
-    rows    : (n_blocks,) rows of ``colours``
-    legend  : names and colours, for the reader
-    """
-
-    name: str
-    colours: tuple[str, ...]
-    rows: IntArray
-    legend: tuple[tuple[str, str], ...]
+Colouring = dict[str, Any]
+"""colours as #RRGGBB, of each block its row of these, names and colours for the legend"""
 
 
 def colourings(scene: Scene) -> list[Colouring]:
@@ -177,14 +165,14 @@ def _by_value(scene: Scene, name: str, values: FloatArray, low: str, high: str, 
     legend = [(low, ramp[0]), (high, ramp[-1])]
     legend += [("none", NO_VALUE)] if (rows == steps).any() else []
     legend += [("fixed", FIXED_BLOCK)] if (rows == steps + 1).any() else []
-    return Colouring(name, (*ramp, NO_VALUE, FIXED_BLOCK), rows, tuple(legend))
+    return {"name": name, "colours": (*ramp, NO_VALUE, FIXED_BLOCK), "rows": packed(rows), "legend": legend}
 
 
 def _by_name(name: str, rows: IntArray, names: Sequence[str], colours: tuple[str, ...]) -> Colouring:
     legend = list(zip(names, colours, strict=True))
     if len(legend) > MOST_NAMES:
         legend = [*legend[: MOST_NAMES - 1], (f"and {len(legend) - MOST_NAMES + 1} more", "")]
-    return Colouring(name, colours, rows, tuple(legend))
+    return {"name": name, "colours": colours, "rows": packed(rows), "legend": legend}
 
 
 def mixed(first: str, second: str, share: float) -> str:
@@ -209,15 +197,6 @@ def packed(values: FloatArray | IntArray) -> dict[str, str]:
     kind = "f4" if values.dtype.kind == "f" else "i4"
     data = np.ascontiguousarray(values.ravel(), dtype=np.dtype(kind).newbyteorder("<"))
     return {"dtype": kind, "bdata": base64.b64encode(data.tobytes()).decode("ascii")}
-
-
-def _colouring(colouring: Colouring) -> dict[str, Any]:
-    return {
-        "name": colouring.name,
-        "colours": colouring.colours,
-        "rows": packed(colouring.rows),
-        "legend": colouring.legend,
-    }
 
 
 HEAD, BREADTH = 0.22, 0.08

@@ -161,7 +161,7 @@ def test_of_many_parts_the_first_are_named_and_the_others_counted() -> None:
     """Each of the blocks is a part; together with what rests there are more names than room."""
     results = row_of_blocks(MOST_NAMES + 4)
     shown = picture_of(results, results.cases[0], PictureOptions(), "mechanism")
-    legend = by_part(shown, np.arange(1, MOST_NAMES + 5)).legend
+    legend = by_part(shown, np.arange(1, MOST_NAMES + 5))["legend"]
     assert len(legend) == MOST_NAMES
     assert legend[-1][0].startswith("and ")
     assert legend[-1][0].endswith(" more")
