@@ -23,7 +23,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.model.model import Model
-from mbla.results.collapse.rigid_parts import PartMotion, part_motions
+from mbla.results.collapse.rigid_parts import PartMotion, numbered, part_motions
 
 MOST = 12
 """rigid parts that are told as they are; an arch that fails has three, a wall in bond up to ten"""
@@ -68,7 +68,7 @@ def clusters_of(model: Model, parts: IntArray, motion: FloatArray) -> Clusters:
         label, left = _nearest(sums, np.where(np.arange(len(label)) == worst, count, label))
         explained = 1.0 - float(left.sum() / squares.sum())
         if explained >= ENOUGH:
-            of_block = _by_weight(model, label[parts])
+            of_block = numbered(model, label[parts], 0)
             return Clusters(of_block, part_motions(model, of_block, motion), min(explained, 1.0))
     return Clusters(parts, motions, 1.0)  # no few parts will do
 
@@ -114,13 +114,3 @@ def _left(sums: _Sums, chosen: BoolArray) -> FloatArray:
         return np.full(len(squares), np.inf)
     fit = np.linalg.solve(matrices[chosen].sum(axis=0), vectors[chosen].sum(axis=0))
     return np.asarray(np.maximum(squares - 2.0 * vectors @ fit + (matrices @ fit) @ fit, 0.0))
-
-
-def _by_weight(model: Model, label: IntArray) -> IntArray:
-    """The same, numbered by falling weight; numbers without blocks left out."""
-    weights = np.bincount(label, weights=model.blocks.masses)
-    weights[0] = 0.0
-    used = [number for number in np.argsort(-weights, kind="stable").tolist() if number and (label == number).any()]
-    numbers = np.zeros(len(weights), dtype=np.int64)
-    numbers[used] = np.arange(1, len(used) + 1)
-    return np.asarray(numbers[label])

@@ -65,11 +65,11 @@ def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray) -> In
     node = np.append(blocks, np.full(len(model.grounds), n_blocks))
     pairs = node[contacts.bodies[stuck_interfaces(model, contacts, motion)]]
     label = connected_labels(pairs, n_blocks + 1)
-    return _numbered(model, label[blocks], int(label[n_blocks]))
+    return numbered(model, label[blocks], int(label[n_blocks]))
 
 
-def _numbered(model: Model, label: IntArray, at_rest: int) -> IntArray:
-    """Parts numbered by falling weight, then by their first block; 0 at rest, whether any block is or not."""
+def numbered(model: Model, label: IntArray, at_rest: int) -> IntArray:
+    """Parts, (n_blocks,), numbered by falling weight, then by their first block; 0 at rest, whether any is or not."""
     labels, first, row = np.unique(label, return_index=True, return_inverse=True)
     weights = np.bincount(row, weights=model.blocks.masses, minlength=len(labels))
     rests = labels == at_rest
