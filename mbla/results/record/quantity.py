@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from itertools import product
 from typing import Literal, TypeAlias
@@ -157,10 +158,11 @@ PROVED = {"cases/*/standing/verdict": tuple(verdict.value for verdict in PROVED_
 """texts that are verified although others of their quantity are not"""
 
 
-def rows_of(name: str) -> Iterator[dict[str, str]]:
+@cache
+def rows_of(name: str) -> tuple[dict[str, str], ...]:
     """Rows of a table of the record by the names of its columns."""
     text = files("mbla.results.record").joinpath(name).read_text(encoding="utf-8")
-    yield from csv.DictReader(text.splitlines())
+    return tuple(csv.DictReader(text.splitlines()))
 
 
 def _stored() -> Iterator[Quantity]:
