@@ -250,10 +250,11 @@ def test_the_whole_sample_of_rubble_walls_and_its_fragility() -> None:
     factors = np.array([number(row, "load_factor") for row in rows])
     assert factors.mean() == pytest.approx(0.50001, abs=1e-5)
     assert factors.std() == pytest.approx(0.07426, abs=1e-5)
-    (fragility,) = finished.fragility
-    assert fragility.unknown == 0
-    assert fragility.below.tolist() == [33, 118, 264, 397, 460, 485]
-    assert fragility.below.tolist() == [int((factors < demand).sum()) for demand in fragility.demands]
+    (fragility,) = finished.record["fragility"]
+    assert fragility["unknown"] == 0
+    below = {each["demand"]: each["below"] for each in fragility["demands"]}
+    assert list(below.values()) == [33, 118, 264, 397, 460, 485]
+    assert list(below.values()) == [int((factors < demand).sum()) for demand in below]
 
 
 # --- dome ---------------------------------------------------------------------------------------------------------
