@@ -100,13 +100,6 @@ def test_a_file_that_cannot_be_read(
     assert record[FILE[name]] == given
 
 
-@pytest.mark.parametrize("bad", ["none", "folder", "empty", "binary", "cut.h5"])
-def test_two_results_of_which_one_cannot_be_read(folder: Path, bad: str, capsys: pytest.CaptureFixture[str]) -> None:
-    for pair in ((bad, "result.h5"), ("result.h5", bad)):
-        record = failure(capsys, "diff", *pair)
-        assert (record["exit_code"], record["first"], record["second"]) == (6, *pair)
-
-
 @pytest.mark.parametrize(
     ("arguments", "identifier"),
     [
@@ -141,12 +134,6 @@ def test_what_a_command_is_asked_and_cannot_do(
     folder: Path, arguments: list[str], identifier: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert failure(capsys, *arguments)["identifiers"] == [identifier]
-
-
-@pytest.mark.parametrize("name", [name for name in commands() if name != "explain"])
-def test_arguments_that_are_missing_or_unknown(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    for arguments in ([], ["a", "b", "--nonsuch"]):
-        assert failure(capsys, name, *arguments)["identifiers"] == ["command-line"]
 
 
 @pytest.mark.parametrize(

@@ -22,15 +22,6 @@ ON_MANY = deck(
 """A block on a floor of n x n fixed blocks: min(mu, 1/h)."""
 
 
-POINTS = deck(
-    """\
-  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, "=h"]}
-""",
-    "k: 50, h: 1, mu: 0.5",
-    contacts=', points: {per_edge: "=k"}',
-)
-
-
 CORNERS = deck(
     """\
   - column: {group: column, material: stone, radius: 0.5, height: "=h", drums: 2, sides: "=n", polygon: inscribed}
@@ -59,16 +50,6 @@ def _statics() -> list[Scene]:
 def _points() -> list[Scene]:
     family = "hundreds of contact points in one interface"
     scenes = []
-    for k in (10, 50):
-        for h, word in ((1.0, "slides"), (4.0, "rocks")):
-            scenes += under_both_rules(
-                f"{k} points on every edge, {word}",
-                family,
-                POINTS,
-                min(0.5, 1 / h),
-                overrides=(f"parameters.k={k}", f"parameters.h={h!r}"),
-                long=k > 10,
-            )
     for n in (100, 360):
         for h, word in ((1.0, "slides"), (4.0, "rocks")):
             scenes += under_both_rules(

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mbla.program import assemble
-from tests.performance.bench_rivals import RIVALS
 from tests.performance.rivals import coupled_blocks, cvxpy_models, linear_programs
 from tests.performance.rivals.linear_programs import friction_sides
 from tests.performance.rivals.statement import Statement, statement_of
@@ -92,21 +91,3 @@ def test_the_polyhedron_lies_inside_the_cone_and_touches_it_along_the_tangents()
     assert reach.max() == pytest.approx(0.5)
     assert reach.min() == pytest.approx(0.5 * EIGHT_SIDES, rel=1e-3)
     assert reach[0] == reach[40] == pytest.approx(0.5)
-
-
-def test_residuals_are_relative_to_the_weight_of_a_block() -> None:
-    written = statement("wall, planar, 5 x 5", *SMALL["wall, planar, 5 x 5"][0])
-    none = np.zeros(written.matrix.shape[1])
-    weights = np.linalg.norm(written.dead.reshape(-1, 3)[:, :2], axis=1)
-    assert written.residual(none, 0.0) == pytest.approx(weights.max() / weights.mean())
-    pulled = none.copy()
-    pulled[0] = -5.0 * written.weight
-    assert written.residual(pulled, 0.0) >= 5.0
-
-
-def test_own_answers() -> None:
-    wall = structure("wall, planar, 5 x 5", *SMALL["wall, planar, 5 x 5"][0])
-    assert RIVALS["mbla, standing"].solve(wall).status == "stands: yes"
-    answer = RIVALS["mbla"].solve(wall)
-    assert answer.status == "solved"
-    assert answer.bounds == pytest.approx((0.65, 0.65), rel=1e-6)

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-REFUSED, NOT_READ, USAGE = 3, 6, 2
-"""exit status of what is no deck, of what cannot be read, and of a command line that is wrong"""
+REFUSED, NOT_READ = 3, 6
+"""exit status of what is no deck, and of what cannot be read"""
 
 Write = Callable[[Path], None]
 """writes into a folder what the case needs"""
