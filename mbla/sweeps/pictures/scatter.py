@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.results.pictures.diagrams import dress
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, Page
-from mbla.sweeps.pictures.sheet import CROWD, MANY, mark_along, mark_handles, open_sheet, scale_axis
+from mbla.sweeps.pictures.sheet import MANY, mark_along, mark_handles, open_sheet, scale_axis
 from mbla.sweeps.pictures.tornado import LEAST_POINTS, correlation
 from mbla.sweeps.pictures.view import MOST_PANELS, View, axis_of, design_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn
@@ -54,7 +54,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
 
     with open_sheet(path, view, what, options, handles, notes) as sheet:
         frames, count = sheet.frames(len(columns), sharey=True), int(answers.good.sum())
-        size = (6 if count < CROWD else 3) * sheet.page.scale
+        size = (6 if count < MANY / 10 else 3) * sheet.page.scale
         style = {"linestyle": "none", "marker": "o", "color": BLUE, "alpha": 0.6, "markersize": size, "zorder": 3}
         for column, title, axes in zip(columns, titles, frames.flat, strict=False):
             axis = axis_of(view.table, column)
@@ -79,5 +79,5 @@ def _title(view: View, column: SweepColumn) -> str:
     if view.answers.categories or column.role != "parameter" or column.kind not in ("float", "int"):
         return ""
     found = correlation(view, column)
-    known = found.points >= LEAST_POINTS and not np.isnan(found.value)
+    known = view.answers.good.sum() >= LEAST_POINTS and not np.isnan(found.value)
     return f"rank correlation {found.value:+.2f}" if known else ""

@@ -78,7 +78,7 @@ def test_a_tornado_is_sorted(tmp_path: Path, figures: list[Any]) -> None:
     draw(table, tmp_path, "tornado")
     axes = figures[0].axes[0]
     bars = [bar.get_width() for bar in axes.patches]
-    assert [text.get_text().split("\n")[0] for text in axes.get_yticklabels()] == ["strong", "weak"]
+    assert [text.get_text().split(",")[0] for text in axes.get_yticklabels()] == ["strong", "weak"]
     assert bars == [-5.0, 1.0]
 
 
