@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -183,20 +183,17 @@ def chosen_results(table: SweepTable, name: str | None) -> tuple[SweepColumn, ..
     Raises UsageError where there is none of that name, and for a table without results.
     """
     results = table.of_role("result")
-    if name is not None:
-        chosen = [column for column in results if column.name == name]
-        chosen = chosen or [column for column in results if column.path == name]
-        if not chosen:
-            names = [column.name for column in results]
-            raise UsageError("unknown-column", f"--result {name}: {unknown('result', name, names, 'the sweep has')}")
-        return tuple(chosen)
-    for path in ("load_factor", *dict.fromkeys(column.path for column in results if column.kind in ("float", "int"))):
-        chosen = [column for column in results if column.path == path]
-        if chosen:
-            return tuple(chosen)
-    if results:
-        return (results[0],)
-    raise UsageError("nothing-to-draw", "the sweep has no result columns to draw")
+    if not results:
+        raise UsageError("nothing-to-draw", "the sweep has no result columns to draw")
+    if name is None:
+        numeric = [column.path for column in results if column.kind in ("float", "int")]
+        paths = [column.path for column in results]
+        name = "load_factor" if "load_factor" in paths else (numeric or paths)[0]
+    chosen = [column for column in results if column.name == name] or [each for each in results if each.path == name]
+    if not chosen:
+        names = [column.name for column in results]
+        raise UsageError("unknown-column", f"--result {name}: {unknown('result', name, names, 'the sweep has')}")
+    return tuple(chosen)
 
 
 Cells: TypeAlias = "np.recarray[Any, np.dtype[Any]]"
@@ -246,16 +243,6 @@ class Grid:
     panels: Axis | None
     cells: Cells
 
-    @property
-    def axes(self) -> list[Axis]:
-        """Those that there are, from diagrams to places along them."""
-        return [axis for axis in (self.panels, self.lines, self.x) if axis is not None]
-
-    def shaped(self, cells: Cells) -> Cells:
-        """Cells over ``axes`` with all three axes."""
-        sizes = [1 if axis is None else len(axis.levels) for axis in (self.panels, self.lines, self.x)]
-        return cells.reshape(sizes).view(np.recarray)
-
     def title(self, number: int) -> str:
         """Of a diagram: ``thickness 0.3 m``."""
         if self.panels is None:
@@ -277,8 +264,10 @@ def gridded(answers: Answers, x: Axis, *rest: Axis) -> Grid:
     """The points by one parameter and those after it; further parameters are taken together."""
     lines = rest[0] if rest else None
     panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None
-    grid = Grid(x, lines, panels, np.recarray(0, CELL))
-    return replace(grid, cells=grid.shaped(pooled(answers, grid.axes)))
+    along = (panels, lines, x)
+    cells = pooled(answers, [axis for axis in along if axis is not None])
+    sizes = [1 if axis is None else len(axis.levels) for axis in along]
+    return Grid(x, lines, panels, cells.reshape(sizes).view(np.recarray))
 
 
 def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:
