@@ -288,20 +288,12 @@ def constraints(sweep: SweepContent) -> Iterator[Finding]:
 
 
 @rule(SweepContent)
-def cases_once(sweep: SweepContent) -> Iterator[Finding]:
-    """Each load case is solved once."""
-    cases = sweep.cases or []
-    for index, name in enumerate(cases):
-        if name in cases[:index]:
-            yield Finding("duplicate-key", "is given twice", "cases", index)
-
-
-@rule(SweepContent)
-def results_once(sweep: SweepContent) -> Iterator[Finding]:
-    """One column each."""
-    for index, name in enumerate(sweep.results):
-        if name in sweep.results[:index]:
-            yield Finding("duplicate-key", "is given twice", "results", index)
+def names_once(sweep: SweepContent) -> Iterator[Finding]:
+    """Each load case is solved once, each result is one column."""
+    for key, names in (("cases", sweep.cases or []), ("results", sweep.results)):
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                yield Finding("duplicate-key", "is given twice", key, index)
 
 
 @rule(SweepContent)
