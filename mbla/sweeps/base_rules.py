@@ -164,7 +164,7 @@ def _columns(base: Base) -> Iterator[Finding]:
     content = base.sweep.content
     owners = dict.fromkeys(OWN_COLUMNS, "a column of every sweep")
     places = result_places(content.results, base.cases)
-    owners |= dict.fromkeys([*content.results, *(place.name for place in places)], "a result")
+    owners |= dict.fromkeys([*content.results, *(name for name, _, _ in places)], "a result")
     for name, parameter in content.parameters.items():
         for column in (f"{name}_azimuth", f"{name}_elevation") if parameter.sphere is not None else (name,):
             if column in owners:

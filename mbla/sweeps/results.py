@@ -8,7 +8,6 @@ none, and the status is that of the first position that leaves it unknown.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from mbla.deck.suggestions import did_you_mean, listed
@@ -43,34 +42,22 @@ def is_of_run(path: str) -> bool:
     return path.partition(".")[0] in OF_RUN and path not in TIME_OF_CASE
 
 
-@dataclass(frozen=True)
-class ResultPlace:
-    """Where the value of one column is.
+def result_places(results: Sequence[str], cases: Sequence[str]) -> list[tuple[str, str, str]]:
+    """Name, load case and key path of each column: case by case, then those of the whole run, which have no case.
 
-    name : of the column: the path, with ``CASE.`` before it where several load cases are solved
-    case : load case; empty for values of the whole run
-    path : keys, and numbers of items of lists, from the object of the case or of the run
+    The name is the path, with ``CASE.`` before it where several load cases are solved.
     """
-
-    name: str
-    case: str
-    path: tuple[str, ...]
-
-
-def result_places(results: Sequence[str], cases: Sequence[str]) -> tuple[ResultPlace, ...]:
-    """The columns of a sweep: case by case, then those of the whole run."""
-    of_cases = [path for path in results if not is_of_run(path)]
     of_run = [path for path in results if is_of_run(path)]
     prefixes = {case: f"{case}." if len(cases) > 1 else "" for case in cases}
-    places = [ResultPlace(prefixes[case] + path, case, tuple(path.split("."))) for case in cases for path in of_cases]
-    return (*places, *(ResultPlace(path, "", tuple(path.split("."))) for path in of_run))
+    places = [(prefixes[case] + path, case, path) for case in cases for path in results if path not in of_run]
+    return [*places, *((path, "", path) for path in of_run)]
 
 
-def values_of(record: Mapping[str, Any], places: Sequence[ResultPlace]) -> dict[str, Plain]:
+def values_of(record: Mapping[str, Any], places: Sequence[tuple[str, str, str]]) -> dict[str, Plain]:
     """Value of each column in the JSON record of a run; None where the run has none."""
     cases = {case["name"]: case for case in record["cases"]}
     cases |= {series["name"]: _of_series(series, cases) for series in record["series"]}
-    return {place.name: _at(cases.get(place.case) if place.case else record, place.path) for place in places}
+    return {name: _at(cases.get(case) if case else record, path.split(".")) for name, case, path in places}
 
 
 def reason_of(record: Mapping[str, Any]) -> str:
@@ -133,23 +120,12 @@ def result_columns(results: Sequence[str], cases: Sequence[str], units: Units) -
     The paths must have passed ``result_fault``.
     """
     columns = []
-    for place in result_places(results, cases):
-        key = _key_at(place.path)
-        if key is None:
-            raise AssertionError(f"{'.'.join(place.path)} was not checked")
+    for name, case, path in result_places(results, cases):
+        key = _key_at(path.split("."))
+        assert key is not None, f"{path} was not checked"
         unit = "" if key.unit == "1" else unit_text(key.unit, units)
-        path = ".".join(place.path)
-        columns.append(
-            SweepColumn(
-                place.name,
-                unit,
-                key.words.replace("null", "empty"),
-                KINDS[_kind(key)],
-                "result",
-                case=place.case,
-                path=path,
-            )
-        )
+        words = key.words.replace("null", "empty")
+        columns.append(SweepColumn(name, unit, words, KINDS[_kind(key)], "result", case=case, path=path))
     return tuple(columns)
 
 
