@@ -33,34 +33,6 @@ def mbla(*arguments: str | Path, **options: Any) -> subprocess.CompletedProcess[
     return subprocess.run(command, stderr=subprocess.PIPE, check=False, **options)
 
 
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_signals_end_the_run_and_keep_the_earlier_result(tmp_path: Path, number: signal.Signals, status: int) -> None:
-    deck = written(tmp_path / "wall.yaml", WALL)
-    assert main(["run", str(deck), "-q"]) == 0
-    folder = tmp_path / "wall.out"
-    before = {path.name: path.read_bytes() for path in folder.iterdir()}
-    long = ["--set", "parameters.n=25", "--flow-rule", "non_associative", "--force"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "mbla", "run", str(deck), *long],
-        stderr=subprocess.PIPE,
-    )
-    deadline = time.monotonic() + 60
-    while (folder / "wall.sta").read_bytes().count(b"\n") < 5 or (folder / "wall.sta").read_bytes() == before[
-        "wall.sta"
-    ]:
-        assert time.monotonic() < deadline
-        assert process.poll() is None
-        time.sleep(0.02)
-    process.send_signal(number)
-    try:
-        _, err = process.communicate(timeout=30)
-    finally:
-        process.kill()
-    assert process.returncode == status
-    assert b"Traceback" not in err
-    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
-
-
 def test_a_run_in_the_background_of_a_script_is_not_interrupted(tmp_path: Path) -> None:
     """Shells start such with SIGINT ignored, and so it stays, as under nohup."""
     deck = written(tmp_path / "wall.yaml", WALL)
