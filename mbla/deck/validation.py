@@ -7,7 +7,9 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, description, sections_at
+from mbla.deck.gone import gone_key, gone_value
 from mbla.deck.quantities import PATTERNS
 from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
@@ -169,9 +171,13 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         meaning = description(root, path)
         return Message("missing-key", "is missing" + (f": {meaning}" if meaning else "")), False
     if kind == "extra_forbidden":
-        return Message("unknown-key", _unknown_key(root, path)), True
+        gone = gone_key(path) if root is DeckContent else None
+        return gone or Message("unknown-key", _unknown_key(root, path)), True
     if kind in ("too_long", "too_short"):
         return Message("wrong-length", _length(context, _items(data, path))), False
+    old = gone_value(path, value) if root is DeckContent else None
+    if old is not None:
+        return old, False
     if kind in _TYPES:
         return _TYPES[kind].around(after=_remedy(kind, value)), is_key
     if kind == "literal_error":

@@ -69,9 +69,8 @@ def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contac
 
 def takes_stress_blocks(analysis: AnalysisSection) -> bool:
     """Whether flow rule, scheme and solver of an analysis go with conditions on interfaces."""
-    schemes = ("auto", "proximal")
     by_flow = analysis.flow_rule == "associative" or (
-        analysis.flow_rule == "non_associative" and analysis.scheme in schemes
+        analysis.flow_rule == "non_associative" and analysis.scheme == "auto"
     )
     by_solver = analysis.friction_cone == "circular" and analysis.solver in ("auto", "clarabel")
     return by_flow and by_solver and not analysis.force_ranges

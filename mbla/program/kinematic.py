@@ -106,6 +106,17 @@ class KinematicForm:
         """Cost vector for other cohesion, tension and compression at the same friction; keeps matrix and rows."""
         return _cost(self.program, limits, self.rows)
 
+    def rhs_for(self, weight: FloatArray, live_power: float = 1.0) -> FloatArray:
+        """Right-hand side with which the contact forces are those of max (live power) λ − Σ weight N.
+
+        weight : (n_points,) of the normal forces, 0 or more: a joint may close by so much before it counts as closed
+        """
+        rows, dry = self.rows, weight[self.rows.dry] / self.limits.friction[self.rows.dry]
+        width = 3 if self.facets is None else len(self.facets)
+        shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
+        shear[: len(dry), : 1 if self.facets is None else width] = dry[:, None]
+        return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel()])
+
 
 PLANAR_FACETS = np.array([[1.0], [-1.0]])
 """The two directions of shear in a plane."""

@@ -20,11 +20,12 @@ from mbla.solution.associative.certificate import cleaned_certificate
 from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.nonassociative.alternation import no_mechanism
+from mbla.solution.nonassociative.default_scheme import looks_lower, solve_by_default
 from mbla.solution.nonassociative.factor_range import FactorRange, factor_range
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, locks_at_dilatancy, non_associative_bounded
-from mbla.solution.nonassociative.proximal import SOLVED, is_rough_enough, solve_proximal
-from mbla.solution.nonassociative.refine_equilibrium import sharpened
+from mbla.solution.nonassociative.refine_equilibrium import misfit, sharpened
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, StandingResult, Status
 from mbla.solution.standing.standing import (
@@ -34,11 +35,12 @@ from mbla.solution.standing.standing import (
     stress_free_state,
 )
 from mbla.solution.standing.standing_path import StandingPath
-from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
 )
+LOCKED_BY_CONTACT = "no motion that closes no joint gains work from the live load: it locks under any multiple"
 APART = Message("associative-bounds-apart", "with associative flow {}")
 
 RANGE_RESIDUAL = SOLVED_RESIDUAL
@@ -48,18 +50,17 @@ SUSPECT = 0.85
 """Share of the associative load factor below which the load path is followed. Of 470 clamped and wedged planks the 58
 with a peak lay below, of walls and rooms without one few do."""
 
+LOWER = 1e-6
+"""Share of the load factor by which the least for its mechanism must lie below it to take its place."""
+
 SAME = 1e-3
 """Share of the associative load factor within which another one is next to it."""
 
 BEFORE, FEW_POINTS = 0.99, 1000
 """Share of its load factor at which a structure above that is looked at once, and contact points up to which it is:
 of 120 small clamps, wedges, arches and confined stacks two fell there. On walls of 2,340 and 5,894 points a look takes
-longer than the load factor itself, and all walls on record stand there."""
-
-LARGE = 4000
-"""Unknowns of the motion above which no interior path is followed unless it is asked for. On a planar wall of 30 by 30
-units, 2,745 unknowns, one took 1,018 factorisations, twice the time of the steps; on one of 40 by 40, 4,860 unknowns,
-one took 1,319 in 70 s and ended at 4e-3, where the steps had come to 3e-5 in half of that."""
+longer than the load factor itself, and all walls on record stand there. A load path is followed up to so many too
+unless it is asked for: on a vault of 1,032 it took 90 s, its load factor 2."""
 
 NO_PEAK = Message(
     "peak-not-examined",
@@ -69,14 +70,9 @@ NO_PEAK = Message(
 NOT_REACHED = Message(
     "law-missed", "forces and velocities violate the joint law: residual {:.2g}; the requested {:g} was not reached"
 )
-NOT_FOLLOWED = Message(
-    "interior-not-followed",
-    "interior paths of the exact law were not followed: on a structure of this size they take longer than the steps "
-    "and mostly end with a larger residual; analysis.scheme: interior follows them",
-)
 NOT_PUBLISHED = Message(
-    "proximal-for-published",
-    "the published procedure starts from associative forces, of which there are none here: the proximal scheme was "
+    "default-for-published",
+    "the published procedure starts from associative forces, of which there are none here: the default scheme was "
     "used instead",
 )
 NO_RANGE = Message(
@@ -233,13 +229,15 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
             return replace(result, associative=replace(associative, reason=NO_MECHANISM_AT_DILATANCY))
         sequence = solve_nonassociative(program, associative, settings, log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
+    if no_mechanism(program, settings, log):
+        return replace(result, associative=replace(associative, reason=LOCKED_BY_CONTACT))
     path = StandingPath.from_dead_load(program, settings, associative.stress_free)
     decision = non_associative_bounded(path)
     if decision.verdict is Boundedness.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=decision.reason))
-    if decision.verdict is Boundedness.DOUBTFUL:
-        return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
     sequence = solve_nonassociative(program, associative, settings, log)
+    if decision.verdict is Boundedness.DOUBTFUL and sequence.status is not Status.SOLVED:
+        return replace(result, associative=replace(associative, status=Status.NOT_VERIFIED, reason=decision.reason))
     sequence = replace(sequence, remarks=(decision.reason, *sequence.remarks))
     result = replace(result, associative=replace(associative, reason=""), sequence=sequence)
     return _judged(result, settings, log, path)
@@ -258,10 +256,13 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
     published = settings.analysis.scheme == "published" and above is not None
     if state is None or result.status not in WITH_VALUE or result.program.settles or published:
         return result
-    if 0.0 < SUSPECT * most < state.load_factor and not _falls_before(result, state, most, settings):
+    first = result.sequence.first if result.sequence is not None else None
+    reached = state.load_factor if first is None else max(first, state.load_factor)
+    if 0.0 < SUSPECT * most < reached and not _falls_before(result, state, most, settings):
         return result
     rough = state.residual > RANGE_RESIDUAL
-    if rough and above is not None and state.load_factor > 0.0:
+    unasked = result.program.n_points > FEW_POINTS and not settings.analysis.peak
+    if (rough or unasked) and above is not None and state.load_factor > 0.0:
         return result.with_remark(NO_PEAK)
     from mbla.solution.nonassociative.first_fall import judged_by_path  # late: the load path is followed rarely
 
@@ -295,7 +296,21 @@ def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartR
         found = factor_range(result.program, state, settings, log, len(result.programs) + 1, slope)
     except np.linalg.LinAlgError as error:
         return result.with_remark(RANGE_BROKE_DOWN.format(str(error).lower()))
-    return replace(result, range=found)
+    lowers = looks_lower(result.program, settings)
+    return replace(_at_lower_end(result, found.lower, slope) if lowers else result, range=found)
+
+
+def _at_lower_end(result: PartResult, lower: LawState | None, slope: FloatArray | float) -> PartResult:
+    """The least load factor for the mechanism is the answer, where its state fits the law and is in balance.
+
+    slope : (n_points,) tangent of the dilatancy angle, or 0
+    """
+    program, sequence, state = result.program, result.sequence, result.state
+    if lower is None or sequence is None or state is None or result.peak is not None:
+        return result
+    if lower.load_factor > (1.0 - LOWER) * state.load_factor or misfit(program, lower) > EXACT_RESIDUAL:
+        return result
+    return replace(result, sequence=sharpened(program, result.associative, slope, replace(sequence, state=lower)))
 
 
 def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
@@ -319,7 +334,7 @@ def solve_nonassociative(
     sequence = by_rule.get(analysis.flow_rule, SCHEMES[analysis.scheme])(program, associative, settings, log)
     if analysis.flow_rule == "livesley" or (analysis.flow_rule == "non_associative" and analysis.scheme == "published"):
         return sequence
-    if settings.residual <= SOLVED:  # with a state that light blocks fit too, unless a rough one was asked for
+    if settings.residual <= EXACT_RESIDUAL:  # with a state that light blocks fit too, unless a rough one was asked for
         slope = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else 0.0
         sequence = sharpened(program, associative, slope, sequence)
     state, wanted = sequence.state, settings.residual
@@ -328,60 +343,23 @@ def solve_nonassociative(
     return replace(sequence, remarks=(*sequence.remarks, NOT_REACHED.format(state.residual, wanted)))
 
 
-def _proximal(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    return solve_proximal(program, associative, settings.analysis.proximal.max_programs, settings, log)
-
-
-def _interior(
-    program: Program,
-    associative: AssociativeResult,
-    settings: SolverSettings,
-    log: Log,
-    start: SequenceResult | None = None,
-) -> SequenceResult:
-    from mbla.solution.nonassociative.interior_path.solve_interior import solve_interior
-
-    return solve_interior(program, associative, settings.analysis.interior, settings, log, start=start)
-
-
-def _auto(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    """The proximal scheme, and the interior path where that stalls above the residual of a state of the exact law.
-
-    A sharper one is asked of what was found: the other scheme would end in another state, and costs many times more.
-    """
-    sequence = _proximal(program, associative, settings, log)
-    state, wanted = sequence.state, settings.residual
-    if state is not None and (state.residual <= SOLVED or is_rough_enough(program, 0.0, state, wanted)):
-        return sequence
-    if sequence.status is Status.TIME_LIMIT:
-        return sequence
-    if state is not None and len(program.dead_load) > LARGE:
-        return replace(sequence, remarks=(*sequence.remarks, NOT_FOLLOWED))
-    return _interior(program, associative, settings, log, start=sequence)
-
-
-def _lowest(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    from mbla.solution.nonassociative.search_lower_factor import search_lower_factor
-
-    sequence = _auto(program, associative, settings, log)
-    return search_lower_factor(program, sequence, settings.analysis.lowest, settings, log)
+def _default(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
+    return solve_by_default(program, associative, np.zeros(program.n_points), settings, log)
 
 
 def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    """The published procedure starts from associative forces; where there are none the proximal scheme has to do."""
+    """The published procedure starts from associative forces; where there are none the default scheme has to do."""
     from mbla.solution.nonassociative.published import solve_published
 
     if associative.state is None:
-        sequence = _proximal(program, associative, settings, log)
+        sequence = _default(program, associative, settings, log)
         return replace(sequence, remarks=(*sequence.remarks, NOT_PUBLISHED))
     none = np.zeros(program.n_points)
     return solve_published(program, associative, settings.analysis.published, none, settings, log)
 
 
 def _dilatancy(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    from mbla.solution.nonassociative.dilatancy import solve_dilatancy
-
-    return solve_dilatancy(program, associative, settings.analysis.proximal, settings, log)
+    return solve_by_default(program, associative, program.limits.dilatancy, settings, log)
 
 
 def _livesley(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
@@ -393,11 +371,5 @@ def _livesley(program: Program, associative: AssociativeResult, settings: Solver
     return solve_livesley(program, associative, settings, log, facets=facets)
 
 
-SCHEMES: Mapping[str, Scheme] = {
-    "auto": _auto,
-    "proximal": _proximal,
-    "interior": _interior,
-    "lowest": _lowest,
-    "published": _published,
-}
+SCHEMES: Mapping[str, Scheme] = {"auto": _default, "published": _published}
 """By the deck's word."""

@@ -24,6 +24,7 @@ class SolverSettings:
     cholesky       : of the condensed method, qdldl, superlu or cholmod; None: by size and by what is installed
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
+    search         : iterations spent on lower load factors, over those of the first state found
     range, peak, standing : whether these are found beside the load factor
     analysis       : flow rule, scheme with its parameters, friction polyhedra, ranges of forces
     """
@@ -36,6 +37,7 @@ class SolverSettings:
     gap: float = PRESETS["standard"].gap
     residual: float = PRESETS["standard"].residual
     cholesky: str | None = None
+    search: float = PRESETS["standard"].search
     range: bool = PRESETS["standard"].range
     peak: bool = PRESETS["standard"].peak
     standing: bool = PRESETS["standard"].standing

@@ -19,13 +19,10 @@ from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges gap interior max_iterations peak proximal range reductions residual "
-    "standing time_limit tolerance",
-    "InteriorScheme": "max_factorizations tries",
-    "LowestScheme": "seed",
+    "AnalysisSection": "force_ranges gap max_iterations peak range reductions residual "
+    "search standing time_limit tolerance",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
-    "ProximalScheme": "max_programs",
     "PublishedScheme": "averaging max_programs",
     "SymmetryPlane": "z",
 }

@@ -31,14 +31,13 @@ SPATIAL = "analysis.reductions=false"
 CONE, HIGHS = (ASSOCIATIVE,), (ASSOCIATIVE, "analysis.solver=highs")
 OCTAGON = (ASSOCIATIVE, "analysis.friction_cone=polyhedral", "analysis.sides=8")
 CONVEX = (ASSOCIATIVE, "analysis.contact_model=convex")
-SETTLED = ("analysis.flow_rule=non_associative", "analysis.scheme=proximal")
-INTERIOR = ("analysis.flow_rule=non_associative", "analysis.scheme=interior")
+WITHOUT = ("analysis.flow_rule=non_associative",)
 FORMULATIONS = {
     "ferris_wall_1_associative": (CONE, HIGHS, OCTAGON, CONVEX, (*CONE, SPATIAL)),
     "ferris_wall_3_associative": (CONE, HIGHS, OCTAGON, CONVEX, (*CONE, SPATIAL), (*OCTAGON, SPATIAL)),
     "ferris_wall_5_associative": (CONE, HIGHS, OCTAGON, CONVEX, (*CONE, SPATIAL)),
-    "oppenheim_arch": (CONE, CONVEX, SETTLED, INTERIOR),
-    "arch_50_voussoirs": (CONE, HIGHS, CONVEX, SETTLED, INTERIOR, (*CONE, SPATIAL)),
+    "oppenheim_arch": (CONE, CONVEX, WITHOUT),
+    "arch_50_voussoirs": (CONE, HIGHS, CONVEX, WITHOUT, (*CONE, SPATIAL)),
     "wall_10x10": (CONE, HIGHS, (*CONE, SPATIAL)),
     "leaning_block_rough_wall": (CONE, CONVEX),
     "eccentric_compression": (CONE, CONVEX),

@@ -121,7 +121,7 @@ def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
         ((), False),
         (("analysis.flow_rule=non_associative",), False),
         (("analysis.contact_model=convex",), False),
-        (("analysis={flow_rule: non_associative, scheme: interior}",), True),
+        (("analysis={flow_rule: non_associative, scheme: published}",), True),
         (("analysis.solver=highs", "analysis.friction_cone=polyhedral"), True),
         (("analysis.solver=mbla",), True),
         (("analysis.force_ranges=true",), True),

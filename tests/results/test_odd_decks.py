@@ -159,7 +159,7 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
     "locked": (WEDGE, ()),
     "time_limit": (STACK, ("analysis.time_limit=0.001",)),
     "iteration_limit": (STACK, ("analysis.max_iterations=2",)),
-    "proximal_1": (TWIST, ("analysis.scheme=proximal", "analysis.proximal.max_programs=1")),
+    "no_search": (TWIST, ("analysis.search=0",)),
     "travel_unbounded": (BEAM, ()),
     "travel_not_verified": (BEAM, ("analysis.max_iterations=3",)),
     "tilt": (BLOCK.replace("{acceleration: [1, 0, 0]}", "{tilt: {axis: [0, 1, 0]}}"), ()),

@@ -18,11 +18,13 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
+import numpy as np
+
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.nonassociative.default_scheme import solve_by_default
 from mbla.solution.nonassociative.law_state import SequenceResult
-from mbla.solution.nonassociative.proximal import solve_proximal
 from mbla.solution.settings import SolverSettings
 from tests.line import line_of
 from tests.solution.structures import barrel, dome, flat_arch, push, random_friction, room, wall, wedge
@@ -81,7 +83,7 @@ def solved_case(name: str) -> tuple[SequenceResult, float, float, float]:
     settings = SolverSettings(1e-8)
     program = max(parts, key=lambda part: part.n_points)
     associative = solve_associative(program, settings, lambda record: None)
-    result = solve_proximal(program, associative, 60, settings, lambda record: None)
+    result = solve_by_default(program, associative, np.zeros(program.n_points), settings, lambda record: None)
     seconds = time.process_time() - started
     factors = [
         math.nan if state is None else program.scaling.load_factor(state.load_factor)

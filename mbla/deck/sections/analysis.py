@@ -33,30 +33,6 @@ class PublishedScheme(Section):
     max_programs: Count = Field(60, description="cone programs before the sequence is given up")
 
 
-class ProximalScheme(Section):
-    """Parameters of the proximal scheme for non-associative flow."""
-
-    max_programs: Count = Field(60, description="proximal steps before the scheme is given up")
-
-
-class InteriorScheme(Section):
-    """Parameters of the interior path for non-associative flow."""
-
-    tries: Count = Field(
-        4, description="starts with other pulls and disturbances; the first that ends in the law is taken"
-    )
-    max_factorizations: Count = Field(
-        4000, description="factorisations of one try, along the path, in descents and polishing"
-    )
-
-
-class LowestScheme(Section):
-    """Parameters of the search for lower load factors."""
-
-    seconds: Time = Field(10.0, description="time for the search")
-    seed: Annotated[int, Integer(ge=0, le=2**32 - 1)] = Field(1, description="of the random mechanisms that are tried")
-
-
 class AnalysisSection(Section):
     """How the load factor is computed."""
 
@@ -84,19 +60,19 @@ class AnalysisSection(Section):
         "convex; clarabel: any; highs: associative flow in planar structures or with polyhedral friction; auto: mbla "
         "or clarabel by size, the results say which",
     )
-    scheme: Literal["auto", "proximal", "interior", "lowest", "published"] = Field(
+    scheme: Literal["auto", "published"] = Field(
         "auto",
-        description="how non-associative flow is solved. proximal: steps from the gravity state to the exact law; "
-        "interior: a path inside the cones followed by arc length through its turning points, then steps of least "
-        "change; the way for domes and cross vaults; auto: proximal, and interior where that stalls, up to 4,000 "
-        "unknowns; lowest: search for lower load factors from the solution; "
+        description="how non-associative flow is solved. auto: an interior-point run on the joint law, then forces for "
+        "the mechanism and a mechanism for the forces in turn, and from there states of lower load factors; "
         "published: the procedure of Portioli et al. 2014",
     )
-    proximal: ProximalScheme = Field(default_factory=ProximalScheme, description="parameters of the proximal scheme")
-    interior: InteriorScheme = Field(default_factory=InteriorScheme, description="parameters of the interior path")
-    lowest: LowestScheme = Field(default_factory=LowestScheme, description="parameters of the search")
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
+    )
+    search: Annotated[float, Quantity("number", ge=0, le=100)] | None = Field(
+        None,
+        description="flow other than associative: iterations that may be spent on states of lower load factors, over "
+        "those of the first state that was found; in space only where it is given; " + set_by_accuracy("search"),
     )
     range: Switch | None = Field(
         None,
@@ -176,8 +152,8 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
         allowed = listed(CONVEX_FLOW_RULES)
         words = f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"
         yield Finding("key-of-another-choice", words, "flow_rule")
-    if analysis.flow_rule == "non_associative" and analysis.scheme not in ("auto", "proximal"):
-        words = f"contact_model: convex allows auto or proximal only ({analysis.scheme} here)"
+    if analysis.flow_rule == "non_associative" and analysis.scheme != "auto":
+        words = f"contact_model: convex allows auto only ({analysis.scheme} here)"
         yield Finding("key-of-another-choice", words, "scheme")
     if analysis.solver == "mbla":
         words = "applies to contact_model: concave only, whose cones have three dimensions: use auto"
@@ -201,14 +177,6 @@ def _with_scheme(*schemes: str) -> Applies:
     return lambda analysis: _no_normality(analysis) and analysis.scheme in schemes
 
 
-def _by_proximal_steps(analysis: AnalysisSection) -> bool:
-    return analysis.flow_rule == "dilatancy" or _with_scheme("auto", "proximal", "lowest")(analysis)
-
-
-def _in_the_interior(analysis: AnalysisSection) -> bool:
-    return _concave(analysis) and _with_scheme("auto", "interior", "lowest")(analysis)
-
-
 def _by_exact_law(analysis: AnalysisSection) -> bool:
     published = analysis.scheme == "published" and _no_normality(analysis)
     return analysis.flow_rule in ("non_associative", "dilatancy") and not published
@@ -217,15 +185,16 @@ def _by_exact_law(analysis: AnalysisSection) -> bool:
 APPLIES: Mapping[str, tuple[Applies, str]] = {
     "sides": (lambda analysis: analysis.friction_cone == "polyhedral", "friction_cone: polyhedral"),
     "scheme": (_no_normality, "flow_rule: non_associative"),
-    "proximal": (_by_proximal_steps, "scheme: auto, proximal or lowest, and flow_rule: dilatancy"),
-    "interior": (_in_the_interior, "scheme: auto, interior or lowest, and contact_model: concave"),
-    "lowest": (_with_scheme("lowest"), "flow_rule: non_associative with scheme: lowest"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
     "gap": (
         lambda analysis: _concave(analysis) and analysis.friction_cone == "circular",
         "contact_model: concave with friction_cone: circular",
     ),
     "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with another scheme than published"),
+    "search": (
+        lambda analysis: _concave(analysis) and _by_exact_law(analysis),
+        "contact_model: concave and flow_rule: non_associative or dilatancy with another scheme than published",
+    ),
     "peak": (
         lambda analysis: _concave(analysis) and _no_normality(analysis),
         "contact_model: concave with flow_rule: non_associative",

@@ -22,7 +22,6 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU
 
 from mbla.arrays import FloatArray, IntArray, distinct
@@ -31,9 +30,6 @@ from mbla.program.program import Program
 from mbla.solution.linear_algebra.block_products import dense_rows, sets_of_alike
 from mbla.solution.linear_algebra.qdldl_factors import elimination_order
 from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, factors_on_the_diagonal
-
-ROUNDING = 1e-14
-"""Relative addition to the diagonal: rounding, for blocks whose joints all let go."""
 
 
 @dataclass(frozen=True)
@@ -66,18 +62,6 @@ class BorderedFactors:
         result = np.empty_like(solution)
         result[self.order] = solution
         return result
-
-    def sign(self) -> float:
-        """Sign of the determinant."""
-        signs = float(np.prod(np.sign(self.factors.U.diagonal())))
-        return signs * _parity(self.factors.perm_r) * _parity(self.factors.perm_c)
-
-
-def _parity(permutation: IntArray) -> float:
-    n = len(permutation)
-    graph = sp.csr_array((np.ones(n), (np.arange(n), permutation)), shape=(n, n))
-    cycles, _ = connected_components(graph, directed=False)
-    return -1.0 if (n - cycles) % 2 else 1.0
 
 
 @dataclass(frozen=True)
@@ -112,11 +96,11 @@ class Stiffness(Places):
         return (self.compatibility @ u).reshape(-1, self.program.components)
 
     def factorized(
-        self, tangents: FloatArray, shift: FloatArray | None, *, fixed_load: bool = False
+        self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False
     ) -> BorderedFactors | None:
         """Factorise with C, (n_points, components, components).
 
-        shift : (n_rows,) of the diagonal; None: of its rounding alone
+        shift : (n_rows,) of the diagonal
 
         None where the matrix is singular to working accuracy.
         """
@@ -125,7 +109,7 @@ class Stiffness(Places):
         factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
 
-    def _matrix(self, tangents: FloatArray, shift: FloatArray | None, fixed_load: bool) -> sp.csc_array:
+    def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_array:
         entries = np.zeros(len(self.indices))
         components = self.program.components
         for group in self.groups:
@@ -135,8 +119,7 @@ class Stiffness(Places):
             halves = halves.transpose(0, 2, 1, 3).reshape(n_sets, n_rows, -1)
             products = np.matmul(halves, group.block.transpose(0, 2, 1))
             entries -= np.bincount(group.place, products.ravel(), len(entries))
-        own = entries[self.diagonal]
-        entries[self.diagonal] += ROUNDING * own if shift is None else -shift
+        entries[self.diagonal] -= shift
         column, row, corner = self.border
         live = self.program.live_load
         entries[column], entries[row] = live, 0.0 if fixed_load else live

@@ -2,8 +2,8 @@
 
 Forces and mechanism may fit the joint law at a load factor that the structure never reaches, or never rests at:
 
-- above the end of the path (``standing_path``), where it no longer stands before. Steps of the scheme
-  from the last state that stands, with the motion in which it falls, lead to the state that belongs to the end; where
+- above the end of the path (``standing_path``), where it no longer stands before. Programs in turn
+  (``alternation``) from the last state that stands lead to the state that belongs to the end; where
   they lead to none there is no answer;
 - below it, where forces that friction holds after the dead load was applied are lost as joints slide. Under a given
   load it collapses at the end of the path then, its peak, and the lower figure is what is left while it moves;
@@ -24,12 +24,11 @@ import numpy as np
 from mbla.errors import Message
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.nonassociative.default_scheme import state_near
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
-from mbla.solution.nonassociative.law_steps import Stepper, step_near
-from mbla.solution.nonassociative.proximal import SOLVED, ProximalRun, step_size, steps_from
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing.standing_path import GROWTH, SMALL, StandingPath
+from mbla.solution.thresholds import EXACT_RESIDUAL
 
 PEAK = 1e-3
 """Share of a load factor by which the end of the path must differ from it."""
@@ -37,9 +36,6 @@ PEAK = 1e-3
 NEAR = 1e-2
 """Share of a load factor by which a state may lie above the last one that stands: how joints share forces between them,
 which follows from their stiffness, counts as much."""
-
-STEPS = 60
-"""Steps of the scheme from the end of the path."""
 
 
 @dataclass(frozen=True)
@@ -95,20 +91,17 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     program, live, found, end = path.program, path.program.scaling.live, sequence.state, path.fall
     assert found is not None
     assert end is not None
-    stepper = Stepper(stiffness_of(program), np.zeros(program.n_points), path.settings, log)
-    run = ProximalRun(stepper, list(sequence.programs))
-    start = _peak(path)
-    first = step_near(stepper, start, step_size(program, start.forces))
-    there = steps_from(run, start.forces if first is None else first.forces, STEPS, first)
+    records = list(sequence.programs)
+    there = state_near(program, _peak(path), path.settings, log, records)
     above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
     most = min((1.0 + NEAR) * path.last.load_factor + margin, found.load_factor)
-    high = there.state is not None and there.state.load_factor > most
-    if there.state is None or there.state.residual > SOLVED or high:
+    if there is None or there.residual > EXACT_RESIDUAL or there.load_factor > most:
         if found.load_factor - path.last.load_factor <= NEAR * found.load_factor:
-            return replace(sequence, programs=tuple(run.records))
+            return replace(sequence, programs=tuple(records))
         reason = NO_STATE.format(above, ends, path.last.load_factor * live)
-        return replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(run.records))
-    return replace(there, remarks=(*sequence.remarks, *there.remarks, LOWER.format(above, ends)))
+        return replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(records))
+    remarks = (*sequence.remarks, LOWER.format(above, ends))
+    return SequenceResult(Status.SOLVED, there, "", tuple(records), remarks=remarks)
 
 
 def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: float) -> PathVerdict:

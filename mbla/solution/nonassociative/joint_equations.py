@@ -1,8 +1,7 @@
 """Joints strictly inside their law: unknowns, equations, their elimination joint by joint, the way to the boundary.
 
-Both interior-point methods solve these equations, ``interior_step`` for one step from anchor forces x̄ and
-``central_path`` along a path. The law is written as products of what a joint has left and how it moves, all positive,
-with l = β N + h the limit of shear::
+``moving_anchor`` solves these equations. The law, with dilatancy δ, is written as products of what a joint has left and
+how it moves, all positive, with l = μ N + c the limit of shear and anchor forces x̄::
 
     A x + f_D + λ f_L = 0,   f_L·u = 1,   v = Aᵀu
     y − z = v_N + ρ (N − N̄) − δ s,     (N + f_t) y = σ,   (f_c − N) z = σ
@@ -35,31 +34,6 @@ LEAST_LIMIT = 1e-10
 
 
 @dataclass(frozen=True)
-class InteriorLaw:
-    """Joint law of a step, (n_points,) each: shear limit l = slope N + offset, tangent of the dilatancy angle."""
-
-    slope: FloatArray
-    offset: FloatArray
-    dilatancy: FloatArray
-
-
-def exact_law(program: Program, dilatancy: FloatArray) -> InteriorLaw:
-    """The joint law with a dilatancy, the tangent of its angle, (n_points,)."""
-    return InteriorLaw(program.limits.friction, program.limits.cohesion, dilatancy)
-
-
-def lagged_law(program: Program, dilatancy: FloatArray, anchor: FloatArray) -> InteriorLaw:
-    """Friction beyond the dilatancy taken from the anchor's normal forces: a convex program.
-
-    dilatancy : (n_points,) tangent of its angle
-    anchor    : (n_points, components)  forces, non-dimensional, compression positive
-    """
-    limits = program.limits
-    offset = np.maximum((limits.friction - dilatancy) * anchor[:, 0] + limits.cohesion, 0.0)
-    return InteriorLaw(dilatancy, offset, dilatancy)
-
-
-@dataclass(frozen=True)
 class Iterate:
     """Unknowns, or a change of them.
 
@@ -70,7 +44,6 @@ class Iterate:
     slip      : (n_points, components − 1) w
     speed     : (n_points,) s
     crushing  : (n_crushable,) z
-    log_sigma : natural logarithm of σ, along a path
     """
 
     u: FloatArray
@@ -81,37 +54,32 @@ class Iterate:
     slip: FloatArray
     speed: FloatArray
     crushing: FloatArray
-    log_sigma: float = 0.0
 
     def plus(self, change: Iterate, length: float = 1.0) -> Iterate:
         """The iterate a length along a direction."""
         return Iterate(*(a + length * b for a, b in zip(vars(self).values(), vars(change).values(), strict=True)))
-
-    def times(self, length: float) -> Iterate:
-        """A multiple of a change."""
-        return Iterate(*(length * part for part in vars(self).values()))
 
 
 @dataclass(frozen=True)
 class JointEquations:
     """The equations of one program.
 
+    dilatancy : (n_points,) tangent of its angle
     anchor    : (n_points, components) x̄
     crushable : numbers of the points of finite compressive strength
     """
 
     stiffness: Stiffness
-    law: InteriorLaw
+    dilatancy: FloatArray
     anchor: FloatArray
     rho: float
     crushable: IntArray
 
     @staticmethod
-    def of(stiffness: Stiffness, law: InteriorLaw, anchor: FloatArray, rho: float) -> JointEquations:
+    def of(stiffness: Stiffness, dilatancy: FloatArray, anchor: FloatArray, rho: float) -> JointEquations:
         """Of a program; the forces x̄ of the anchor are (n_points, components)."""
-        return JointEquations(
-            stiffness, law, anchor, rho, np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
-        )
+        crushable = np.flatnonzero(np.isfinite(stiffness.program.limits.compression))
+        return JointEquations(stiffness, dilatancy, anchor, rho, crushable)
 
     @property
     def program(self) -> Program:
@@ -120,8 +88,9 @@ class JointEquations:
 
     def limit(self, normal: FloatArray) -> FloatArray:
         """Shear limit l at normal forces over −f_t, N + f_t; both are (n_points,)."""
-        full = self.law.slope * (normal - self.program.limits.tension) + self.law.offset
-        return np.where(self.law.slope > 0.0, full, np.maximum(full, LEAST_LIMIT))
+        limits = self.program.limits
+        full = limits.friction * (normal - limits.tension) + limits.cohesion
+        return np.where(limits.friction > 0.0, full, np.maximum(full, LEAST_LIMIT))
 
     def forces(self, now: Iterate) -> FloatArray:
         """Contact forces, (n_points, components)."""
@@ -169,7 +138,7 @@ def residuals(step: JointEquations, now: Iterate) -> Missing:
     balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + now.factor * program.live_load
     elastic = step.rho * (forces - step.anchor)
     limit = step.limit(now.normal)
-    normal = v[:, 0] + elastic[:, 0] - step.law.dilatancy * now.speed - now.opening
+    normal = v[:, 0] + elastic[:, 0] - step.dilatancy * now.speed - now.opening
     normal[step.crushable] += now.crushing
     return Missing(
         balance=np.append(balance, program.live_load @ now.u - 1.0),
@@ -211,7 +180,7 @@ def step_to_boundary(step: JointEquations, now: Iterate, direction: Iterate) -> 
         (now.crushing, direction.crushing),
     )
     cones = (
-        (step.limit(now.normal), now.shear, step.law.slope * direction.normal, direction.shear),
+        (step.limit(now.normal), now.shear, step.program.limits.friction * direction.normal, direction.shear),
         (now.speed, now.slip, direction.speed, direction.slip),
     )
     reach = [float(lines_to_boundary(value, change).min(initial=np.inf)) for value, change in lines]
@@ -236,20 +205,20 @@ class Joints:
     @staticmethod
     def of(step: JointEquations, now: Iterate) -> Joints:
         """Eliminate openings and sliding velocities: H dx = −G dv + q, C = H⁻¹ G."""
-        law, rho, c = step.law, step.rho, step.program.components
+        rho, c = step.rho, step.program.components
         limit = step.limit(now.normal)
         over = 1.0 / limit
         cone = limit[:, None, None] * np.eye(c - 1) - (over[:, None] * now.shear)[:, :, None] * now.shear[:, None, :]
         h = np.zeros((len(limit), c, c))
         g = np.zeros_like(h)
-        h[:, 0, 0] = rho + now.opening / now.normal + law.dilatancy * law.slope * now.speed * over
+        h[:, 0, 0] = rho + now.opening / now.normal + step.dilatancy * step.program.limits.friction * now.speed * over
         h[step.crushable, 0, 0] += now.crushing / step.room(now.normal)
-        h[:, 0, 1:] = (law.dilatancy * over)[:, None] * (rho * now.shear + now.slip)
-        h[:, 1:, 0] = law.slope[:, None] * (now.slip - (now.speed * over)[:, None] * now.shear)
+        h[:, 0, 1:] = (step.dilatancy * over)[:, None] * (rho * now.shear + now.slip)
+        h[:, 1:, 0] = step.program.limits.friction[:, None] * (now.slip - (now.speed * over)[:, None] * now.shear)
         h[:, 1:, 1:] = rho * cone + now.speed[:, None, None] * np.eye(c - 1)
         h[:, 1:, 1:] -= (over[:, None] * now.shear)[:, :, None] * now.slip[:, None, :]
         g[:, 0, 0] = 1.0
-        g[:, 0, 1:] = (law.dilatancy * over)[:, None] * now.shear
+        g[:, 0, 1:] = (step.dilatancy * over)[:, None] * now.shear
         g[:, 1:, 1:] = cone
         inverse = inverses(h)
         return Joints(step, limit, cone, inverse, np.matmul(inverse, g))
@@ -265,12 +234,12 @@ class Joints:
 
         solve : from a right-hand side, (n_rows + 1,), to velocities and load factor, (n_rows + 1,)
         """
-        step, law, program = self.step, self.step.law, self.step.program
+        step, program = self.step, self.step.program
         opening, crushing, sliding, turning = products.opening, products.crushing, products.sliding, products.turning
         over = 1.0 / self.limit
         normal = opening / now.normal - missing.normal
         normal[step.crushable] -= crushing / step.room(now.normal)
-        normal += law.dilatancy * over * (sliding - (now.shear * missing.shear).sum(axis=1))
+        normal += step.dilatancy * over * (sliding - (now.shear * missing.shear).sum(axis=1))
         shear = turning - (over * sliding)[:, None] * now.shear - np.einsum("pij,pj->pi", self.cone, missing.shear)
         free = np.einsum("pij,pj->pi", self.inverse, np.column_stack([normal, shear]))
         rhs = -missing.balance
@@ -279,7 +248,7 @@ class Joints:
         dv = step.stiffness.velocities(answer[:-1])
         dx = free - np.einsum("pij,pj->pi", self.tangents, dv)
         slip = dv[:, 1:] + step.rho * dx[:, 1:] + missing.shear
-        speed = sliding - now.speed * law.slope * dx[:, 0]
+        speed = sliding - now.speed * step.program.limits.friction * dx[:, 0]
         speed = over * (speed - (now.shear * slip).sum(axis=1) - (now.slip * dx[:, 1:]).sum(axis=1))
         return Iterate(
             u=answer[:-1],
@@ -294,18 +263,22 @@ class Joints:
 
 
 def wanted(
-    step: JointEquations, missing: Missing, target: float, predictor: Iterate | None = None, second: float = 0.0
+    step: JointEquations,
+    missing: Missing,
+    target: FloatArray,
+    predictor: Iterate | None = None,
+    second: float = 0.0,
 ) -> Products:
-    """Changes to products ``target``, less the second-order terms of a predictor weighted by ``second``."""
+    """Changes to products ``target``, (n_points,), less the second-order terms of a predictor times ``second``."""
     plain = Products(
         opening=target - missing.normal_product,
-        crushing=target - missing.crushing_product,
+        crushing=target[step.crushable] - missing.crushing_product,
         sliding=target - missing.shear_product,
         turning=-missing.shear_direction,
     )
     if predictor is None or second == 0.0:
         return plain
-    growth = step.law.slope * predictor.normal
+    growth = step.program.limits.friction * predictor.normal
     return plain.plus(
         Products(
             opening=-second * predictor.normal * predictor.opening,
@@ -316,14 +289,14 @@ def wanted(
     )
 
 
-def outlying(step: JointEquations, ahead: Iterate, least: float, most: float) -> Products:
-    """Changes that bring products back within limits, by no more than ``most`` downwards.
+def outlying(step: JointEquations, ahead: Iterate, least: FloatArray, most: FloatArray) -> Products:
+    """Changes that bring products back within limits, (n_points,), by no more than ``most`` downwards.
 
     Far too large products are better left alone than fought with (Gondzio 1996).
     """
 
-    def back(product: FloatArray) -> FloatArray:
-        return np.maximum(np.clip(product, least, most) - product, -most)
+    def back(product: FloatArray, at: IntArray | slice = slice(None)) -> FloatArray:
+        return np.maximum(np.clip(product, least[at], most[at]) - product, -most[at])
 
     limit = step.limit(ahead.normal)
     head = limit * ahead.speed + (ahead.shear * ahead.slip).sum(axis=1)
@@ -333,7 +306,7 @@ def outlying(step: JointEquations, ahead: Iterate, least: float, most: float) ->
     way = tail / np.maximum(size, 1e-300)[:, None]
     return Products(
         opening=back(ahead.normal * ahead.opening),
-        crushing=back(step.room(ahead.normal) * ahead.crushing),
+        crushing=back(step.room(ahead.normal) * ahead.crushing, step.crushable),
         sliding=0.5 * (larger + smaller),
         turning=(0.5 * (larger - smaller))[:, None] * way,
     )

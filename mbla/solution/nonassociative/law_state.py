@@ -52,6 +52,7 @@ class SequenceResult:
     remarks : what a reader of the figure must know
     path    : the load path, where one was followed, load factors of the model
     tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
+    first   : load factor of the first state near the law that was found, before lower ones were looked for
     """
 
     status: Status
@@ -62,14 +63,17 @@ class SequenceResult:
     remarks: tuple[Message, ...] = ()
     path: tuple[PathPoint, ...] = ()
     tolerance_requested: float | None = None
+    first: float | None = None
 
 
-def as_asked(state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
+def as_asked(
+    state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...], first: float | None = None
+) -> SequenceResult:
     """A rough state with which a scheme ends, for its residual is within the one that was asked for."""
     words = AS_ASKED.format(residual, wanted)
     if residual <= SOLVED_RESIDUAL:
-        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,))
-    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
+        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,), first=first)
+    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted, first=first)
 
 
 def spread_of(best: LawState, states: Sequence[LawState]) -> tuple[float, float]:

@@ -29,12 +29,13 @@ from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
-from mbla.solution.nonassociative.proximal import SOLVED
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 
-BALANCED = 1e-8
-"""Unbalanced force, over what the block carries, that needs no sharpening. On a light block upon one of 1e6 times its
-weight 9e-8 were worth 9e-7 of the load factor."""
+SHARP = 1e-12
+"""Residual, and unbalanced force over what the block carries, that need no sharpening. On a light block upon one of 1e6
+times its weight 9e-8 of the latter were worth 9e-7 of the load factor, and on wedges in a groove residuals of 1e-9, of
+the convex programs, up to 1e-5."""
 
 NEAR = 1e-5
 """Relative difference of load factors up to which the associative state is the same but sharper."""
@@ -42,8 +43,14 @@ NEAR = 1e-5
 FELL_SHORT = (Status.APPROXIMATE, Status.NOT_VERIFIED)
 """Of sequences that ended without a state of the law."""
 
+MENDS = 0.5
+"""Share of what was wrong after the step before that a step may leave and still be followed by another. The first may
+leave more than there was: of what the convex programs end with the residual is small, but the load factor is not, and
+with steps it is as small as the residual.
+"""
+
 STEP, MOST_STEPS, FACTORIZATIONS = 0.03, 3, 12
-"""ρ ‖x‖² of a step in the unit of the part, as in the proximal scheme; steps, and factorisations of each."""
+"""ρ ‖x‖² of a step in the unit of the part, steps, and factorisations of each."""
 
 
 def sharpened(
@@ -55,23 +62,22 @@ def sharpened(
     """
     if sequence.state is None or program.guided:
         return sequence
-    fell_short = sequence.status in FELL_SHORT or sequence.state.residual > SOLVED
-    if not fell_short and not imbalance(program, sequence.state) > BALANCED:
+    fell_short = sequence.status in FELL_SHORT
+    best, least = sequence.state, misfit(program, sequence.state)
+    if not fell_short and least <= SHARP:
         return sequence
-    best, start = sequence.state, misfit(program, sequence.state)
-    least = start
     for state in _candidates(program, associative, slope, sequence.state):
         found = misfit(program, state)
         if found < least:
             best, least = state, found
-        if least <= BALANCED:
+        if least <= SHARP:
             break
     if best is sequence.state:
         return sequence
-    if not fell_short:
+    if least > EXACT_RESIDUAL:
+        return sequence if fell_short else replace(sequence, state=best)
+    if not fell_short and sequence.state.residual <= EXACT_RESIDUAL:
         return replace(sequence, state=best)
-    if least > SOLVED:
-        return sequence
     return replace(
         sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), tolerance_requested=None
     )
@@ -104,16 +110,20 @@ def _candidates(
     another state, of a higher one, and not just a sharper one.
     """
     stiffness, slopes = stiffness_of(program), np.broadcast_to(slope, program.n_points)
-    factor, least = state.load_factor, misfit(program, state)
+    factor, least, before = state.load_factor, misfit(program, state), np.inf
     for _ in range(MOST_STEPS):
         rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
         law = LawProblem(stiffness, slopes, state.forces, rho)
         step = exact_step(law, state.velocities, state.load_factor, FACTORIZATIONS, balanced=0.0)
         state = law_state(program, slope, step.forces, step.velocities, step.load_factor)
-        least = min(least, misfit(program, state))
+        found = misfit(program, state)
+        least = min(least, found)
         yield state
+        if not found <= MENDS * before:
+            break
+        before = found
     start = associative.state
-    if start is not None and (least > SOLVED or abs(start.load_factor - factor) <= NEAR * abs(factor)):
+    if start is not None and (least > SOLVED_RESIDUAL or abs(start.load_factor - factor) <= NEAR * abs(factor)):
         size = max(abs(start.load_factor), ZERO_FACTOR * program.dead_over_live)  # what its residual is relative to
-        found = law_state(program, slope, start.forces, start.velocities, size)
-        yield replace(found, load_factor=start.load_factor)
+        same = law_state(program, slope, start.forces, start.velocities, size)
+        yield replace(same, load_factor=start.load_factor)

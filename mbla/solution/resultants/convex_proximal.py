@@ -34,6 +34,9 @@ STEP = 0.01
 MOVE = 0.7
 """Share of each step that the anchor moves."""
 
+MOST_STEPS = 60
+"""Steps before the scheme is given up."""
+
 FIRST_TRY, TRY_EVERY = 4, 3
 """The exact law is tried at the fourth step and every third after it."""
 
@@ -95,7 +98,6 @@ class _Run:
 def solve_convex_proximal(
     convex: ConvexProgram,
     records: tuple[ProgramRecord, ...],
-    max_programs: int,
     settings: SolverSettings,
     log: Log,
     unit: float = 1.0,
@@ -113,7 +115,7 @@ def solve_convex_proximal(
     rho = STEP / max(float((anchor**2).sum()), least)
     form, law = convex_proximal_form(convex, rho), convex_law(convex)
     solver = interior_point_solver(form.cone_program, run.settings, log)
-    for step in range(1, max_programs + 1):
+    for step in range(1, MOST_STEPS + 1):
         cost, rhs = _data(form, rho, anchor)
         solver.update(cost=cost, rhs=rhs)
         solution = solver.solve(len(run.records) + 1, -convex.points.scaling.live)

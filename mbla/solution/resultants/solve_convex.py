@@ -51,10 +51,9 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
     sequence, unit = None, 1.0
     locked = associative.status is Status.UNBOUNDED
     if analysis.flow_rule != "associative" and (associative.state is not None or locked):
-        max_programs = analysis.proximal.max_programs
         if associative.state is not None:
             unit = unit_at_collapse(convex, associative.state.load_factor)
-        sequence = solve_convex_proximal(convex, associative.programs, max_programs, settings, log, unit)
+        sequence = solve_convex_proximal(convex, associative.programs, settings, log, unit)
         if locked and sequence.status is not Status.SOLVED:
             sequence = replace(sequence, status=Status.NOT_VERIFIED, state=None, reason=LOCKED)
     mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)
@@ -75,7 +74,7 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
         programs=programs,
         iterations=(),
         seconds=0.0,
-        scheme="" if sequence is None else "proximal",
+        scheme="" if sequence is None else "auto",
         remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
         spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live * unit),
         certificate_motions=motions,

@@ -9,7 +9,7 @@ States are looked at closely enough that nothing is missed between: two in a row
 sticking, so that in a plane all states between them are their combinations; or their load factors are close. The end is
 found by bisection.
 
-Measured on the decks, walls, arches, vaults, stairs: the end of the path is the load factor of the proximal scheme to
+Measured on the decks, walls, arches, vaults, stairs: the end of the path was the load factor of steps of the law to
 five thousandths in 44 of 47. A stair in a round gets its factor 4 % lower, and an exact state there.
 """
 

@@ -110,7 +110,7 @@ def test_torsion_without_dilatancy_follows_the_trapezoidal_rule(n: int) -> None:
     share = np.where(np.abs(at) < 0.5 - 1e-9, 1.0, 0.5) / n
     torsion = sum(share[i] * share[j] * math.hypot(at[i], at[j]) for i, j in itertools.product(range(n + 1), repeat=2))
     assert solution.mechanics is not None
-    assert solution.mechanics.load_factor == pytest.approx(0.5 * weight * torsion, rel=1e-7)
+    assert solution.mechanics.load_factor == pytest.approx(0.5 * weight * torsion, rel=1e-5)  # forces move on the way
     assert 0 < torsion - (math.sqrt(2) + math.asinh(1)) / 6 < 0.32 / n**2
 
 

@@ -15,13 +15,13 @@ from mbla.solution.nonassociative.locking import (
     BoundednessResult,
     non_associative_bounded,
 )
-from mbla.solution.nonassociative.proximal import solve_proximal
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing.standing_path import PathState, StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.decks.folder import BENCHMARKS
 from tests.line import line_of
+from tests.solution.nonassociative.structures import sequence_of
 from tests.solution.standing_structures import bar, box, deck, groove, plane, plug
 
 SETTINGS = SolverSettings(tolerance=1e-8)
@@ -43,7 +43,7 @@ def test_a_wedge_in_a_groove_slides_where_dilatancy_would_lock_it(friction: floa
     associative = solve_associative(program, SETTINGS, lambda record: None)
     assert associative.status is status
     assert non_associative_bounded(StandingPath.from_dead_load(program, SETTINGS)).verdict is Boundedness.BOUNDED
-    sequence = solve_proximal(program, associative, 60, SETTINGS, lambda record: None)
+    sequence = sequence_of(program, SETTINGS)
     assert sequence.status is Status.SOLVED
     assert sequence.state is not None
     assert program.scaling.load_factor(sequence.state.load_factor) == pytest.approx(

@@ -20,7 +20,7 @@ from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.further_claims import peak_check
 from tests.line import BLOCK, HEAD, Line, line_of, load_factor
-from tests.solution.nonassociative.test_factor_range import FERRIS_3, SETTINGS, solved
+from tests.solution.nonassociative.structures import FERRIS_3, SETTINGS, solved
 from tests.solution.planar import planar_program
 
 
@@ -152,10 +152,9 @@ def test_where_it_is_not_seen_to_stand_no_path_is_followed() -> None:
     assert judged_by_path(path, nothing, np.inf, print, 5, peak=True).remark is None
 
 
-@pytest.mark.parametrize("scheme", ["auto", "interior", "proximal"])
-def test_a_ceiling_that_nothing_presses_carries_nothing(scheme: str) -> None:
-    """Steps of the law forget the gap that the weight opens: they end at 0.5625 and 2. The ground gives 0.5."""
-    assert load_factor(CONFINED, f"analysis={{scheme: {scheme}}}") == pytest.approx(0.5, rel=1e-6)
+def test_a_ceiling_that_nothing_presses_carries_nothing() -> None:
+    """The law forgets the gap that the weight opens: it allows 0.5625 and 2. The ground gives 0.5."""
+    assert load_factor(CONFINED, "analysis={}") == pytest.approx(0.5, rel=1e-6)
 
 
 def test_a_state_above_the_end_of_the_path_gives_way_to_the_one_there() -> None:
@@ -164,15 +163,14 @@ def test_a_state_above_the_end_of_the_path_gives_way_to_the_one_there() -> None:
     found = judged(program, at(state, 1.3 * state.load_factor))
     assert found.sequence.status is Status.SOLVED
     assert found.sequence.state is not None
-    assert found.sequence.state.load_factor == pytest.approx(state.load_factor, rel=1e-9)
+    assert found.sequence.state.load_factor == pytest.approx(state.load_factor, rel=1e-6)
     assert found.sequence.remarks[-1].identifier == "found-above-path"
 
 
 def test_without_a_state_at_the_end_of_the_path_there_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(BLOCK, "parameters.h=0.5").program
     state = solved(program)
-    nothing = SequenceResult(Status.NOT_VERIFIED, None, "no further step was found", ())
-    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.steps_from", lambda *arguments: nothing)
+    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments: None)
     found = judged(program, at(state, 1.3 * state.load_factor))
     assert found.sequence.status is Status.NOT_VERIFIED
     assert found.peak is not None
@@ -241,8 +239,7 @@ def test_next_to_the_end_of_the_path_a_state_keeps_its_name(monkeypatch: pytest.
     """Half a hundredth above it, with none found at the end itself: told, not taken away."""
     program = line_of(BLOCK, "parameters.h=0.5").program
     state = solved(program)
-    nothing = SequenceResult(Status.NOT_VERIFIED, None, "no further step was found", ())
-    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.steps_from", lambda *arguments: nothing)
+    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments: None)
     found = judged(program, at(state, 1.005 * state.load_factor))
     assert found.sequence.status is Status.SOLVED
     assert "the load path was followed to" in str(found.remark)

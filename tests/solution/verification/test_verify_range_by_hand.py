@@ -11,7 +11,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.mechanics import mechanics_of
+from mbla.solution.mechanics import lifted, mechanics_of
 from mbla.solution.nonassociative.factor_range import factor_range
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Mechanics, Solution, Status
@@ -19,7 +19,8 @@ from mbla.solution.verification.further_claims import peak_check, range_checks
 from mbla.solution.verification.residuals import Residuals
 from tests.line import Line, line_of
 from tests.solution.by_hand import EXACT, claim, cube, state
-from tests.solution.nonassociative.test_factor_range import FERRIS_3, SETTINGS, solved
+from tests.solution.nonassociative.structures import FERRIS_3, SETTINGS, solved
+from tests.solution.planar import planar_program
 
 MOTION = np.array([[0.5, 0, 0, 0, 0, -0.25]])
 
@@ -159,7 +160,8 @@ def test_forces_that_do_not_carry_their_load(line: Line) -> None:
 def case() -> tuple[Line, Solution]:
     """Wall 3 of Ferris and Tin-Loi 2001 with its range."""
     line = line_of(FERRIS_3)
-    state = solved(line.program)
+    planar = planar_program(line)
+    state = lifted(planar, solved(planar))
     result = factor_range(line.program, state, SETTINGS, lambda record: None, 1)
 
     def mechanics(of: LawState | None) -> Mechanics:

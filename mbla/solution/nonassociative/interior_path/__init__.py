@@ -1,1 +1,0 @@
-"""Interior path of the exact law without dilatancy, followed by arc length through its turning points."""
