@@ -129,14 +129,20 @@ def looks_lower(program: Program, settings: SolverSettings) -> bool:
 
 
 def state_near(
-    program: Program, start: LawState, settings: SolverSettings, log: Log, records: list[ProgramRecord]
+    program: Program, start: LawState, most: float, settings: SolverSettings, log: Log, records: list[ProgramRecord]
 ) -> LawState | None:
-    """The state that steps of the law from another one lead to, or pairs of programs from its normal forces."""
+    """The state that steps of the law from another one lead to, or pairs of programs from its normal forces.
+
+    most : load factor up to which it is one
+    """
     scheme = _Scheme(program, np.zeros(program.n_points), settings, log, records)
     scheme.exact_steps(start.forces, start.velocities, start.load_factor)
     if scheme.least_residual > scheme.wanted:
         scheme.approach(start.forces[:, 0])
-    return scheme.answer
+    if not any(state.load_factor <= most and state.residual <= SOLVED_RESIDUAL for state in scheme.found):
+        scheme.descend(start.forces[:, 0])
+    near = (state for state in scheme.found if state.load_factor <= most)
+    return min(near, key=lambda state: state.residual, default=None)
 
 
 def _uneven(gravity: FloatArray) -> Iterator[FloatArray]:

@@ -28,7 +28,7 @@ from mbla.solution.nonassociative.default_scheme import state_near
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing.standing_path import GROWTH, SMALL, StandingPath
-from mbla.solution.thresholds import EXACT_RESIDUAL
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 PEAK = 1e-3
 """Share of a load factor by which the end of the path must differ from it."""
@@ -92,10 +92,10 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     assert found is not None
     assert end is not None
     records = list(sequence.programs)
-    there = state_near(program, _peak(path), path.settings, log, records)
     above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
     most = min((1.0 + NEAR) * path.last.load_factor + margin, found.load_factor)
-    if there is None or there.residual > EXACT_RESIDUAL or there.load_factor > most:
+    there = state_near(program, _peak(path), most, path.settings, log, records)
+    if there is None or there.residual > SOLVED_RESIDUAL:
         if found.load_factor - path.last.load_factor <= NEAR * found.load_factor:
             return replace(sequence, programs=tuple(records))
         reason = NO_STATE.format(above, ends, path.last.load_factor * live)

@@ -398,7 +398,8 @@ def test_a_state_near_another_one_is_found_from_it() -> None:
     program = line_of(BLOCK, "parameters.h=0.5").program
     exact = solve_associative(program, SETTINGS, lambda record: None).state
     assert exact is not None
-    found = state_near(program, replace(exact, forces=1.1 * exact.forces), SETTINGS, lambda record: None, [])
+    near = replace(exact, forces=1.1 * exact.forces)
+    found = state_near(program, near, np.inf, SETTINGS, lambda record: None, [])
     assert found is not None
     assert found.residual < 1e-6
     assert program.scaling.load_factor(found.load_factor) == pytest.approx(0.5, rel=1e-6)
