@@ -214,3 +214,16 @@ def test_a_draft_assesses_the_standing_where_its_claim_depends_on_it() -> None:
     assert not knobs_of(AnalysisSection(accuracy="draft", flow_rule="associative")).standing
     assert knobs_of(AnalysisSection(accuracy="draft", flow_rule="non_associative")).standing
     assert not knobs_of(AnalysisSection(accuracy="draft", flow_rule="non_associative", standing=False)).standing
+
+
+def test_presets_go_from_rough_to_sharp() -> None:
+    draft, standard, reference = (PRESETS[name] for name in ("draft", "standard", "reference"))
+    for knob in ("tolerance", "gap", "residual"):
+        assert getattr(draft, knob) > getattr(standard, knob) > getattr(reference, knob)
+
+
+def test_every_description_says_what_the_presets_set() -> None:
+    words = {name: AnalysisSection.model_fields[name].description or "" for name in asdict(PRESETS["draft"])}
+    assert all("set by accuracy unless given: draft " in text for text in words.values())
+    assert words["gap"].endswith("draft 0.001, standard 3e-07, reference 5e-08")
+    assert words["range"].endswith("draft false, standard true, reference true")
