@@ -189,7 +189,6 @@ OTHER: dict[str, Any] = {
     "gap": 1e-4,
     "residual": 1e-5,
     "search": 3.0,
-    "forces": "solver",
     "range": False,
     "peak": False,
     "standing": False,

@@ -27,7 +27,8 @@ the law to 1e-9, vaults by a tenth more with every four to eight pairs.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -48,7 +49,8 @@ cost and no bound."""
 
 @dataclass
 class Alternation:
-    """Both programs of one structure, held by solvers that start near their last solutions.
+    """Both programs of one structure, each made when it is first asked for, held by solvers that start near
+    their last solutions.
 
     slope   : (n_points,) tangent of the dilatancy angle
     records : a line for every program
@@ -64,14 +66,16 @@ class Alternation:
     work: int = 0
     programs: int = 0
     late: bool = False
-    _forces: tuple[KinematicForm, InteriorPointSolver] = field(init=False)
-    _motion: tuple[KinematicForm, InteriorPointSolver] = field(init=False)
 
-    def __post_init__(self) -> None:
-        forces = kinematic_form(self.program, self.program.limits)
-        motion = kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
-        self._forces = forces, interior_point_solver(forces.cone_program, self.settings, self.log)
-        self._motion = motion, interior_point_solver(motion.cone_program, self.settings, self.log)
+    @cached_property
+    def _forces(self) -> tuple[KinematicForm, InteriorPointSolver]:
+        form = kinematic_form(self.program, self.program.limits)
+        return form, interior_point_solver(form.cone_program, self.settings, self.log)
+
+    @cached_property
+    def _motion(self) -> tuple[KinematicForm, InteriorPointSolver]:
+        form = kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
+        return form, interior_point_solver(form.cone_program, self.settings, self.log)
 
     def states(self, normal: FloatArray, tilt: float = 0.0) -> Iterator[LawState]:
         """States of pairs of programs without end, or until one of them has no solution.

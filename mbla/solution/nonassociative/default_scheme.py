@@ -28,7 +28,6 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.nonassociative.alternation import Alternation
-from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import (
     LawState,
     SequenceResult,
@@ -37,7 +36,7 @@ from mbla.solution.nonassociative.law_state import (
     residual_with_closing,
 )
 from mbla.solution.nonassociative.moving_anchor import run_with_moving_anchor
-from mbla.solution.nonassociative.refine_equilibrium import imbalance
+from mbla.solution.nonassociative.refine_equilibrium import imbalance, stepped
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
 from mbla.solution.standing.standing import gravity_forces
@@ -80,9 +79,8 @@ UNBALANCED = 1e-3
 """Unbalanced force of a block, over what it carries, with which a state is none: beside blocks of 1e8 times its weight
 the programs do not see a block."""
 
-STEP, STEPS, STEP_WORK = 0.03, 3, 30
-"""Steps of the exact law where the programs found nothing: ρ ‖x‖² in the unit of the part, how many, and factorisations
-of each."""
+STEPS, STEP_WORK = 3, 30
+"""Steps of the exact law where the programs found nothing, and factorisations of each."""
 
 NEAR_BEST = 10.0
 """States within so many times the least residual count as fitting, where none fits the law exactly."""
@@ -110,7 +108,7 @@ def solve_by_default(
             break
     if scheme.least_residual > SOLVED_RESIDUAL and not scheme.late:
         live = program.live_load
-        scheme.exact_steps(gravity, live / float(live @ live), 0.0)
+        scheme.exact_steps(LawState(gravity, live / float(live @ live), 0.0, np.inf))
         if start is not None:
             scheme.keep(law_state(program, slope, start.forces, start.velocities, start.load_factor))
     elif looks_lower(program, settings) and scheme.answer is not None and scheme.answer.residual <= SOLVED_RESIDUAL:
@@ -136,7 +134,7 @@ def state_near(
     most : load factor up to which it is one
     """
     scheme = _Scheme(program, np.zeros(program.n_points), settings, log, records)
-    scheme.exact_steps(start.forces, start.velocities, start.load_factor)
+    scheme.exact_steps(start)
     if scheme.least_residual > scheme.wanted:
         scheme.approach(start.forces[:, 0])
     if not any(state.load_factor <= most and state.residual <= SOLVED_RESIDUAL for state in scheme.found):
@@ -249,16 +247,13 @@ class _Scheme:
         self.keep(state)
         return [state.forces]
 
-    def exact_steps(self, forces: FloatArray, u: FloatArray, load_factor: float) -> None:
-        """Steps of the exact law to rounding from forces, (n_points, components), and velocities, (n_rows,)."""
+    def exact_steps(self, state: LawState) -> None:
+        """Steps of the exact law to rounding from the forces and the motion of a state."""
         stiffness = stiffness_of(self.program)
         for _ in range(STEPS):
-            rho = STEP * self.program.own_unit / max(float((forces**2).sum()), np.finfo(float).tiny)
-            law = LawProblem(stiffness, self.slope, forces, rho)
-            step = exact_step(law, u, load_factor, STEP_WORK, balanced=0.0)
-            self.spent += step.factorizations
-            forces, u, load_factor = step.forces, step.velocities, step.load_factor
-            self.keep(law_state(self.program, self.slope, forces, u, load_factor))
+            state, work = stepped(stiffness, self.slope, state, STEP_WORK)
+            self.spent += work
+            self.keep(state)
 
     def approach(self, normal: FloatArray) -> FloatArray:
         """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces."""

@@ -25,7 +25,7 @@ from mbla.program.program import Program
 from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.associative.repair import carried_loads
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
@@ -83,6 +83,20 @@ def sharpened(
     )
 
 
+def stepped(stiffness: Stiffness, slope: FloatArray, state: LawState, most: int) -> tuple[LawState, int]:
+    """The state after one step of the exact law to rounding, from the forces and near the motion of another.
+
+    slope : (n_points,) tangent of the dilatancy angle
+
+    Returns that state, and the factorisations that the step took, ``most`` at most.
+    """
+    program = stiffness.program
+    rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
+    law = LawProblem(stiffness, slope, state.forces, rho)
+    step = exact_step(law, state.velocities, state.load_factor, most, balanced=0.0)
+    return law_state(program, slope, step.forces, step.velocities, step.load_factor), step.factorizations
+
+
 def misfit(program: Program, state: LawState) -> float:
     """Residual of a state with its unbalanced force, the latter block by block."""
     return max(state.residual, imbalance(program, state))
@@ -112,10 +126,7 @@ def _candidates(
     stiffness, slopes = stiffness_of(program), np.broadcast_to(slope, program.n_points)
     factor, least, before = state.load_factor, misfit(program, state), np.inf
     for _ in range(MOST_STEPS):
-        rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
-        law = LawProblem(stiffness, slopes, state.forces, rho)
-        step = exact_step(law, state.velocities, state.load_factor, FACTORIZATIONS, balanced=0.0)
-        state = law_state(program, slope, step.forces, step.velocities, step.load_factor)
+        state, _ = stepped(stiffness, slopes, state, FACTORIZATIONS)
         found = misfit(program, state)
         least = min(least, found)
         yield state
