@@ -15,7 +15,7 @@ from mbla.results.record.scene import Scene
 Arrays = dict[str, np.typing.NDArray[Any]]
 
 CELLS = {
-    "blocks": "blocks as tetrahedra, wedges, hexahedra, or all of them as polyhedra; no two share a point",
+    "blocks": "blocks as polyhedra, in their order; no two share a point",
     "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn; STEM_CASE.pvd plays them",
     "contacts": "contact points as vertices",
     "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",

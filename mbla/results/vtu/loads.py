@@ -1,26 +1,20 @@
-"""Files of what acts on the structure and what holds it.
+"""Meshes of what acts on the structure and what holds it.
 
-``STEM_CASE_loads.vtu``: dead loads, live loads and reactions as vectors where they act.
-
-A force F and a moment M about the centroid c of a block are, where M is across F, a single force on the line through
-c + F × M / F². It is drawn there, level with the centroid along its own direction; where that point lies outside the
-box around the block, or a moment along F is left, at the centroid with the moment beside it. The axles of a load that
-travels are drawn where they stand. Whatever the point, force and moment at it are statically the load of the deck.
-
-``STEM_supports.vtu``: ground planes as slabs under what stands on them, fixed blocks and guided blocks.
+Dead loads, live loads and reactions are vectors where they act. A force F and a moment M about the centroid c of a
+block are, where M is across F, a single force on the line through c + F × M / F². It is drawn there, level with the
+centroid along its own direction; where that point lies outside the box around the block, or a moment along F is left,
+at the centroid with the moment beside it. The axles of a load that travels are drawn where they stand. Whatever the
+point, force and moment at it are statically the load of the deck.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.model import Model, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import sum_by_interface
@@ -30,10 +24,14 @@ from mbla.results.pictures.geometry import SLAB_FACES, ground_slab
 from mbla.results.pictures.loads import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.series import without_vehicle
+from mbla.results.vtu.arrays import Arrays
+from mbla.results.vtu.meshes import Mesh, polyhedra
 from mbla.solution.verification.statics import contact_resultants
 
 DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
 """kinds of vectors"""
+GROUND, FIXED, GUIDED = 0, 1, 2
+"""kinds of supports"""
 ROUNDING = 1e-7
 """relative to force and block size: below it moments and distances are none; far from the origin digits are lost"""
 
@@ -48,13 +46,28 @@ class Vectors:
     forces: FloatArray
     moments: FloatArray
 
-    def __len__(self) -> int:
-        return len(self.bodies)
 
-
-def has_loads(scene: Scene) -> bool:
-    """Whether anything acts on the structure."""
-    return any(len(vectors) for vectors in load_vectors(scene))
+def loads_mesh(scene: Scene) -> Mesh | None:
+    """Vectors as vertices at their points; None where nothing acts."""
+    parts = load_vectors(scene)
+    if not parts:
+        return None
+    kind = np.concatenate([np.full(len(part.bodies), part.kind, dtype=np.int8) for part in parts])
+    bodies, points, forces, moments = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("bodies", "points", "forces", "moments")
+    )
+    data = {
+        "dead_forces": np.where((kind == DEAD)[:, None], forces, 0.0),
+        "live_forces": np.where((kind == LIVE)[:, None], forces, 0.0),
+        "reaction_forces": np.where((kind >= REACTION)[:, None], forces, 0.0),
+        "moments": moments,
+        "kind": kind,
+        "body": bodies,
+        "fixed": scene.model.fixed[bodies].astype(np.int8),
+        "displacement": displacements_at(scene.model.blocks, scene.motion, bodies, points),
+        "figures": np.full(len(points), FIGURES.index(scene.figures)),
+    }
+    return Mesh(points, [("vertex", np.arange(len(points))[:, None], slice(None))], data, {})
 
 
 def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
@@ -68,33 +81,7 @@ def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
         *_of_vehicle(load_case.travel),
         *_reactions(scene),
     )
-    return tuple(vectors for vectors in found if len(vectors))
-
-
-def write_loads_vtu(path: Path, scene: Scene) -> None:
-    """Vectors as vertices at their points."""
-    parts = load_vectors(scene)
-    kind = np.concatenate([np.full(len(part), part.kind, dtype=np.int8) for part in parts])
-    bodies, points, forces, moments = (
-        np.concatenate([getattr(part, name) for part in parts]) for name in ("bodies", "points", "forces", "moments")
-    )
-    write_mesh(
-        path,
-        points,
-        [("vertex", np.arange(len(points))[:, None])],
-        point_data={
-            "dead_forces": np.where((kind == DEAD)[:, None], forces, 0.0),
-            "live_forces": np.where((kind == LIVE)[:, None], forces, 0.0),
-            "reaction_forces": np.where((kind >= REACTION)[:, None], forces, 0.0),
-            "moments": moments,
-            "kind": kind,
-            "body": bodies,
-            "fixed": scene.model.fixed[bodies].astype(np.int8),
-            "displacement": displacements_at(scene.model.blocks, scene.motion, bodies, points),
-            "figures": np.full(len(points), FIGURES.index(scene.figures)),
-        },
-        cell_data={},
-    )
+    return tuple(vectors for vectors in found if len(vectors.bodies))
 
 
 def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
@@ -162,54 +149,32 @@ def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
     return Vectors(GUIDE, bodies, model.blocks.centroids[bodies], taken[:, :3], taken[:, 3:])
 
 
-GROUND, FIXED, GUIDED = 0, 1, 2
-"""kinds of supports"""
-
-
-def support_slabs(model: Model, contacts: Contacts) -> tuple[tuple[int, FloatArray], ...]:
-    """Ground planes that carry something, with the corners of a slab for each, (8, 3) m."""
+def supports_mesh(model: Model, contacts: Contacts) -> Mesh | None:
+    """Slabs under what stands on ground planes, fixed blocks and guided blocks as polyhedra; None where none is."""
     size = float(np.linalg.norm(np.ptp(model.blocks.vertices, axis=0)))
-    slabs = [(ground, ground_slab(model, contacts, ground, size)) for ground in range(len(model.grounds))]
-    return tuple((ground, slab) for ground, slab in slabs if slab is not None)
-
-
-def has_supports(model: Model, contacts: Contacts) -> bool:
-    """Whether there is a support to be seen."""
-    return bool(model.fixed.any() or len(model.guides) or support_slabs(model, contacts))
-
-
-def write_supports_vtu(path: Path, model: Model, contacts: Contacts) -> None:
-    """Supports as polyhedra."""
-    slabs = support_slabs(model, contacts)
-    guided = np.setdiff1d(model.guides.blocks, np.flatnonzero(model.fixed))
-    chosen = np.concatenate([np.flatnonzero(model.fixed), guided]).astype(np.int64)
-    cells, vertices = _cells_of_blocks(model, chosen)
-    for number, (_, slab) in enumerate(slabs):
-        cells.append(list(_outward_faces(slab) + 8 * number + len(vertices)))
-    kinds = [FIXED] * int(model.fixed.sum()) + [GUIDED] * len(guided) + [GROUND] * len(slabs)
-    bodies = np.append(chosen, [len(model.blocks) + ground for ground, _ in slabs]).astype(np.int64)
-    write_mesh(
-        path,
-        np.concatenate([vertices, *(slab for _, slab in slabs)]),
-        [("polyhedron", cells)],
-        point_data={},
-        cell_data={"kind": [np.array(kinds, dtype=np.int8)], "body": [bodies]},
+    slabs = {ground: ground_slab(model, contacts, ground, size) for ground in range(len(model.grounds))}
+    fixed = np.flatnonzero(model.fixed)
+    guided = np.setdiff1d(model.guides.blocks, fixed)
+    chosen = np.concatenate([fixed, guided]).astype(np.int64)
+    used = np.isin(model.blocks.block_of_vertex, chosen)
+    row, of_block = np.cumsum(used) - 1, polyhedra(model.blocks)
+    cells = [[row[face] for face in of_block[block]] for block in chosen.tolist()]
+    kinds, bodies, points = (
+        [FIXED] * len(fixed) + [GUIDED] * len(guided),
+        chosen.tolist(),
+        [model.blocks.vertices[used]],
     )
+    for ground, slab in slabs.items():
+        if slab is not None:
+            cells.append(list(_outward_faces(slab) + sum(map(len, points))))
+            kinds.append(GROUND)
+            bodies.append(len(model.blocks) + ground)
+            points.append(slab)
+    data: Arrays = {"kind": np.array(kinds, dtype=np.int8), "body": np.array(bodies, dtype=np.int64)}
+    return Mesh(np.concatenate(points), [("polyhedron", cells, slice(None))], {}, data) if cells else None
 
 
 def _outward_faces(slab: FloatArray) -> IntArray:
     """Faces of a slab, (6, 4), by rows of its corners, whatever way round its axes are."""
     right_handed = np.linalg.det(slab[[1, 2, 4]] - slab[0]) > 0
     return np.asarray(SLAB_FACES if right_handed else SLAB_FACES[:, ::-1])
-
-
-def _cells_of_blocks(model: Model, chosen: IntArray) -> tuple[list[Any], FloatArray]:
-    """Faces of each chosen block by rows of the vertices of these blocks alone, and these vertices, (n, 3) m."""
-    blocks = model.blocks
-    kept = np.isin(blocks.block_of_vertex, chosen)
-    row = np.cumsum(kept) - 1
-    cells = []
-    for block in chosen.tolist():
-        faces = range(int(blocks.face_start[block]), int(blocks.face_start[block + 1]))
-        cells.append([row[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]] for face in faces])
-    return cells, blocks.vertices[kept]

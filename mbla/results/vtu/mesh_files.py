@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import pprint
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -19,42 +19,26 @@ from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.record.columns import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.loads import has_loads, has_supports, write_loads_vtu, write_supports_vtu
-from mbla.results.vtu.vtu import (
-    collection_pvd,
-    frame_times,
-    has_hinges,
-    has_thrust,
-    write_blocks_vtu,
-    write_contacts_vtu,
-    write_frame_vtu,
-    write_hinges_vtu,
-    write_interfaces_vtu,
-    write_thrust_vtu,
+from mbla.results.vtu.loads import loads_mesh, supports_mesh
+from mbla.results.vtu.meshes import (
+    Mesh,
+    blocks_mesh,
+    contacts_mesh,
+    frame_mesh,
+    hinges_mesh,
+    interfaces_mesh,
+    thrust_mesh,
 )
 
-
-def _has_contacts(scene: Scene) -> bool:
-    return len(scene.contacts) > 0
-
-
-@dataclass(frozen=True)
-class MeshFile:
-    """A kind of file, ``STEM_CASE_kind.vtu``; ``exists`` says whether a scene has it."""
-
-    kind: str
-    exists: Callable[[Scene], bool]
-    write: Callable[[Path, Scene], None]
-
-
-MESH_FILES = (
-    MeshFile("blocks", lambda _: True, write_blocks_vtu),
-    MeshFile("contacts", _has_contacts, write_contacts_vtu),
-    MeshFile("interfaces", _has_contacts, write_interfaces_vtu),
-    MeshFile("thrust", has_thrust, write_thrust_vtu),
-    MeshFile("hinges", has_hinges, write_hinges_vtu),
-    MeshFile("loads", has_loads, write_loads_vtu),
-)
+MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
+    "blocks": blocks_mesh,
+    "contacts": contacts_mesh,
+    "interfaces": interfaces_mesh,
+    "thrust": thrust_mesh,
+    "hinges": hinges_mesh,
+    "loads": loads_mesh,
+}
+"""by what the name of the file ends in, ``STEM_CASE_kind.vtu``; None where a scene has none"""
 
 
 def write_mesh_files(results: Results, out: OutputFolder, frames: int) -> None:
@@ -78,33 +62,43 @@ def write_model_vtu(results: Results, out: OutputFolder) -> None:
     _write_scene(Scene(results.model, results.contacts, None), out.stem, out)
 
 
-def _write_supports(results: Results, out: OutputFolder) -> str:
-    """Name of the file of supports; empty if there is none."""
-    if not has_supports(results.model, results.contacts):
+def _write(mesh: Mesh | None, name: str, out: OutputFolder) -> str:
+    """Name of the file; empty where there is no mesh."""
+    if mesh is None:
         return ""
-    name = f"{out.stem}_supports.vtu"
     with out.writing(name) as path:
-        write_supports_vtu(path, results.model, results.contacts)
+        mesh.write(path)
     return name
+
+
+def _write_supports(results: Results, out: OutputFolder) -> str:
+    return _write(supports_mesh(results.model, results.contacts), f"{out.stem}_supports.vtu", out)
 
 
 def _write_scene(scene: Scene, stem: str, out: OutputFolder) -> dict[str, str]:
     """Names of the files by kind."""
-    names = {file.kind: f"{stem}_{file.kind}.vtu" for file in MESH_FILES if file.exists(scene)}
-    for file in MESH_FILES:
-        if file.kind in names:
-            with out.writing(names[file.kind]) as path:
-                file.write(path, scene)
-    return names
+    names = {kind: _write(mesh_of(scene), f"{stem}_{kind}.vtu", out) for kind, mesh_of in MESHES.items()}
+    return {kind: name for kind, name in names.items() if name}
 
 
 def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) -> None:
-    times = frame_times(frames) if scene.moves else [0.0]
-    names = [f"{stem}_frame_{i:03d}.vtu" for i in range(len(times))]
-    for name, moment in zip(names, times, strict=True):
-        with out.writing(name) as path:
-            write_frame_vtu(path, scene, moment)
-    out.write_text(f"{stem}.pvd", collection_pvd(names, times))
+    times = np.linspace(0.0, 1.0, frames).tolist() if scene.moves else [0.0]
+    files = {f"{stem}_frame_{i:03d}.vtu": time for i, time in enumerate(times)}
+    for name, time in files.items():
+        _write(frame_mesh(scene, time), name, out)
+    out.write_text(f"{stem}.pvd", collection_pvd(files))
+
+
+def collection_pvd(files: Mapping[str, float]) -> str:
+    """The text of a PVD file that plays frames, names with their times."""
+    lines = [
+        f'    <DataSet timestep="{time:.6g}" group="" part="0" file="{escape(file)}"/>' for file, time in files.items()
+    ]
+    return (
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n'
+        + "".join(f"{line}\n" for line in lines)
+        + "  </Collection>\n</VTKFile>\n"
+    )
 
 
 TEMPLATE = Path(__file__).with_name("standard_views.py")
@@ -135,11 +129,7 @@ def case_record(results: Results, scene: Scene, files: Mapping[str, str]) -> dic
     """What the script must know of a load case.
 
     files : names of its files by kind; ``animation`` where it moves
-
-    Raises ValueError for a scene without a load case.
     """
-    if scene.case is None:
-        raise ValueError("standard views are those of a load case")
     return {
         "files": dict(files),
         "words": _words(results, scene),

@@ -15,13 +15,8 @@ from mbla.results.collapse.motion import SHARE_OF_SIZE, drawn_motion, movable_si
 from mbla.results.record.columns import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.vtu import (
-    collection_pvd,
-    write_blocks_vtu,
-    write_contacts_vtu,
-    write_frame_vtu,
-    write_interfaces_vtu,
-)
+from mbla.results.vtu.mesh_files import collection_pvd
+from mbla.results.vtu.meshes import Mesh, blocks_mesh, contacts_mesh, frame_mesh, interfaces_mesh
 from mbla.solution.solution import Status
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
 from tests.results.synthetic import tower_mechanics, tower_results
@@ -32,13 +27,18 @@ def results() -> Results:
     return tower_results()
 
 
+def written(path: Path, mesh: Mesh | None) -> None:
+    assert mesh is not None
+    mesh.write(path)
+
+
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     return tmp_path / "file.vtu"
 
 
 def test_blocks(path: Path, results: Results) -> None:
-    write_blocks_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
+    written(path, blocks_mesh(Scene(results.model, results.contacts, results.cases[0])))
     for points, displacement, cells, data in (by_meshio(path), by_vtk(path)):
         assert points == pytest.approx(results.model.blocks.vertices)
         assert cells == 3
@@ -52,7 +52,7 @@ def test_blocks(path: Path, results: Results) -> None:
         assert data["parts"].tolist() == [0, 1, 0]
         assert data["drawn_rotations"][1, 1] > 0
         assert data["drawn_displacements"].shape == (3, 3)
-    assert vtk_volumes(path).sum() == pytest.approx(results.model.blocks.volumes.sum())
+    assert vtk_volumes(path) == pytest.approx(results.model.blocks.volumes)
 
 
 NAMES = ("block", "groups", "weights", "fixed", "parts", "drawn_rotations", "drawn_displacements")
@@ -72,7 +72,7 @@ def by_vtk(path: Path) -> Any:
 
 
 def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
-    write_contacts_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
+    written(path, contacts_mesh(Scene(results.model, results.contacts, results.cases[0])))
     mesh, grid = meshio.read(path), read_vtk(path)
     assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", 8)]
     assert grid.GetNumberOfCells() == 8
@@ -89,7 +89,7 @@ def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
 
 
 def test_interfaces(path: Path, results: Results) -> None:
-    write_interfaces_vtu(path, Scene(results.model, results.contacts, results.cases[0]))
+    written(path, interfaces_mesh(Scene(results.model, results.contacts, results.cases[0])))
     mesh, grid = meshio.read(path), read_vtk(path)
     data = {name: np.concatenate(values) for name, values in mesh.cell_data.items()}
     assert grid.GetNumberOfCells() == 2
@@ -107,7 +107,7 @@ def test_interfaces(path: Path, results: Results) -> None:
 def test_interfaces_with_different_numbers_of_corners(path: Path, results: Results) -> None:
     """The second loses a corner; a corner that bounds a hole is not part of the outline."""
     contacts = replace(results.contacts, outline=np.array([4, 3]))
-    write_interfaces_vtu(path, Scene(results.model, contacts, results.cases[0]))
+    written(path, interfaces_mesh(Scene(results.model, contacts, results.cases[0])))
     grid = read_vtk(path)
     corners = [grid.GetCell(i).GetNumberOfPoints() for i in range(2)]
     assert corners == [3, 4]
@@ -115,11 +115,11 @@ def test_interfaces_with_different_numbers_of_corners(path: Path, results: Resul
 
 
 def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, results: Results) -> None:
-    write_contacts_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
+    written(path, contacts_mesh(Scene(results.model, results.contacts, results.cases[1])))
     assert "global_forces" not in meshio.read(path).point_data
-    write_interfaces_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
+    written(path, interfaces_mesh(Scene(results.model, results.contacts, results.cases[1])))
     assert "modes" not in meshio.read(path).cell_data
-    write_blocks_vtu(path, Scene(results.model, results.contacts, results.cases[1]))
+    written(path, blocks_mesh(Scene(results.model, results.contacts, results.cases[1])))
     mesh = meshio.read(path)
     assert mesh.point_data["displacement"][8:16, 2].max() < 0
     assert np.concatenate(mesh.cell_data["parts"]).tolist() == [0, 1, 0]
@@ -130,11 +130,11 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
     lock[:4] = [2.0, -1.0, 0.0]
     solution = replace(results.cases[0].solution, mechanics=None, lock=lock)
     case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
-    write_contacts_vtu(path, Scene(results.model, results.contacts, case))
+    written(path, contacts_mesh(Scene(results.model, results.contacts, case)))
     data = meshio.read(path).point_data
     assert data["global_forces"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
     assert "modes" not in data
-    write_interfaces_vtu(path, Scene(results.model, results.contacts, case))
+    written(path, interfaces_mesh(Scene(results.model, results.contacts, case)))
     cells = {name: np.concatenate(values) for name, values in meshio.read(path).cell_data.items()}
     assert cells["normal_forces"] == pytest.approx([8, 0])
     assert "modes" not in cells
@@ -143,7 +143,7 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])}, -1)
     blocks = replace(results.model.blocks, labels=labels)
-    write_blocks_vtu(path, Scene(replace(results.model, blocks=blocks), results.contacts, None))
+    written(path, blocks_mesh(Scene(replace(results.model, blocks=blocks), results.contacts, None)))
     data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
     assert data["members"] == [0, 2, 1]
     assert data["course"] == [0, 1, -1]
@@ -156,9 +156,9 @@ def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
 def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Results) -> None:
     path = tmp_path / "frame.vtu"
     vertices = results.model.blocks.vertices
-    write_frame_vtu(path, scene_of(results, results.cases[0]), 0.0)
+    written(path, frame_mesh(scene_of(results, results.cases[0]), 0.0))
     assert meshio.read(path).points == pytest.approx(vertices)
-    write_frame_vtu(path, scene_of(results, results.cases[0]), 1.0)
+    written(path, frame_mesh(scene_of(results, results.cases[0]), 1.0))
     mesh = meshio.read(path)
     moved = moved_vertices(results.model.blocks, drawn_motion(results.model, results.cases[0]))
     assert mesh.points == pytest.approx(moved)
@@ -167,7 +167,7 @@ def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Resu
 
 
 def test_collection_names_the_frames_in_order_whatever_they_are_called() -> None:
-    text = collection_pvd(['a & "b"_000.vtu', "b.vtu"], [0.0, 1.0])
+    text = collection_pvd({'a & "b"_000.vtu': 0.0, "b.vtu": 1.0})
     entries = ElementTree.fromstring(text).findall("Collection/DataSet")
     assert [entry.get("file") for entry in entries] == ['a & "b"_000.vtu', "b.vtu"]
     assert [float(entry.get("timestep", "nan")) for entry in entries] == [0.0, 1.0]

@@ -1,0 +1,157 @@
+"""What the files for ParaView show, one mesh for each kind of file; without a case of the model alone.
+
+Blocks have points of their own, so that Warp By Vector on ``displacement`` (scale factor 1) shows them part. What the
+arrays are, :mod:`mbla.results.vtu.arrays` says; meshio writes neither texts nor truth values, so names are numbered in
+alphabetical order and flags are 0 and 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.solids.blocks import Blocks
+from mbla.results.collapse.collapse import kept
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.motion import displacements_at, motion_scale, moved_vertices
+from mbla.results.collapse.thrust import points_to_draw
+from mbla.results.record.scene import Scene
+from mbla.results.vtu.arrays import Arrays, arrays_of
+
+POINT, LINE = 0, 1
+"""kinds of cells in a file of thrust"""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Points, cells and values on both.
+
+    points     : (n_points, 3) m
+    cells      : types and rows of points as meshio has them, each with the rows of its cells in ``cell_data``
+    point_data : by name, (n_points, ...)
+    cell_data  : by name, (n_cells, ...)
+    """
+
+    points: FloatArray
+    cells: list[tuple[str, Any, Any]]
+    point_data: Arrays
+    cell_data: Arrays
+
+    def write(self, path: Path) -> None:
+        """As a VTU file; types of cells without any are left out. FileError if it cannot be written."""
+        used = [(kind, cells, rows) for kind, cells, rows in self.cells if len(cells)]
+        cell_data = {name: [values[rows] for *_, rows in used] for name, values in self.cell_data.items()}
+        write_mesh(path, self.points, [(kind, cells) for kind, cells, _ in used], self.point_data, cell_data)
+
+
+def blocks_mesh(scene: Scene) -> Mesh:
+    """Blocks as polyhedra, in their order."""
+    blocks = scene.model.blocks
+    data = arrays_of(scene, "blocks", "cells")
+    return _of_blocks(blocks, blocks.vertices, {"displacement": scene.displacements}, data)
+
+
+def frame_mesh(scene: Scene, time: float) -> Mesh:
+    """Blocks at a time from 0 (as built) to 1 (the motion as drawn); ``displacement`` is what they have moved."""
+    blocks = scene.model.blocks
+    vertices = moved_vertices(blocks, time * scene.motion)
+    moved = {"displacement": vertices - blocks.vertices}
+    return _of_blocks(blocks, vertices, moved, arrays_of(scene, "frames", "cells"))
+
+
+def _of_blocks(blocks: Blocks, points: FloatArray, point_data: Arrays, cell_data: Arrays) -> Mesh:
+    return Mesh(points, [("polyhedron", polyhedra(blocks), slice(None))], point_data, cell_data)
+
+
+@kept
+def polyhedra(blocks: Blocks) -> list[list[IntArray]]:
+    """Faces of every block by rows of the vertices."""
+    faces = np.split(blocks.loops, blocks.loop_start[1:-1])
+    return [faces[first:last] for first, last in zip(blocks.face_start[:-1], blocks.face_start[1:], strict=True)]
+
+
+def contacts_mesh(scene: Scene) -> Mesh | None:
+    """Contact points as vertices; None where there are none."""
+    points = scene.contacts.points
+    data = arrays_of(scene, "contacts", "points") | {"displacement": scene.contact_displacements}
+    return Mesh(points, [_vertices(np.arange(len(points)))], data, {}) if len(points) else None
+
+
+def _vertices(rows: IntArray) -> tuple[str, IntArray, slice]:
+    return "vertex", rows[:, None], slice(None)
+
+
+def interfaces_mesh(scene: Scene) -> Mesh | None:
+    """Interfaces as polygons, by their outer boundary; None where there are none."""
+    contacts = scene.contacts
+    if not len(contacts):
+        return None
+    cells = []
+    for corners in np.unique(contacts.outline).tolist():
+        rows = np.flatnonzero(contacts.outline == corners)
+        cells.append(("polygon", contacts.point_start[rows][:, None] + np.arange(corners), rows))
+    moved = {"displacement": scene.contact_displacements}
+    return Mesh(contacts.points, cells, moved, arrays_of(scene, "interfaces", "cells"))
+
+
+def interface_displacements(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
+    """Mean displacement of the two bodies of each interface at a point of it, (n, 3) m; grounds do not move.
+
+    interfaces : (n,)
+    points     : (n, 3) m
+    """
+    total = np.zeros_like(points)
+    for side in (0, 1):
+        owners = scene.contacts.bodies[interfaces, side]
+        block = owners < len(scene.model.blocks)
+        total[block] += displacements_at(scene.model.blocks, scene.motion, owners[block], points[block])
+    return total / 2
+
+
+def thrust_mesh(scene: Scene) -> Mesh | None:
+    """Points of application as vertices, thrust lines as chains of lines; outside a joint its edge; None for none."""
+    thrust = scene.thrust
+    if thrust is None or not thrust.carried.any():
+        return None
+    shown = np.flatnonzero(thrust.carried)
+    row = np.cumsum(thrust.carried) - 1
+    points = points_to_draw(scene.contacts, thrust)[shown]
+    pieces = [np.column_stack([row[line[:-1]], row[line[1:]]]) for line in scene.lines]
+    lines = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pieces])
+    numbers = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
+    count = len(shown)
+    cells = [("vertex", np.arange(count)[:, None], slice(count)), ("line", lines, slice(count, None))]
+    data = arrays_of(scene, "thrust", "points", shown)
+    return Mesh(
+        points,
+        cells,
+        data | {"displacement": interface_displacements(scene, shown, points)},
+        {
+            "kind": np.repeat(np.array([POINT, LINE], dtype=np.int8), [count, len(lines)]),
+            "line": np.concatenate([np.full(count, -1), numbers]),
+        },
+    )
+
+
+def hinges_mesh(scene: Scene) -> Mesh | None:
+    """Hinges as lines, as long as their faces stay closed, and those about a corner as vertices; None for none."""
+    motion = scene.interfaces
+    if motion is None or scene.mechanics is None or not motion.count(InterfaceMode.HINGE):
+        return None
+    hinges = np.flatnonzero(motion.modes == InterfaceMode.HINGE)
+    ends = motion.hinge_ends[hinges]
+    short = (ends[:, 0] == ends[:, 1]).all(axis=1)
+    lines, corners = hinges[~short], hinges[short]
+    points = np.concatenate([ends[~short].reshape(-1, 3), ends[short, 0]])
+    owners = np.concatenate([np.repeat(lines, 2), corners])
+    scale = motion_scale(scene.model, scene.mechanics.mechanism)
+    turns = scale * np.einsum("ij,ij->i", motion.rotation, np.nan_to_num(motion.hinge_directions))
+    rows = np.arange(len(points))
+    cells = [("line", rows[: 2 * len(lines)].reshape(-1, 2), lines), ("vertex", rows[2 * len(lines) :, None], corners)]
+    moved = {"displacement": interface_displacements(scene, owners, points)}
+    return Mesh(points, cells, moved, arrays_of(scene, "hinges", "cells") | {"rotation": turns})
