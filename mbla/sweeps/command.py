@@ -22,7 +22,7 @@ from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
-from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, shard_of
+from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, shown_folders
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
@@ -176,12 +176,13 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         cases=plan.cases,
         libraries=library_versions(),
     )
-    asked = prepared.tasks if options.shard is None else shard_of(prepared.tasks, *options.shard)
-    path = folder / (WHOLE if options.shard is None else journal_name(*options.shard))
-    journal = Journal(path, header, resume=options.resume, force=options.force, retry_failed=options.retry_failed)
+    part, parts = options.shard or (1, 1)
+    asked = prepared.tasks[part - 1 :: parts]  # neighbours take about as long as each other, and so do shards then
+    path = folder / (WHOLE if options.shard is None else journal_name(part, parts))
     check_options(options.engine)
     refuse_tables(folder, prepared.files, replace=options.force or options.resume)
-    with journal:
+    how = {"resume": options.resume, "force": options.force, "retry_failed": options.retry_failed}
+    with open_journal(path, header, **how) as journal:
         tasks = [task for task in asked if task.key not in journal.finished]
         progress = Progress(len(tasks), len(journal.finished))
         if report is not None:

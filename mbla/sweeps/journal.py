@@ -14,10 +14,9 @@ import io
 import json
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from types import TracebackType
 from typing import Any, NamedTuple
 
 from mbla.errors import FileError, Notice, UsageError
@@ -27,12 +26,11 @@ from mbla.results.disk import (
     file_errors,
     flush_to_disk,
     holder,
-    lock_path,
     locked,
     missing_folders,
     write_whole,
 )
-from mbla.sweeps.identity import difference as other_versions
+from mbla.sweeps.identity import difference
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 from mbla.sweeps.tables.sweep_table import READ_CELL
 
@@ -68,6 +66,13 @@ class JournalHeader:
     title: str = ""
     cases: tuple[str, ...] = ()
     libraries: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def says(self) -> dict[str, str]:
+        """Everything that must be the same for a journal to be gone on with, in words."""
+        results = " ".join(f"{name} ({kind})" for name, kind in self.columns.items())
+        content = {"base deck": self.fingerprint[:12], "load cases": " ".join(self.cases), "results": results}
+        return {"mbla": self.program, **self.libraries, **content}
 
     @property
     def all_columns(self) -> tuple[str, ...]:
@@ -186,35 +191,14 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
         raise FileError(
             "journal-damaged", f"{path}: is no journal of a sweep of format {FORMAT}; {BEGIN_ANEW}"
         ) from error
-    if words := _difference(found, header):
-        raise FileError("journal-of-another-sweep", f"{path}: {words}: it cannot be gone on with; {BEGIN_ANEW}")
+    if words := difference(header.says, found.says):
+        raise FileError(
+            "journal-of-another-sweep", f"{path}: of another sweep ({words}): it cannot be gone on with; {BEGIN_ANEW}"
+        )
     return len(first) + len(second)
 
 
-def _difference(found: JournalHeader, wanted: JournalHeader) -> str:
-    """What keeps a sweep from going on with a journal, in words; empty where nothing does."""
-    ours, theirs = ({"mbla": each.program, **each.libraries} for each in (wanted, found))
-    other = other_versions(ours, theirs)
-    words = [f"was written with other versions ({other})"] if other else []
-    if found.fingerprint != wanted.fingerprint:
-        words.append("is of another base deck, or of one that has changed since")
-    if found.cases != wanted.cases:
-        words.append(f"is of load cases {', '.join(found.cases)}, not of {', '.join(wanted.cases)}")
-    if list(found.columns.items()) != list(wanted.columns.items()):
-        words.append(f"has the results {', '.join(found.columns)}, not {', '.join(wanted.columns)}")
-    return "; ".join(words)
-
-
 # --- shards -----------------------------------------------------------------------------------------------------------
-
-
-def shard_of(tasks: Sequence[Task], part: int, parts: int) -> tuple[Task, ...]:
-    """Every ``parts``-th task from the ``part``-th on, counted from 1; of tasks with one key the first counts.
-
-    Neighbours in a design take about as long as each other, so that shards made like this take about equally long.
-    """
-    different = list({task.key: task for task in reversed(tasks)}.values())[::-1]
-    return tuple(different[part - 1 :: parts])
 
 
 def journal_name(part: int | str, parts: int | str) -> str:
@@ -237,12 +221,51 @@ def journals_in(folder: Path) -> tuple[Path, ...]:
 # --- writing ----------------------------------------------------------------------------------------------------------
 
 
+@dataclass
 class Journal:
-    """Context manager; inside it nobody else writes this journal, and a whole run is alone in its folder.
+    """A journal that is being written.
 
-    finished : the outcome of every finished point by its key: what the journals of the folder held on entry, where they
-               are gone on with, and what was added since; results without a value are None
-    notices  : what was repaired
+    finished   : the outcome of every finished point by its key: what the journals of the folder held, where they are
+                 gone on with, and what was added since; results without a value are None
+    notices    : what was repaired
+    descriptor : of the open file
+    """
+
+    path: Path
+    header: JournalHeader
+    finished: dict[str, Outcome]
+    notices: tuple[Notice, ...]
+    descriptor: int
+
+    def add(self, task: Task, outcome: Outcome) -> None:
+        """Write the row of a finished point; it is on the disk when this returns.
+
+        Raises
+        ------
+        FileError
+            it could not be written; the journal ends with its last whole row then, or will when it is gone on with
+        """
+        row = row_bytes(self.header, task, outcome)
+        kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
+        end = os.fstat(self.descriptor).st_size
+        try:
+            with file_errors(self.path):
+                left = memoryview(row)
+                while left:  # a full disk takes a part first, and refuses the rest
+                    left = left[os.write(self.descriptor, left) :]
+                os.fsync(self.descriptor)
+        except BaseException:
+            with contextlib.suppress(OSError):  # what is left of the row is cut off when the journal is gone on with
+                os.ftruncate(self.descriptor, end)
+            raise
+        self.finished[outcome.key] = kept
+
+
+@contextlib.contextmanager
+def open_journal(
+    path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
+) -> Iterator[Journal]:
+    """The journal in a ``with`` block, in which nobody else writes it, and a whole run is alone in its folder.
 
     Parameters
     ----------
@@ -261,112 +284,49 @@ class Journal:
     UsageError
         Both ``resume`` and ``force``: one keeps what the other drops.
     FileError
-        On entry: another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of
-        another sweep or program, or has a broken row; it cannot be written.
+        Another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of another sweep
+        or program, or has a broken row; it cannot be written.
     """
-
-    def __init__(
-        self, path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
-    ) -> None:
-        if resume and force:
-            raise UsageError("sweep-option", "--resume goes on with the journal and --force begins anew: one of them")
-        self.path = path
-        self.header = header
-        self.finished: dict[str, Outcome] = {}
-        self.notices: tuple[Notice, ...] = ()
-        self._resume, self._force, self._retry = resume, force, retry_failed
-        self._is_shard = _SHARD.fullmatch(path.name) is not None
-        self._open = contextlib.ExitStack()
-        self._descriptor = -1
-        self._end = 0
-
-    def __enter__(self) -> Journal:
-        with contextlib.ExitStack() as stack:
-            _make_folder(self.path.parent)
-            with held_signals():
-                self._take_locks(stack)
-            self._begin()
-            with file_errors(self.path):
-                self._descriptor = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
-                stack.callback(os.close, self._descriptor)
-                if self._end:
-                    os.ftruncate(self._descriptor, self._end)
-                    os.fsync(self._descriptor)
-                self._end = os.fstat(self._descriptor).st_size
-            self._open = stack.pop_all()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self._open.close()
-
-    def add(self, task: Task, outcome: Outcome) -> None:
-        """Write the row of a finished point; it is on the disk when this returns.
-
-        Raises
-        ------
-        FileError
-            it could not be written; the journal ends with its last whole row then, or will when it is gone on with
-        """
-        row = row_bytes(self.header, task, outcome)
-        kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
-        try:
-            with file_errors(self.path):
-                left = memoryview(row)
-                while left:  # a full disk takes a part first, and refuses the rest
-                    left = left[os.write(self._descriptor, left) :]
-                os.fsync(self._descriptor)
-        except BaseException:
-            with contextlib.suppress(OSError):  # what is left of the row is cut off when the journal is gone on with
-                os.ftruncate(self._descriptor, self._end)
-            raise
-        self._end += len(row)
-        self.finished[outcome.key] = kept
-
-    def _take_locks(self, stack: contextlib.ExitStack) -> None:
-        folder = self.path.parent
-        stack.enter_context(locked(folder / _SWEEP, shared=self._is_shard, busy=lambda: _who_is_in(folder)))
-        stack.enter_context(locked(self.path))
-        if not self._is_shard:  # nobody holds one of a shard while a whole run is alone in the folder
-            for path in folder.glob(lock_path(folder / journal_name("*", "*")).name):
-                with contextlib.suppress(OSError):  # an empty file that stays does no harm
-                    path.unlink()
-
-    def _begin(self) -> None:
-        """The file in place with a whole header, and what is finished already."""
-        others = [path for path in journals_in(self.path.parent) if path != self.path]
-        replaced = [self.path] if self._is_shard else [self.path, *others]  # by a run that begins anew
-        earlier = [path for path in replaced if os.path.lexists(path)]
-        if self._resume:
-            return self._go_on(others)
-        if earlier and not self._force:
+    if resume and force:
+        raise UsageError("sweep-option", "--resume goes on with the journal and --force begins anew: one of them")
+    folder, shard = path.parent, _SHARD.fullmatch(path.name) is not None
+    _make_folder(folder)
+    with contextlib.ExitStack() as stack:
+        with held_signals():
+            stack.enter_context(locked(folder / _SWEEP, shared=shard, busy=lambda: _who_is_in(folder)))
+            stack.enter_context(locked(path))
+        others = [each for each in journals_in(folder) if each != path]
+        earlier = [each for each in (path, *(() if shard else others)) if os.path.lexists(each)]
+        if earlier and not resume and not force:
             raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
-        self._create()
-        for path in earlier:
-            if path != self.path:
-                with file_errors(path):
-                    path.unlink()
-
-    def _go_on(self, others: Iterable[Path]) -> None:
-        finished: dict[str, Outcome] = {}
-        if os.path.lexists(self.path):
-            finished, self._end, torn = read_journal(self.path, self.header)
-            if torn:
-                words = f"its last row was not whole and was cut off ({torn} bytes); the point is solved again"
-                self.notices = (Notice("notice", "journal-repaired", f"{self.path}: {words}"),)
-        for outcome in merged(others, self.header).values():
+        own = read_journal(path, header) if resume and path in earlier else None
+        finished = {} if own is None else own.finished
+        for outcome in merged(others, header).values() if resume else ():
             keep(finished, outcome)
-        retried = {FAILED} if self._retry else set()
-        self.finished = {key: outcome for key, outcome in finished.items() if outcome.state not in retried}
-        if not self._end:
-            self._create()
+        if own is None:  # in place of an earlier one only once its header is whole
+            write_whole(path, header_bytes(header))
+            with file_errors(folder):
+                flush_to_disk(folder)
+        for each in () if resume else earlier:
+            if each != path:
+                with file_errors(each):
+                    each.unlink()
+        with file_errors(path):
+            descriptor = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
+            stack.callback(os.close, descriptor)
+            if own is not None:
+                os.ftruncate(descriptor, own.whole)
+                os.fsync(descriptor)
+        if retry_failed:
+            finished = {key: outcome for key, outcome in finished.items() if outcome.state != FAILED}
+        yield Journal(path, header, finished, _repaired(path, own), descriptor)
 
-    def _create(self) -> None:
-        """A journal with nothing but its header, in place of an earlier one only once it is whole."""
-        write_whole(self.path, header_bytes(self.header))
-        with file_errors(self.path):
-            flush_to_disk(self.path.parent)
+
+def _repaired(path: Path, own: JournalRows | None) -> tuple[Notice, ...]:
+    if own is None or not own.torn:
+        return ()
+    words = f"its last row was not whole and was cut off ({own.torn} bytes); the point is solved again"
+    return (Notice("notice", "journal-repaired", f"{path}: {words}"),)
 
 
 def _make_folder(folder: Path) -> None:

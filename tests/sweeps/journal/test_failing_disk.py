@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
-from mbla.sweeps.journal import Journal, read_journal
+from mbla.sweeps.journal import open_journal, read_journal
 from tests.sweeps.journal.points import HEADER, point
 
 POINTS = [point(number) for number in range(1, 13)]
@@ -36,7 +36,7 @@ def failing(call: Callable[..., Any], at: int, error: int, *, part: int = 0) -> 
 def add_all(path: Path, patch: dict[str, Callable[..., Any]]) -> tuple[set[str], str]:
     """Keys of the points that were reported as added, and what was said of the first that was not."""
     added: set[str] = set()
-    with Journal(path, HEADER, resume=True, force=False) as journal, pytest.MonkeyPatch.context() as context:
+    with open_journal(path, HEADER, resume=True, force=False) as journal, pytest.MonkeyPatch.context() as context:
         for name, call in patch.items():
             context.setattr(os, name, call)
         for task, outcome in POINTS:

@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 
-from mbla.sweeps.journal import Journal, read_journal
+from mbla.sweeps.journal import open_journal, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, as_read, point
 
@@ -39,7 +39,7 @@ def write_on(path: Path, piece: int) -> Callable[[Callable[[str], None]], None]:
             return write(descriptor, row[:piece])
 
         os.write = slow  # type: ignore[assignment]
-        with Journal(path, HEADER, resume=True, force=False) as journal:
+        with open_journal(path, HEADER, resume=True, force=False) as journal:
             report(str(len(journal.finished)))
             for task, outcome in POINTS:
                 if task.key not in journal.finished:

@@ -15,7 +15,7 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.disk import lock_path, locked
-from mbla.sweeps.journal import Journal, journal_name, read_journal
+from mbla.sweeps.journal import journal_name, open_journal, read_journal
 from tests.sweeps.journal.forked import forked
 from tests.sweeps.journal.points import HEADER, point
 
@@ -24,7 +24,7 @@ def held(path: Path) -> Callable[[Callable[[str], None]], None]:
     """A run that is at work until it is killed."""
 
     def work(report: Callable[[str], None]) -> None:
-        with Journal(path, HEADER, resume=False, force=False) as journal:
+        with open_journal(path, HEADER, resume=False, force=False) as journal:
             journal.add(*point(1))
             report("at work")
             time.sleep(60)
@@ -34,7 +34,7 @@ def held(path: Path) -> Callable[[Callable[[str], None]], None]:
 
 def refused(path: Path) -> str:
     with pytest.raises(FileError) as error:
-        Journal(path, HEADER, resume=False, force=True).__enter__()
+        open_journal(path, HEADER, resume=False, force=True).__enter__()
     return str(error.value)
 
 
@@ -48,7 +48,7 @@ def test_a_second_run_is_refused_with_who_is_at_work(tmp_path: Path) -> None:
         assert path.read_bytes() == before
         child.kill()
         child.lines()
-        with Journal(path, HEADER, resume=True, force=False) as journal:  # at once, nothing is left to be removed
+        with open_journal(path, HEADER, resume=True, force=False) as journal:  # at once, nothing is left to be removed
             assert journal.finished.keys() == {point(1)[0].key}
     assert [file.name for file in tmp_path.iterdir()] == ["journal.csv"]
 
@@ -57,7 +57,7 @@ def test_shards_run_side_by_side(tmp_path: Path) -> None:
     first, second = (tmp_path / journal_name(part, 2) for part in (1, 2))
     with forked(held(first)) as child:
         assert child.line() == "at work"
-        with Journal(second, HEADER, resume=False, force=False) as journal:
+        with open_journal(second, HEADER, resume=False, force=False) as journal:
             journal.add(*point(2))
             assert f"{first}: process {child.pid}" in refused(first)
     assert read_journal(second, HEADER).finished.keys() == {point(2)[0].key}
@@ -101,5 +101,5 @@ def test_a_file_system_without_locks_is_told(tmp_path: Path, monkeypatch: pytest
 
     monkeypatch.setattr(fcntl, "flock", none)
     with pytest.raises(FileError, match=re.escape("its file system has no locks to keep two runs apart; -o FOLDER")):
-        Journal(tmp_path / "journal.csv", HEADER, resume=False, force=False).__enter__()
+        open_journal(tmp_path / "journal.csv", HEADER, resume=False, force=False).__enter__()
     assert not (tmp_path / "journal.csv").exists()

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
-from mbla.results.disk import lock_path
-from mbla.sweeps.journal import WHOLE, Journal, journal_name, journals_in, merged, shard_of
+from mbla.sweeps.journal import journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import Task
 from tests.sweeps.journal.points import HEADER, as_read, point
 
@@ -17,24 +14,10 @@ EXPECTED = {key: as_read(outcome) for key, (_, outcome) in POINTS.items()}
 
 
 def run(folder: Path, name: str, tasks: tuple[Task, ...], *, resume: bool = False) -> None:
-    with Journal(folder / name, HEADER, resume=resume, force=False) as journal:
+    with open_journal(folder / name, HEADER, resume=resume, force=False) as journal:
         for task in tasks:
             if task.key not in journal.finished:
                 journal.add(*POINTS[task.key])
-
-
-@pytest.mark.parametrize("parts", [1, 2, 3, 7, 20, 23])
-def test_every_task_is_in_one_shard(parts: int) -> None:
-    shards = [shard_of(TASKS, part, parts) for part in range(1, parts + 1)]
-    assert sorted(task.number for shard in shards for task in shard) == [task.number for task in TASKS]
-    sizes = [len(shard) for shard in shards]
-    assert max(sizes) - min(sizes) <= 1
-
-
-def test_points_with_one_key_are_in_one_shard_by_the_first() -> None:
-    again = [Task(task.key, task.number + 100, task.settings) for task in TASKS[:7]]
-    for part in (1, 2, 3):
-        assert shard_of([*TASKS[:7], *again, *TASKS[7:]], part, 3) == shard_of(TASKS, part, 3)
 
 
 def test_journals_are_found_in_order_and_nothing_else_is(tmp_path: Path) -> None:
@@ -47,8 +30,8 @@ def test_journals_are_found_in_order_and_nothing_else_is(tmp_path: Path) -> None
 
 
 def test_what_shards_of_any_number_finished_counts_once(tmp_path: Path) -> None:
-    run(tmp_path, journal_name(1, 2), shard_of(TASKS, 1, 2)[:6])
-    run(tmp_path, journal_name(3, 5), shard_of(TASKS, 3, 5), resume=True)
+    run(tmp_path, journal_name(1, 2), tuple(TASKS[0::2])[:6])
+    run(tmp_path, journal_name(3, 5), tuple(TASKS[2::5]), resume=True)
     run(tmp_path, "journal.csv", tuple(TASKS), resume=True)
     assert merged(journals_in(tmp_path), HEADER) == EXPECTED
     rows = [line for path in journals_in(tmp_path) for line in path.read_bytes().splitlines()[2:]]
@@ -71,20 +54,9 @@ def test_a_torn_row_of_a_shard_is_solved_again_and_its_journal_left_alone(tmp_pa
 def test_to_begin_anew_removes_what_shards_left_and_a_shard_only_its_own(tmp_path: Path) -> None:
     for part in (1, 2):
         run(tmp_path, journal_name(part, 2), tuple(TASKS[part : part + 1]))
-    with Journal(tmp_path / journal_name(1, 2), HEADER, resume=False, force=True) as journal:
+    with open_journal(tmp_path / journal_name(1, 2), HEADER, resume=False, force=True) as journal:
         assert journal.finished == {}
     assert len(merged(journals_in(tmp_path), HEADER)) == 1
-    with Journal(tmp_path / "journal.csv", HEADER, resume=False, force=True) as journal:
+    with open_journal(tmp_path / "journal.csv", HEADER, resume=False, force=True) as journal:
         assert journal.finished == {}
     assert [path.name for path in journals_in(tmp_path)] == ["journal.csv"]
-
-
-def test_a_whole_run_removes_the_locks_of_shards_that_were_killed(tmp_path: Path) -> None:
-    """Their journals stay; a shard at work would have kept the whole run out."""
-    with Journal(tmp_path / journal_name(1, 2), HEADER, resume=False, force=False):
-        pass
-    lock_path(tmp_path / journal_name(1, 2)).touch()
-    lock_path(tmp_path / journal_name(2, 2)).touch()
-    with Journal(tmp_path / WHOLE, HEADER, resume=True, force=False):
-        pass
-    assert {path.name for path in tmp_path.iterdir()} == {WHOLE, journal_name(1, 2)}

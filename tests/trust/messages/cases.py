@@ -5,6 +5,7 @@ The lines are in ``sentences.txt``, by the name of the function.
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import fcntl
 import importlib.util
@@ -45,7 +46,7 @@ from mbla.sweeps.engine import child
 from mbla.sweeps.engine.cluster import Connection
 from mbla.sweeps.engine.engine import EngineOptions, check_options
 from mbla.sweeps.engine.supervised import SupervisedRunner
-from mbla.sweeps.journal import Journal
+from mbla.sweeps.journal import Journal, open_journal
 from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
 from tests.deck.decks import BLOCK, changed, write
 from tests.results.changed_files import changing
@@ -320,12 +321,12 @@ def factorisation_that_is_none(folder: Path, patch: Patch) -> object:
 
 @brings("sweep-option")
 def resume_and_force(folder: Path, patch: Patch) -> object:
-    return Journal(folder / "journal.csv", HEADER, resume=True, force=True)
+    return open_journal(folder / "journal.csv", HEADER, resume=True, force=True).__enter__()
 
 
-def journal(folder: Path, resume: bool = False) -> Journal:
+def journal(folder: Path, resume: bool = False) -> contextlib.AbstractContextManager[Journal]:
     """The journal of a sweep, to be opened."""
-    return Journal(folder / "journal.csv", HEADER, resume=resume, force=False)
+    return open_journal(folder / "journal.csv", HEADER, resume=resume, force=False)
 
 
 @brings("sweep-exists")
@@ -343,7 +344,7 @@ def journal_of_something_else(folder: Path, patch: Patch) -> object:
 
 @brings("journal-of-another-sweep")
 def journal_of_another_deck(folder: Path, patch: Patch) -> object:
-    with Journal(folder / "journal.csv", replace(HEADER, fingerprint="beef"), resume=False, force=False):
+    with open_journal(folder / "journal.csv", replace(HEADER, fingerprint="beef"), resume=False, force=False):
         pass
     return journal(folder, resume=True).__enter__()
 
