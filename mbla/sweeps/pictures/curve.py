@@ -9,8 +9,6 @@ import numpy as np
 from mbla.results.pictures.diagrams import dress
 from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.pictures.sheet import (
-    CROWD,
-    add_scale,
     drawn_values,
     line_handles,
     line_style,
@@ -26,11 +24,6 @@ def refusal(view: View) -> str:
     if view.text_refused:
         return view.text_refused
     return "" if view.axes else "no parameter has two values of a grid; scatter shows samples"
-
-
-def usual(view: View) -> bool:
-    """Whether curves are drawn without being asked for."""
-    return not refusal(view)
 
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:
@@ -49,7 +42,6 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 value = drawn_values(own)
                 style = line_style(sheet.page, line, lines)
                 style |= {"linestyle": "none"} if x.categorical else {}
-                style |= {"marker": "."} if len(value) > CROWD else {}
                 axes.plot(x.coordinates, value, zorder=3, **style)
                 if several(cells):
                     low, high = (np.where(np.isfinite(value), side, np.nan) for side in (own.low, own.high))
@@ -58,4 +50,3 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 mark_along(sheet.page, axes, x.coordinates, own.answer, own.value, view.answers)
             scale_axis(sheet.page, axes, x)
             axes.label_outer()
-        add_scale(sheet, frames, grid.lines)

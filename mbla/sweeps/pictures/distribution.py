@@ -59,11 +59,6 @@ def refusal(view: View) -> str:
     return "" if view.answers.good.any() else "no point has a verified value"
 
 
-def usual(view: View) -> bool:
-    """Whether it is drawn without being asked for: of random samples."""
-    return bool(view.table.samples) and not refusal(view)
-
-
 def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulative:
     """The curve of some points, (n_points,) true for those; without a band its edges tell only what is unknown."""
     values = np.sort(answers.values[own & answers.good])
@@ -112,16 +107,15 @@ def _groups(view: View) -> list[tuple[str, BoolArray]]:
     axes = grid_axes(table) if table.samples else ()
     if view.by and not is_sampled(table, column_by_name(table, view.by).dimension):
         axes = (axis_of(table, column_by_name(table, view.by)),)
-    groups = [("", np.ones(len(table), dtype=bool))]
-    for axis in axes:
-        unit = f" {axis.column.unit}" if axis.column.unit else ""
-        names = [f"{axis.column.name} {name}{unit}" for name in axis.names]
-        groups = [
-            (f"{earlier}, {name}" if earlier else name, own & (axis.place == place))
-            for earlier, own in groups
-            for place, name in enumerate(names)
-        ]
-    return [(name, own) for name, own in groups if own.any()]
+    groups: dict[str, list[int]] = {}
+    for row, places in enumerate(zip(*(axis.place for axis in axes), strict=True)):
+        names = (
+            f"{axis.column.name} {axis.names[at]} {axis.column.unit}" for axis, at in zip(axes, places, strict=True)
+        )
+        groups.setdefault(", ".join(map(str.strip, names)), []).append(row)
+    return [(name, np.isin(np.arange(len(table)), rows)) for name, rows in groups.items()] or [
+        ("", np.ones(len(table), dtype=bool))
+    ]
 
 
 def _style(page: Page, number: int, count: int) -> dict[str, Any]:
@@ -141,14 +135,13 @@ def _draw_curve(axes: Any, curve: Cumulative, style: dict[str, Any]) -> None:
 
 
 def _notes(view: View, curves: Sequence[Cumulative]) -> list[str]:
-    notes = []
+    notes = ["points of no random sample: shares of the points, no probabilities"]
     if view.table.samples:
         kind = view.table.sampling.replace("_", " ")
-        band = f"band: {CONFIDENCE:.0%} for the whole curve (Dvoretzky-Kiefer-Wolfowitz)"
-        exact = "" if kind == "random" else f", which holds for independent points; those of {kind} spread more evenly"
-        notes.append(f"{kind} sample; {band}{exact}")
-    else:
-        notes.append("points of no random sample: shares of the points, no probabilities")
+        notes = [
+            f"{kind} sample; band: {CONFIDENCE:.0%} for the whole curve of independent points, as random ones are "
+            "(Dvoretzky-Kiefer-Wolfowitz)"
+        ]
     if any(curve.below or curve.above for curve in curves):
         notes.append("no equilibrium counts below every value, unbounded above every value")
     if any(curve.unknown for curve in curves):

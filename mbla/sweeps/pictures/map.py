@@ -25,11 +25,6 @@ def refusal(view: View) -> str:
     return ""
 
 
-def usual(view: View) -> bool:
-    """Whether maps are drawn without being asked for: of two times three values it tells no more than curves."""
-    return not refusal(view) and min(len(axis.levels) for axis in view.axes[:2]) > 2
-
-
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     grid = gridded(view.answers, *view.axes)

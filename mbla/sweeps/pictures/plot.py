@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
@@ -25,9 +25,6 @@ class Kind(Protocol):
     def refusal(self, view: View) -> str:
         """Why a table does not fit it, in words; empty where it does."""
 
-    def usual(self, view: View) -> bool:
-        """Whether it is drawn of a table without being asked for."""
-
     def draw(self, path: Path, view: View, options: PictureOptions) -> None:
         """Write it; raises as ``open_diagrams`` does."""
 
@@ -36,6 +33,13 @@ KINDS: dict[str, Kind] = {
     "curve": curve, "map": map, "polar": polar, "scatter": scatter, "distribution": distribution, "tornado": tornado,
 }  # fmt: skip
 """by name, in the order in which they are made"""
+USUAL: dict[str, Callable[[View], bool]] = {
+    "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it tells no more than curves
+    "scatter": lambda view: bool(view.sampled),
+    "distribution": lambda view: bool(view.table.samples),
+    "tornado": lambda view: len(tornado.ordered(view) if view.sampled else view.axes) > 1,
+}
+"""which of those that fit a table are drawn of it without being asked for; kinds that are not here always are"""
 
 
 def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
@@ -80,19 +84,14 @@ class SweepPictures:
 def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
     """Pictures of a sweep from its folder, sweep.csv or sweep.json, as the command line asks for them.
 
-    Raises as ``sweep_picture_options``, ``read_sweep_table`` and ``plot_sweep`` do.
+    Raises as ``read_sweep_table`` and ``plot_sweep`` do, and UsageError for a text that is no choice.
     """
-    chosen = sweep_picture_options(arguments)
-    table = read_sweep_table(path)
-    folder = path if path.is_dir() else path.parent
-    return plot_sweep(table, arguments.output or folder, replace(chosen, demands=demands_of(folder)))
-
-
-def sweep_picture_options(arguments: Any) -> SweepPictures:
-    """Choices from the texts of the command line; UsageError for what is none."""
     kinds = () if arguments.kind is None else parse_kinds(arguments.kind, tuple(KINDS))
     every = arguments.kind is not None and arguments.kind.strip() == "all"
-    return SweepPictures(kinds, every, arguments.result, arguments.by or "", page=page_options(arguments))
+    page, folder = page_options(arguments), path if path.is_dir() else path.parent
+    table = read_sweep_table(path)
+    chosen = SweepPictures(kinds, every, arguments.result, arguments.by or "", demands_of(folder), page)
+    return plot_sweep(table, arguments.output or folder, chosen)
 
 
 def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = None) -> list[Path]:
@@ -130,11 +129,15 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[PictureFile]:
     if chosen.kinds:
         found = [(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
     else:
-        found = [(kind, view) for view in views for kind in KINDS if KINDS[kind].usual(view)]
-        if chosen.result is None:
-            found += _class_maps(table, chosen)
+        classes = [column for column in table.of_role("result") if column.path == CLASS and chosen.result is None]
+        maps = [view for view in (view_of(table, column, chosen.by) for column in classes) if view.answers.good.any()]
+        asked = [(kind, view) for view in views for kind in KINDS] + [("map", view) for view in maps]
+        found = [(kind, view) for kind, view in asked if not KINDS[kind].refusal(view)]
+        found = [(kind, view) for kind, view in found if kind not in USUAL or USUAL[kind](view)]
     if not found:
-        raise UsageError("nothing-to-draw", _nothing(views))
+        reasons = [f"{kind}: {KINDS[kind].refusal(views[0]) or 'only where --kind asks for it'}" for kind in KINDS]
+        name = views[0].answers.column.name
+        raise UsageError("nothing-to-draw", f"no kind of picture suits {name} ({'; '.join(reasons)})")
     draw = {kind: partial(KINDS[kind].draw, options=chosen.page) for kind, _ in found}
     return [PictureFile(_name(kind, view), partial(draw[kind], view=view)) for kind, view in found]
 
@@ -144,20 +147,8 @@ def _name(kind: str, view: View) -> str:
     return f"{kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', view.answers.column.name)}"
 
 
-def _class_maps(table: SweepTable, chosen: SweepPictures) -> list[tuple[str, View]]:
-    """Maps of mechanism classes where any is known."""
-    columns = [column for column in table.of_role("result") if column.path == CLASS]
-    views = [view_of(table, column, chosen.by) for column in columns]
-    return [("map", view) for view in views if view.answers.good.any() and KINDS["map"].usual(view)]
-
-
 def _fits(kind: str, view: View, every: bool) -> bool:
     reason = KINDS[kind].refusal(view)
     if reason and not every:
         raise UsageError("nothing-to-draw", f"--kind {kind} of {view.answers.column.name}: {reason}")
     return not reason
-
-
-def _nothing(views: Sequence[View]) -> str:
-    reasons = [f"{kind}: {KINDS[kind].refusal(views[0]) or 'only where --kind asks for it'}" for kind in KINDS]
-    return f"no kind of picture suits {views[0].answers.column.name} ({'; '.join(reasons)})"

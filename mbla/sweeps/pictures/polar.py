@@ -16,8 +16,6 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import INK
 from mbla.sweeps.answers import Answer, numbers_of
 from mbla.sweeps.pictures.sheet import (
-    CROWD,
-    add_scale,
     draw_marks,
     drawn_values,
     line_handles,
@@ -45,11 +43,6 @@ def refusal(view: View) -> str:
     return "" if count > 2 else "needs three directions"
 
 
-def usual(view: View) -> bool:
-    """Whether it is drawn without being asked for."""
-    return not refusal(view)
-
-
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     column = _azimuth(view)
@@ -73,7 +66,6 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
             )
             for line in range(lines):
                 _draw_curve(sheet, axes, grid.x, grid.cells[panel, line], line_style(sheet.page, line, lines))
-        add_scale(sheet, frames, grid.lines)
 
 
 def _azimuth(view: View) -> SweepColumn | None:
@@ -99,7 +91,7 @@ def _draw_curve(sheet: Diagrams, axes: Any, turn: Axis, cells: Cells, style: dic
     shown = angle, value
     if closes(turn.coordinates):
         shown = np.append(angle, angle[0] + 2 * np.pi), np.append(value, value[0])
-    axes.plot(*shown, zorder=3, **style | ({"marker": "."} if len(angle) > CROWD else {}))
+    axes.plot(*shown, zorder=3, **style)
     least, most = axes.get_ylim()
     at_value = np.isin(cells.answer, (Answer.UNVERIFIED, Answer.PARTLY))
     radii = np.where(at_value, cells.value, np.where(cells.answer == Answer.NO_EQUILIBRIUM, 0.0, most))

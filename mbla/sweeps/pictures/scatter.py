@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.results.pictures.diagrams import dress
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import BLUE, Page
+from mbla.results.pictures.page import BLUE
 from mbla.sweeps.pictures.sheet import MANY, mark_along, mark_handles, open_sheet, scale_axis
 from mbla.sweeps.pictures.tornado import LEAST_POINTS, correlation
 from mbla.sweeps.pictures.view import MOST_PANELS, View, axis_of, design_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn
-
-SPREAD = 0.28
-"""points of one category lie this far to either side of it, so that they can be told apart"""
-GOLDEN = 0.6180339887498949
-"""its multiples fill an interval evenly: places of points within a category, the same in every drawing"""
 
 
 def refusal(view: View) -> str:
@@ -28,11 +21,6 @@ def refusal(view: View) -> str:
     if not count:
         return "no parameter has two values"
     return f"{count} parameters; {MOST_PANELS} have room, name one with --by" if count > MOST_PANELS else ""
-
-
-def usual(view: View) -> bool:
-    """Whether it is drawn without being asked for: of samples."""
-    return bool(view.sampled) and not refusal(view)
 
 
 def scattered(view: View) -> list[SweepColumn]:
@@ -47,31 +35,23 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
     titles = [_title(view, column) for column in columns]
     notes = ["above each diagram: Spearman rank correlation over the points with a verified value"] * any(titles)
     what = f"{answers.label} against each parameter"
-    y = answers.values + (_within(len(answers.values)) if answers.categories else 0.0)
+    y = answers.values
 
-    def handles(page: Page) -> list[Any]:
-        return mark_handles(page, answers.answer)
-
-    with open_sheet(path, view, what, options, handles, notes) as sheet:
+    with open_sheet(path, view, what, options, lambda page: mark_handles(page, answers.answer), notes) as sheet:
         frames, count = sheet.frames(len(columns), sharey=True), int(answers.good.sum())
-        size = (6 if count < MANY / 10 else 3) * sheet.page.scale
-        style = {"linestyle": "none", "marker": "o", "color": BLUE, "alpha": 0.6, "markersize": size, "zorder": 3}
+        style = {"linestyle": "none", "marker": "o", "color": BLUE, "alpha": 0.4, "zorder": 3}
+        style |= {"markersize": 5 * sheet.page.scale}
         for column, title, axes in zip(columns, titles, frames.flat, strict=False):
             axis = axis_of(view.table, column)
             dress(sheet.page, axes, axis.label, answers.label, title)
             scale_axis(sheet.page, axes, axis)
-            x = axis.coordinates[axis.place] + (_within(len(y)) if axis.categorical else 0.0)
+            x = axis.coordinates[axis.place]
             axes.plot(x[answers.good], y[answers.good], markeredgewidth=0.0, rasterized=count > MANY, **style)
             if answers.categories:
                 axes.set_yticks(range(len(answers.categories)), answers.categories, parse_math=False)
             mark_along(sheet.page, axes, x, answers.answer, y, answers)
             if not axes.get_subplotspec().is_first_col():
                 axes.set_ylabel("")
-
-
-def _within(count: int) -> FloatArray:
-    """Places from -SPREAD to SPREAD, evenly, (count,)."""
-    return np.asarray(SPREAD * (2 * (np.arange(count) * GOLDEN % 1.0) - 1))
 
 
 def _title(view: View, column: SweepColumn) -> str:

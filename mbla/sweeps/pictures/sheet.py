@@ -38,12 +38,12 @@ MARKS = {
     Answer.MIXED: Mark("different from point to point", "d", GHOST),
     Answer.PARTLY: Mark("some points without a verified value", "o", WARNING),
 }
-CROWD = 60
-"""points from which on marks are smaller"""
+LETTERS = 60
+"""of all names along an axis from which on they stand upright"""
 MANY = 2000
 """points from which on they are one image in SVG and PDF"""
 MOST_NAMED = 10
-"""lines that a legend names; more have a scale of colours beside them"""
+"""lines that a legend names"""
 MARKERS = ("o", "s", "^", "D", "v", "P", "<", "X", ">", "p")
 
 
@@ -80,7 +80,7 @@ def scale_axis(page: Page, axes: Any, axis: Axis, which: str = "x") -> None:
     """Scale and ticks of an axis of the design along ``x`` or ``y``: names of categories, 45 degrees of directions."""
     along = getattr(axes, f"{which}axis")
     if axis.categorical:
-        turned = which == "x" and sum(map(len, axis.names)) > CROWD
+        turned = which == "x" and sum(map(len, axis.names)) > LETTERS
         along.set_ticks(axis.coordinates, axis.names, parse_math=False, rotation=90 if turned else 0)
     elif axis.log:
         axes.set(**{f"{which}scale": "log"})
@@ -105,8 +105,7 @@ def draw_marks(page: Page, axes: Any, x: Any, y: Any, answer: IntArray, **style:
     for kind, mark in MARKS.items():
         own = answer == kind
         if own.any():
-            size = (8.0, 1.5) if own.sum() < CROWD else (5.0, 0.8)
-            look = hollow(page, mark.marker, mark.colour, *size) | {"zorder": 4, "clip_on": False}
+            look = hollow(page, mark.marker, mark.colour) | {"zorder": 4, "clip_on": False}
             axes.plot(x[own], y[own], rasterized=own.sum() > MANY, **look, **style)
 
 
@@ -139,21 +138,8 @@ def line_style(page: Page, number: int, count: int) -> dict[str, Any]:
 
 
 def line_handles(page: Page, grid: Grid) -> list[Any]:
-    """Entries of a legend for the lines of each diagram where they can be named, and for answers that are no values."""
-    lines, count = grid.lines, grid.cells.shape[1]
-    names = [f"{lines.column.name} {name}" for name in lines.names] if lines is not None and count <= MOST_NAMED else []
-    named = [page.line(name, **line_style(page, i, count)) for i, name in enumerate(names)]
+    """Entries of a legend for the lines of each diagram, of many every second or third, and for answers."""
+    names = [] if grid.lines is None else [f"{grid.lines.column.name} {name}" for name in grid.lines.names]
+    step = -(-len(names) // MOST_NAMED) or 1
+    named = [page.line(names[i], **line_style(page, i, len(names))) for i in range(0, len(names), step)]
     return named + mark_handles(page, grid.cells.answer)
-
-
-def add_scale(sheet: Diagrams, frames: Any, lines: Axis | None) -> None:
-    """A bar of the colours of lines, a step for each, beside the diagrams, where a legend cannot name them."""
-    count = 0 if lines is None else len(lines.levels)
-    if lines is None or count <= MOST_NAMED:
-        return
-    parts = sheet.page.parts
-    colours = parts.colors.ListedColormap([tint(sheet.page, i, count) for i in range(count)])
-    steps = parts.colors.Normalize(-0.5, count - 0.5)
-    bar = sheet.add_bar(parts.cm.ScalarMappable(steps, colours), frames, lines.label)
-    step = -(-count // 16)
-    bar.set_ticks(np.arange(0, count, step), labels=lines.names[::step], fontsize=sheet.small, parse_math=False)

@@ -8,7 +8,6 @@ parameter to the greatest, and its range over all of them, at each combination o
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
 from pathlib import Path
 from statistics import NormalDist
 
@@ -27,8 +26,10 @@ from mbla.sweeps.tables.sweep_table import SweepColumn
 CONFIDENCE = 0.95
 LEAST_POINTS = 10
 """points from which a correlation and its interval are worth a picture; the interval's variance needs more than 3"""
-LEAST_TANGLED = 0.3
-"""rank correlation of two parameters with each other from which what each does cannot be told by this picture"""
+NOTE_OF_SAMPLE = (
+    "bars: Spearman rank correlation over the points with a verified value; whiskers: 95% interval (Bonett and Wright) "
+    "of independent points; bars of parameters that go together, by constraints or a zip, cannot be told apart"
+)
 NOTE_OF_GRID = (
     "bars: mean change from the least to the greatest value of the parameter at each combination of the others; "
     "whiskers: least and most of these changes; range: over all its values, mean"
@@ -100,26 +101,20 @@ def refusal(view: View) -> str:
     if view.sampled and good < LEAST_POINTS:
         return f"{good} points with a verified value; correlations of samples need {LEAST_POINTS}"
     if view.sampled:
-        return "" if _ordered(view) else "no parameter is a number that can be put in order"
+        return "" if ordered(view) else "no parameter is a number that can be put in order"
     if not view.axes:
         return "no parameter has two values"
     known = any(np.isfinite(swing(view, axis).size) for axis in view.axes)
     return "" if known else "nowhere has every value of a parameter a verified result, the others kept"
 
 
-def usual(view: View) -> bool:
-    """Whether it is drawn without being asked for: of one parameter there is nothing to compare."""
-    return not refusal(view) and len(_ordered(view) if view.sampled else view.axes) > 1
-
-
 def draw(path: Path, view: View, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     if view.sampled:
-        bars = [correlation(view, column) for column in _ordered(view)]
-        along, notes = "rank correlation with", _notes_of_sample(view)
+        bars, along = [correlation(view, column) for column in ordered(view)], "rank correlation with"
     else:
-        bars = [swing(view, axis) for axis in view.axes]
-        along, notes = "change of", [NOTE_OF_GRID]
+        bars, along = [swing(view, axis) for axis in view.axes], "change of"
+    notes = [NOTE_OF_SAMPLE if view.sampled else NOTE_OF_GRID]
     bars.sort(key=lambda bar: np.nan_to_num(-bar.size, nan=1.0))
     whiskers = not view.sampled or len(view.table.dimensions) == 1  # samples repeated over a grid are not independent
     with open_sheet(path, view, f"{view.answers.label}: sensitivity to parameters", options, None, notes) as sheet:
@@ -138,24 +133,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
         axes.grid(visible=False, axis="y")
 
 
-def _ordered(view: View) -> list[SweepColumn]:
+def ordered(view: View) -> list[SweepColumn]:
     """Parameters whose values have an order: no texts, no directions."""
     columns = design_columns(view.table)
     return [column for column in columns if column.role == "parameter" and column.kind in ("float", "int")]
-
-
-def _notes_of_sample(view: View) -> list[str]:
-    """What the bars are, and a warning where parameters go together, as constraints and zipped lists make them."""
-    good = view.answers.good
-    values = {column.name: numbers_of(column, view.table[column.name])[good] for column in _ordered(view)}
-    together = [
-        f"{one} with {other}"
-        for one, other in combinations(values, 2)
-        if abs(rank_correlation(values[one], values[other])) > LEAST_TANGLED
-    ]
-    notes = [
-        f"bars: Spearman rank correlation over {good.sum()} points with a verified value; whiskers: {CONFIDENCE:.0%} "
-        "interval (Bonett and Wright), which takes the points as independent"
-    ]
-    tangled = "parameters that go together, so that their bars cannot be told apart"
-    return notes + ([f"{tangled}: {', '.join(together)}"] if together else [])

@@ -211,18 +211,40 @@ NO_POINT = -1
 def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
     """The points of a result by their values of some parameters.
 
-    The median is one in rank: what does not stand lies below all values, what nothing brings down above all.
+    The median is one in rank: what does not stand lies below all values, what nothing brings down above all. It is that
+    of the points with an answer; where others are among them, the cell is marked.
     """
     shape = tuple(len(axis.levels) for axis in axes)
     place = np.ravel_multi_index(tuple(axis.place for axis in axes), shape)
-    cells = np.recarray(int(np.prod(shape)), CELL)
-    for name in ("value", "low", "high"):
-        cells[name] = np.nan
-    cells["answer"], cells["count"] = NO_POINT, np.bincount(place, minlength=len(cells))
+    cells = np.full(int(np.prod(shape)), np.array((NO_POINT, np.nan, np.nan, np.nan, 0), CELL))
     order = np.argsort(place, kind="stable")
-    for cell, own in zip(np.unique(place), np.split(order, np.cumsum(cells.count[cells.count > 0])), strict=False):
+    found, begins = np.unique(place[order], return_index=True)
+    for cell, own in zip(found, np.split(order, begins[1:]), strict=True):
         cells[cell] = (*_together(answers, own), len(own))
     return cells.reshape(shape).view(np.recarray)
+
+
+def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:
+    """Answer, median, least and greatest of some points."""
+    kinds, values = answers.answer[own], answers.values[own]
+    good = values[kinds == Answer.VALUE]
+    if len(own) == 1:
+        return int(kinds[0]), values[0], values[0], values[0]
+    if not len(good) and np.ptp(kinds) == 0:
+        return int(kinds[0]), np.nan, np.nan, np.nan
+    if answers.categories:
+        one = len(good) == len(own) and np.ptp(good) == 0
+        return (Answer.VALUE, good[0], good[0], good[0]) if one else (Answer.MIXED, np.nan, np.nan, np.nan)
+    ends = np.full(answers.below[own].sum(), -np.inf), np.full(answers.above[own].sum(), np.inf)
+    ranked = np.sort(np.concatenate([ends[0], good, ends[1]]))
+    if not len(ranked):
+        return int(kinds.max()), np.nan, np.nan, np.nan
+    middle = ranked[[(len(ranked) - 1) // 2, len(ranked) // 2]]
+    median = float(middle.mean() if np.isfinite(middle).all() else middle[0])
+    low, high = (good.min(), good.max()) if len(good) else (np.nan, np.nan)
+    if not np.isfinite(median):
+        return (Answer.NO_EQUILIBRIUM if median < 0 else Answer.UNBOUNDED), np.nan, low, high
+    return (Answer.VALUE if len(ranked) == len(own) else Answer.PARTLY), median, low, high
 
 
 def several(cells: Cells) -> bool:
@@ -268,30 +290,3 @@ def gridded(answers: Answers, x: Axis, *rest: Axis) -> Grid:
     cells = pooled(answers, [axis for axis in along if axis is not None])
     sizes = [1 if axis is None else len(axis.levels) for axis in along]
     return Grid(x, lines, panels, cells.reshape(sizes).view(np.recarray))
-
-
-def _together(answers: Answers, own: IntArray) -> tuple[int, float, float, float]:
-    """Answer, median, least and greatest of some points."""
-    kinds, values = answers.answer[own], answers.values[own]
-    if len(own) == 1:
-        return int(kinds[0]), values[0], values[0], values[0]
-    good = values[kinds == Answer.VALUE]
-    if answers.categories:
-        if len(good) == len(own) and np.ptp(good) == 0:
-            return Answer.VALUE, float(good[0]), float(good[0]), float(good[0])
-        same = bool(np.all(kinds == kinds[0]) and kinds[0] != Answer.VALUE)
-        return (int(kinds[0]) if same else Answer.MIXED), np.nan, np.nan, np.nan
-    below, above = int(answers.below[own].sum()), int(answers.above[own].sum())
-    ranked = np.sort(np.concatenate([np.full(below, -np.inf), good, np.full(above, np.inf)]))
-    if not len(ranked):
-        return int(kinds.max()), np.nan, np.nan, np.nan
-    lower, upper = ranked[(len(ranked) - 1) // 2], ranked[len(ranked) // 2]
-    low, high = (float(good.min()), float(good.max())) if len(good) else (np.nan, np.nan)
-    if not np.isfinite(lower):
-        return (Answer.NO_EQUILIBRIUM if lower < 0 else Answer.UNBOUNDED), np.nan, low, high
-    median = float((lower + upper) / 2) if np.isfinite(upper) else float(lower)
-    unknown = len(own) - len(ranked)
-    if not unknown:
-        return Answer.VALUE, median, low, high
-    ends = [np.sort(np.append(ranked, np.full(unknown, end)))[len(own) // 2] for end in (-np.inf, np.inf)]
-    return (Answer.PARTLY, median, low, high) if np.isfinite(ends).all() else (int(kinds.max()), np.nan, low, high)
