@@ -18,7 +18,7 @@ import numpy as np
 
 from mbla.errors import UsageError
 from mbla.results.record.scene import Values
-from mbla.results.tables.table import NO_EXTRA, Table
+from mbla.results.tables.table import NO_EXTRA, Table, unit_in
 
 
 def table_csv(table: Table) -> str:
@@ -66,7 +66,7 @@ def table_parquet(table: Table, about: dict[str, str]) -> bytes:
     """The bytes of the file of an exported table; see ``parquet_bytes``."""
     return parquet_bytes(
         [
-            ParquetColumn(column.name, column.kind, column.unit_in(table.units), column.words, values)
+            ParquetColumn(column.name, column.kind, unit_in(column, table.units), column.words, values)
             for column, values in zip(table.kind.columns, table.values, strict=True)
         ],
         about,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,8 +11,8 @@ import numpy as np
 from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.record.columns import Column
-from mbla.results.record.quantity import COMPONENTS, Kind, Quantity, UnitKind, unit_text
-from mbla.results.record.scene import Scene, Values, as_text, scene_of
+from mbla.results.record.quantity import COMPONENTS, Quantity, unit_text
+from mbla.results.record.scene import Scene, Values, as_text
 from mbla.results.results import CaseResult, Results
 
 if TYPE_CHECKING:
@@ -24,109 +23,59 @@ DTYPES: dict[str, Any] = {"float": np.float64, "int": np.int64, "bool": np.bool_
 
 
 @dataclass(frozen=True)
-class TableColumn:
-    """One column of a table.
+class TableKind:
+    """The description of a table.
 
-    kind : float, nan where there is no value; int, masked where there is none; bool; text, empty where there is none
-    of   : the values of the rows that one source makes
+    words  : what a row is
+    record : its columns as the record has them
+    parts  : what makes its rows, one after the other: results and the cases that are asked for -> parts
+    values : of a column of the record in a part, (n_rows, ...)
     """
 
     name: str
-    kind: Kind
-    unit: UnitKind
     words: str
-    of: Callable[[Any], Values]
+    record: tuple[Column, ...]
+    parts: Callable[[Results, tuple[CaseResult, ...]], Iterable[Any]]
+    values: Callable[[Column, Any], Values]
 
-    def unit_in(self, units: Units) -> str:
-        """The unit in a deck's units; empty for plain numbers and text."""
-        return "" if self.unit == "1" else unit_text(self.unit, units)
+    @property
+    def columns(self) -> tuple[Quantity, ...]:
+        """One for each component of the values, in their order; numbers that have names are text.
 
-    def header(self, units: Units) -> str:
-        """``centroids_x [m]``; the name alone where there is no unit."""
-        unit = self.unit_in(units)
-        return f"{self.name} [{unit}]" if unit else self.name
-
-
-def described(quantity: Quantity, of: Callable[[Any], Values]) -> tuple[TableColumn, ...]:
-    """Columns of a quantity, one for each component of its values (n_rows, ...)."""
-    return tuple(
-        TableColumn(name, quantity.kind, unit, quantity.words, partial(_component, of, place))
-        for place, name, unit in quantity.components()
-    )
+        Floats are nan where there is no value, whole numbers masked, text is empty.
+        """
+        return tuple(
+            replace(column.quantity, name=name, unit=unit, kind="text" if column.names else column.quantity.kind)
+            for column in self.record
+            for _, name, unit in column.quantity.components()
+        )
 
 
-def _component(of: Callable[[Any], Values], place: tuple[int, ...], source: Any) -> Values:
-    values = of(source)
-    for row in place:
-        values = values[:, row]
-    return values
-
-
-def _named(column: Column, of: Callable[[Any], Values]) -> tuple[TableColumn, ...]:
-    """Columns of one of the record; numbers with names are text."""
-    text = column.names is not None or column.quantity.kind == "text"
-    return described(replace(column.quantity, kind="text") if text else column.quantity, of)
-
-
-def scene_columns(columns: Sequence[Column], count: Callable[[Scene], int]) -> tuple[TableColumn, ...]:
-    """Columns of the record as those of a table, after the name of the load case; ``count``: rows of a scene."""
-
-    def case(scene: Scene) -> Values:
-        return as_text([scene.case.load_case.name if scene.case else ""] * count(scene))
-
-    own = (column for column in columns if "table" in column.files)
-    found = (each for column in own for each in _named(column, partial(_values, column, count)))
-    return (TableColumn("case", "text", "1", "load case", case), *found)
-
-
-def _values(column: Column, count: Callable[[Scene], int], scene: Scene) -> Values:
-    """Values of a column, (n_rows, ...); where there are none, nothing of its kind in every row."""
+def values_in_scene(column: Column, scene: Scene, count: int) -> Values:
+    """Values of a column in a scene, (count, ...); where there are none, nothing of its kind in every row."""
     quantity = column.quantity
-    values: Values | None = column.of(scene)
+    values: Values | str | None = column.of(scene)
+    if isinstance(values, str):
+        return as_text([values] * count)
+    if values is not None and column.names is not None:
+        return as_text(list(column.names(scene)))[values.astype(np.int64)]
     if values is not None:
-        if column.names is not None:
-            return as_text(list(column.names(scene)))[values.astype(np.int64)]
         return as_text(["; ".join(values)]) if quantity.dims == ("sentence",) else values
-    shape = (count(scene), *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
+    shape = (count, *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
     if column.names is not None or quantity.kind == "text":
         return np.full(shape, "", dtype=object)
-    return (
-        np.full(shape, np.nan) if quantity.kind == "float" else np.ma.array(np.zeros(shape, dtype=np.int64), mask=True)
-    )
+    if quantity.kind == "float":
+        return np.full(shape, np.nan)
+    return np.ma.array(np.zeros(shape, dtype=np.int64), mask=True)
 
 
-def list_columns(columns: Sequence[Column]) -> tuple[TableColumn, ...]:
-    """The same of a table whose sources are lists of rows."""
-    return tuple(each for column in columns for each in _named(column, partial(_listed, column)))
-
-
-def _listed(column: Column, rows: Sequence[Any]) -> Values:
-    """Values of a column, (n_rows, ...), row by row."""
+def values_of_rows(column: Column, rows: Sequence[Any]) -> Values:
+    """Values of a column in a list of rows, (n_rows, ...)."""
     found: list[Any] = [column.of(row) for row in rows]
     if column.quantity.kind == "text":
         return as_text([str(value) for value in found])
     shape = (len(COMPONENTS[dim]) for dim in column.quantity.dims if dim in COMPONENTS)
     return np.array(found).reshape(len(rows), *shape)
-
-
-def case_scenes(results: Results, cases: tuple[CaseResult, ...]) -> list[Scene]:
-    """Sources of tables that have rows for every load case."""
-    return [scene_of(results, case) for case in cases]
-
-
-@dataclass(frozen=True)
-class TableKind:
-    """The description of a table.
-
-    words   : what a row is
-    columns : in their order
-    sources : what makes its rows, part by part: results and the cases that are asked for -> sources of the columns
-    """
-
-    name: str
-    words: str
-    columns: tuple[TableColumn, ...]
-    sources: Callable[[Results, tuple[CaseResult, ...]], Iterable[Any]]
 
 
 @dataclass(frozen=True)
@@ -146,20 +95,12 @@ class Table:
 
     def __getitem__(self, name: str) -> Values:
         """The values of a column by its name; KeyError if there is none."""
-        for column, values in zip(self.kind.columns, self.values, strict=True):
-            if column.name == name:
-                return values
-        raise KeyError(name)
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return tuple(column.name for column in self.kind.columns)
+        return dict(zip(self.unit_of, self.values, strict=True))[name]
 
     @property
     def unit_of(self) -> dict[str, str]:
         """Units by column, those of the deck; empty for plain numbers and text."""
-        return {column.name: column.unit_in(self.units) for column in self.kind.columns}
+        return {column.name: unit_in(column, self.units) for column in self.kind.columns}
 
     @property
     def meaning_of(self) -> dict[str, str]:
@@ -169,7 +110,7 @@ class Table:
     @property
     def header(self) -> tuple[str, ...]:
         """Names with units, ``centroids_x [m]``."""
-        return tuple(column.header(self.units) for column in self.kind.columns)
+        return tuple(f"{name} [{unit}]" if unit else name for name, unit in self.unit_of.items())
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a DataFrame with plain column names; ``attrs`` holds ``units`` and ``meanings`` by column.
@@ -183,27 +124,36 @@ class Table:
             import pandas
         except ImportError as error:
             raise UsageError("extra-missing", f"tables for pandas: {NO_EXTRA}") from error
-        frame = pandas.DataFrame(
-            {
-                column.name: _series(pandas, column, values)
-                for column, values in zip(self.kind.columns, self.values, strict=True)
-            }
-        )
+        columns = zip(self.kind.columns, self.values, strict=True)
+        frame = pandas.DataFrame({column.name: _series(pandas, column, values) for column, values in columns})
         frame.attrs = {"units": self.unit_of, "meanings": self.meaning_of}
         return frame
 
 
+def unit_in(column: Quantity, units: Units) -> str:
+    """The unit of a column in a deck's units; empty for plain numbers and text."""
+    return "" if column.unit == "1" else unit_text(column.unit, units)
+
+
 def table_of(kind: TableKind, results: Results, cases: tuple[CaseResult, ...]) -> Table:
     """The table of that kind for some cases of a result."""
-    sources = list(kind.sources(results, cases))
-    columns = [[column.of(source) for source in sources] for column in kind.columns]
-    values = tuple(_joined(column, parts) for column, parts in zip(kind.columns, columns, strict=True))
+    parts, columns, values = list(kind.parts(results, cases)), iter(kind.columns), list[Values]()
+    for column in kind.record:
+        found = [kind.values(column, part) for part in parts]
+        for place, *_ in column.quantity.components():
+            values.append(_joined(next(columns), [_component(each, place) for each in found]))
     if len({len(column) for column in values}) > 1:
         raise AssertionError(f"columns of {kind.name} differ in length")
-    return Table(kind, values, results.model.units)
+    return Table(kind, tuple(values), results.model.units)
 
 
-def _joined(column: TableColumn, parts: list[Values]) -> Values:
+def _component(values: Values, place: tuple[int, ...]) -> Values:
+    for row in place:
+        values = values[:, row]
+    return values
+
+
+def _joined(column: Quantity, parts: list[Values]) -> Values:
     dtype = DTYPES[column.kind]
     joined = np.concatenate([np.zeros(0, dtype=dtype), *(np.ma.getdata(part).astype(dtype) for part in parts)])
     if column.kind != "int":
@@ -212,7 +162,7 @@ def _joined(column: TableColumn, parts: list[Values]) -> Values:
     return np.ma.masked_array(joined, np.concatenate(masks))
 
 
-def _series(pandas: Any, column: TableColumn, values: Values) -> Any:
+def _series(pandas: Any, column: Quantity, values: Values) -> Any:
     """Whole numbers of which some are missing as the nullable type of pandas; text as its own."""
     if column.kind != "int":
         return pandas.Series(values, dtype="str" if column.kind == "text" else values.dtype)

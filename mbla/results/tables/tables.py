@@ -6,7 +6,7 @@ nothing has to be read from names of files. Tables without rows are written too,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 from pathlib import Path
@@ -27,35 +27,66 @@ from mbla.results.record.columns import (
     columns_of,
 )
 from mbla.results.record.quantity import STORED, Quantity
+from mbla.results.record.scene import Scene, Values, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import Series, chosen_cases, factor_of, position_of, series_of
+from mbla.results.series import chosen_cases, factor_of, position_of, series_of
 from mbla.results.tables.formats import table_csv, table_parquet
-from mbla.results.tables.table import Table, TableKind, case_scenes, list_columns, scene_columns, table_of
+from mbla.results.tables.table import Table, TableKind, table_of, unit_in, values_in_scene, values_of_rows
 
-# --- Tables of what there is to list: a source is a list of rows ----------------------------------------------------
+CASE = Quantity("case", "text", "load case")
+
+
+# --- Tables of arrays: a part is a load case as a scene -------------------------------------------------------------
+
+
+def _scenes(results: Results, cases: tuple[CaseResult, ...]) -> list[Scene]:
+    return [scene_of(results, case) for case in cases]
+
+
+def _of_scenes(name: str, words: str, columns: Sequence[Column], count: Callable[[Scene], int]) -> TableKind:
+    """Columns of the record after the name of the load case; ``count``: rows of a scene."""
+
+    def values(column: Column, scene: Scene) -> Values:
+        return values_in_scene(column, scene, count(scene))
+
+    case = Column(CASE, lambda scene: scene.case.load_case.name, None, ("table",))
+    own = (column for column in columns if "table" in column.files)
+    return TableKind(name, words, (case, *own), _scenes, values)
+
+
+CASES = _of_scenes("cases", "each load case", CASE_COLUMNS, lambda _: 1)
+BLOCKS = _of_scenes("blocks", "each block, for each load case", BLOCK_COLUMNS, lambda scene: len(scene.model.blocks))
+INTERFACES = _of_scenes(
+    "interfaces", "each interface, for each load case", INTERFACE_COLUMNS, lambda scene: len(scene.contacts)
+)
+POINTS = _of_scenes(
+    "points", "each contact point, for each load case", POINT_COLUMNS, lambda scene: len(scene.contacts.points)
+)
+
+
+# --- Tables of what there is to list: a part is a list of rows ------------------------------------------------------
 
 
 def _list_table(name: str, words: str) -> TableKind:
     """A table of the records that a solution lists under one name, as the result file has them."""
 
-    def rows(_: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[Any]]:
+    def rows(_: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
         for case in cases:
             yield [vars(record) | {"case": case.load_case.name} for record in getattr(case.solution, name)]
 
-    held = [quantity for quantity in STORED if quantity.place == f"cases/*/{name}"]
-    columns = [Column(each, itemgetter(each.name), None, ("table",)) for each in (CASE, *held)]
-    return TableKind(name, words, list_columns(columns), rows)
+    held = (quantity for quantity in STORED if quantity.place == f"cases/*/{name}")
+    columns = tuple(Column(each, itemgetter(each.name), None, ("table",)) for each in (CASE, *held))
+    return TableKind(name, words, columns, rows, values_of_rows)
 
 
-CASE = Quantity("case", "text", "load case")
 PROGRAMS = _list_table("programs", "each program that was solved for a load case")
 ITERATIONS = _list_table("iterations", "each iteration of each program")
 PATH = _list_table("path", "each step of the load path that was followed")
 
 
-def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[Any]]:
+def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
     """Of supports, then of guides, in the order of the listing."""
-    for scene, case in zip(case_scenes(results, cases), cases, strict=True):
+    for scene, case in zip(_scenes(results, cases), cases, strict=True):
         if scene.mechanics is not None:
             found = reactions_of(scene.model, scene.contacts, case.load_case, scene.mechanics)
             yield [SimpleNamespace(scene=scene, case=case, **vars(reaction)) for reaction in found]
@@ -64,60 +95,39 @@ def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list
 REACTIONS = TableKind(
     "reactions",
     "each support of the structure at collapse, for each load case with forces",
-    list_columns(columns_of("reactions")),
+    columns_of("reactions"),
     _reactions,
+    values_of_rows,
 )
 
 
-def _positions(results: Results, cases: tuple[CaseResult, ...]) -> Iterable[list[Any]]:
+def _positions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
     """Positions of the cases asked for; the worst is that of all."""
-    names = {case.load_case.name for case in cases}
+    names, blocks = {case.load_case.name for case in cases}, results.model.blocks
     for series in series_of(results.cases):
-        yield [_position(results, series, case) for case in series.cases if case.load_case.name in names]
+        rows = []
+        for case in (case for case in series.cases if case.load_case.name in names):
+            at = position_of(case)
+            block = int(at.blocks[0])
+            carrier = blocks.name(block) if block >= 0 else ""
+            axles = " ".join(f"{place:.9g}" for place in at.distances.tolist())
+            found = {"load_factor": factor_of(case), "worst": case is series.worst, "carrier": carrier, "axles": axles}
+            rows.append(SimpleNamespace(series=series, case=case, at=at, **found))
+        yield rows
 
 
-def _position(results: Results, series: Series, case: CaseResult) -> SimpleNamespace:
-    at = position_of(case)
-    block = int(at.blocks[0])
-    return SimpleNamespace(
-        series=series,
-        case=case,
-        at=at,
-        carrier=results.model.blocks.name(block) if block >= 0 else "",
-        axles=" ".join(f"{place:.9g}" for place in at.distances.tolist()),
-        load_factor=factor_of(case),
-        worst=case is series.worst,
-    )
-
-
-SERIES = TableKind("series", "each position of each travelling load", list_columns(columns_of("series")), _positions)
+SERIES = TableKind("series", "each position of each travelling load", columns_of("series"), _positions, values_of_rows)
 NOTICES = TableKind(
-    "notices", "each remark of the run", list_columns(columns_of("notices")), lambda results, _: [notices_of(results)]
+    "notices",
+    "each remark of the run",
+    columns_of("notices"),
+    lambda results, _: [notices_of(results)],
+    values_of_rows,
 )
 
 
 # --- All tables by name -----------------------------------------------------------------------------------------------
 
-
-CASES = TableKind("cases", "each load case", scene_columns(CASE_COLUMNS, lambda _: 1), case_scenes)
-BLOCKS = TableKind(
-    "blocks",
-    "each block, for each load case",
-    scene_columns(BLOCK_COLUMNS, lambda scene: len(scene.model.blocks)),
-    case_scenes,
-)
-INTERFACES = TableKind(
-    "interfaces",
-    "each interface, for each load case",
-    scene_columns(INTERFACE_COLUMNS, lambda scene: len(scene.contacts)),
-    case_scenes,
-)
-POINTS = TableKind(
-    "points",
-    "each contact point, for each load case",
-    scene_columns(POINT_COLUMNS, lambda scene: len(scene.contacts.points)),
-    case_scenes,
-)
 
 TABLES: dict[str, TableKind] = {
     kind.name: kind
@@ -152,7 +162,7 @@ def tables_page() -> str:
         lines += [f"### `{kind.name}`", "", f"One row for {kind.words}.", ""]
         lines += ["| column | type | unit | meaning |", "|---|---|---|---|"]
         for column in kind.columns:
-            lines.append(f"| `{column.name}` | {column.kind} | {column.unit_in(Units()) or '–'} | {column.words} |")
+            lines.append(f"| `{column.name}` | {column.kind} | {unit_in(column, Units()) or '–'} | {column.words} |")
         lines.append("")
     return "\n".join(lines)
 

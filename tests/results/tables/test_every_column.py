@@ -241,7 +241,7 @@ def test_columns_are_what_the_arrays_say(every: dict[str, Results], which: str, 
     results = every[which]
     table, rows = tables_of(results)[name], EXPECTED[name](results)
     assert len(table) == len(rows)
-    left = set(table.columns) - set(rows[0])
+    left = set(table.unit_of) - set(rows[0])
     assert {column for column in left if not column.startswith(ELSEWHERE[name])} == set()
     for column in rows[0]:
         found, values = table[column], [row[column] for row in rows]

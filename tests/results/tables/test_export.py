@@ -50,8 +50,8 @@ def test_csv_reads_back_to_the_same_bits(results: Results, folder: Path, name: s
     read = pandas.read_csv(folder / f"tower_{name}.csv", engine="python", dtype=str)  # its own numbers lose bits
     assert tuple(read.columns) == table.header
     assert len(read) == len(table)
-    for column, values in zip(table.kind.columns, table.values, strict=True):
-        back = read[column.header(table.units)]
+    for column, head, values in zip(table.kind.columns, table.header, table.values, strict=True):
+        back = read[head]
         if column.kind == "text":
             assert ["" if pandas.isna(cell) else cell for cell in back] == values.tolist()
         else:
@@ -80,7 +80,7 @@ def test_parquet_reads_back_with_units(results: Results, folder: Path, name: str
     schema = parquet.read_schema(path)
     for column in table.kind.columns:
         notes = schema.field(column.name).metadata
-        assert notes[b"unit"].decode() == column.unit_in(table.units)
+        assert notes[b"unit"].decode() == table.unit_of[column.name]
         assert notes[b"description"].decode() == column.words
     assert schema.metadata[b"deck"] == b"tower.yaml"
 
