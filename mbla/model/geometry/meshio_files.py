@@ -1,6 +1,13 @@
 """The formats that meshio reads and writes (only importer of meshio).
 
-Volume cells are blocks, one each; files without any hold surfaces, whose closed parts are the blocks.
+Volume cells are blocks, one each; files without any hold surfaces, whose closed parts are the blocks. Cells of higher
+order go by their corners, which come first.
+
+meshio believes what cells and sections announce, and blocks would be missing or wrong: of a VTU file it takes as many
+points as the type of a cell needs, counted back from its offset, of a Gmsh file as many lines as a section announces.
+So these numbers are held against what is there.
+
+Source: VTK file formats, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 """
 
 from __future__ import annotations
@@ -8,6 +15,7 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
+import re
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, partial
@@ -20,33 +28,55 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, cells_left_out, check_rows, unused_points
-from mbla.model.geometry.meshio_guards import (
-    CELLS,
-    VARIABLE,
-    announced_in_vtu,
-    checked_cells,
-    refuse_other_count,
-    refuse_other_faces,
-    refuse_other_sections,
+from mbla.model.geometry.geometry import (
+    Geometry,
+    GeometryFileError,
+    cells_left_out,
+    check_rows,
+    malformed,
+    unused_points,
 )
 from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import own_vertices, surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
+from mbla.model.solids.ragged import ranges
+from mbla.model.wording import counted
 
-SURFACE_CELLS = {"triangle": 3, "VTK_LAGRANGE_TRIANGLE": 3, "quad": 4, "VTK_LAGRANGE_QUADRILATERAL": 4, "polygon": 0}
+SURFACE_CELLS = {"triangle": 3, "quad": 4, "polygon": 0}
 """number of corners; 0 where it is that of the cell"""
+POLYGON = 7
+NODES = {1: 1, 3: 2, 5: 3, POLYGON: 3, 8: 4, 9: 4, 10: 4, 11: 8, 12: 8, 13: 6, 14: 5, 15: 10, 16: 12, 21: 3, 22: 6}
+NODES |= {23: 8, 24: 10, 25: 20, 26: 15, 27: 13, 28: 9, 29: 27, 30: 6, 31: 12, 32: 18, 33: 24, 34: 7, 35: 4}
+"""number of points of each type of VTK that is read, of polygons the least"""
+PLAIN = {
+    21: 3,
+    35: 3,
+    22: 5,
+    34: 5,
+    23: 9,
+    28: 9,
+    30: 9,
+    24: 10,
+    25: 12,
+    29: 12,
+    33: 12,
+    26: 13,
+    31: 13,
+    32: 13,
+    27: 14,
+}
+"""type that a cell of higher order is by its corners"""
+BY_AXES = {8: (9, (0, 1, 3, 2)), 11: (12, (0, 1, 3, 2, 4, 5, 7, 6))}
+"""pixels and voxels, whose points come along the axes: the type that they are, and its points in order around it"""
+PRISMS = {"penta_prism": 10, "hexa_prism": 12}
+SOLID = (*PRISMS, "wedge15", "pyramid13")
+"""cells that meshio's readers know and its mesh does not, for want of a number of points or of dimensions"""
 WORDS = {"vtu": "VTU", "gmsh": "Gmsh .msh"}
-WITHOUT_DIMENSION = {"wedge12": 3, "wedge15": 3, "pyramid13": 3, "hexahedron24": 3, "penta_prism": 3, "hexa_prism": 3}
-WITHOUT_DIMENSION |= {"quad6": 2, "triangle7": 2}
-"""cells that meshio's readers know and its mesh does not, for want of a number of dimensions"""
+SECTIONS = {b"Nodes": "node", b"Elements": "element"}
+"""sections of a Gmsh file of version 2 that begin with their number of lines"""
 COMPRESSION = 1
 """level of zlib in VTU files, which meshio cannot be told: coordinates and forces hardly get smaller by a higher one
 (0.4 % of an animation frame of 10,000 blocks), and writing takes twice as long at its 6"""
-
-
-BYTES_OF_A_POINT, MOST_PACKED = 24, 50
-"""of three coordinates; and how many times its size a packed file may hold, which of blocks is some ten times"""
 
 
 def read_vtu(path: Path) -> Geometry:
@@ -55,16 +85,9 @@ def read_vtu(path: Path) -> Geometry:
     Raises
     ------
     GeometryFileError
-        for malformed files, and those that announce far more than their size can hold
+        for malformed files
     """
-    points, cells = announced_in_vtu(path)
-    if points * BYTES_OF_A_POINT > MOST_PACKED * path.stat().st_size:
-        words = f"announces {points:,} points, far more than its size can hold: damaged or packed; export it anew"
-        raise GeometryFileError("geometry-too-large", words)
-    geometry, mesh = _read(str(path), "vtu")
-    refuse_other_count("VTU", "point", points, len(mesh.points))
-    refuse_other_count("VTU", "cell", cells, sum(len(block.data) for block in mesh.cells))
-    return geometry
+    return _read(str(path), "vtu")
 
 
 def read_msh(path: Path) -> Geometry:
@@ -75,13 +98,25 @@ def read_msh(path: Path) -> Geometry:
     GeometryFileError
         for malformed files
     """
-    refuse_other_sections(path)  # before room is made for what they announce
-    geometry, _ = _read(str(path), "gmsh")
-    return geometry
+    _refuse_other_sections(path)  # before room is made for what they announce
+    return _read(str(path), "gmsh")
 
 
-def _read(path: str, file_format: str) -> tuple[Geometry, Any]:
-    """What the file holds, and the same as meshio gives it."""
+def _refuse_other_sections(path: Path) -> None:
+    """Refuse a Gmsh file of text, version 2, with a section that has other lines than it announces."""
+    content = path.read_bytes()
+    if not re.match(rb"\s*\$MeshFormat\s+2\S*\s+0\s", content):
+        return
+    for name, noun in SECTIONS.items():
+        for section in re.findall(rb"^\$" + name + rb"\s*$(.*?)(?=^\$|\Z)", content, re.DOTALL | re.MULTILINE):
+            number, *lines = [line for line in section.splitlines() if line.strip()] or [b""]
+            if number.strip() != str(len(lines)).encode():
+                announced = number.strip().decode(errors="replace")[:20]
+                raise malformed(WORDS["gmsh"], f"it announces {announced} {noun}s and has {counted(len(lines), noun)}")
+
+
+def _read(path: str, file_format: str) -> Geometry:
+    """What the file holds."""
     mesh, remarks = _mesh(path, file_format)
     points = _points(mesh)
     volumes = [
@@ -94,12 +129,12 @@ def _read(path: str, file_format: str) -> tuple[Geometry, Any]:
     notices = [*remarks, *cells_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True), mesh
+        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True)
     faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
     check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), len(points))
     names = _physical_groups(mesh, surfaces)
     surface, present = surfaces_by_label(points, faces, names or ("",) * len(faces))
-    return Geometry(surface, tuple(notices), tuple(present) if names else ()), mesh
+    return Geometry(surface, tuple(notices), tuple(present) if names else ())
 
 
 def _rows_of(mesh: Any) -> IntArray:
@@ -152,22 +187,75 @@ def _meshio() -> Any:
     from meshio._mesh import topological_dimension
     from meshio.vtu import _vtu
 
-    for kind, dimension in WITHOUT_DIMENSION.items():
-        topological_dimension.setdefault(kind, dimension)
-    for number in CELLS.keys() - VARIABLE:
-        num_nodes_per_cell.setdefault(*CELLS[number])
+    num_nodes_per_cell.update(PRISMS)
+    topological_dimension.update(dict.fromkeys(SOLID, 3))
     cells_of, polyhedra_of = _vtu.vtk_cells_from_data, _vtu._polyhedron_cells_from_data
 
     def checked_cells_of(points: IntArray, offsets: IntArray, types: IntArray, data: Any) -> Any:
-        return cells_of(*checked_cells(points, offsets, types), data) if len(types) else ([], {})
+        return cells_of(*_plain_cells(points, offsets, types), data) if len(types) else ([], {})
 
     def checked_polyhedra_of(offsets: IntArray, faces: IntArray, ends: IntArray, data: Any) -> Any:
-        refuse_other_faces(faces, ends)
+        _refuse_other_faces(faces, ends)
         return polyhedra_of(offsets, faces, ends, data)
 
     _vtu.vtk_cells_from_data, _vtu._polyhedron_cells_from_data = checked_cells_of, checked_polyhedra_of
     _vtu.zlib = SimpleNamespace(compress=partial(zlib.compress, level=COMPRESSION), decompress=zlib.decompress)
     return meshio
+
+
+def _plain_cells(points: IntArray, offsets: IntArray, types: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """The same by corners alone, pixels turned into quadrilaterals and voxels into hexahedra.
+
+    points  : rows of points of all cells, one after the other
+    offsets : (n_cells,) where the points of each cell end
+    types   : (n_cells,) numbers of VTK
+
+    Raises
+    ------
+    GeometryFileError
+        for a type that is not read, and for a cell of more or fewer points than its type needs
+    """
+    points, offsets, types = (np.array(each, dtype=np.int64) for each in (points, offsets, types))
+    sizes = np.diff(offsets, prepend=0)
+    for kind in np.unique(types).tolist():
+        rows = np.flatnonzero(types == kind)
+        if kind not in NODES:
+            words = f"cell {rows[0]} (from 0) cannot be read: it is of VTK type {kind}"
+            raise GeometryFileError("geometry-file", f"{words}; export the mesh without such cells")
+        wrong = rows[sizes[rows] < NODES[kind] if kind == POLYGON else sizes[rows] != NODES[kind]]
+        if len(wrong):
+            found = counted(int(sizes[wrong[0]]), "point")
+            raise malformed("VTU", f"cell {wrong[0]} (from 0), of VTK type {kind}, needs {NODES[kind]} and has {found}")
+    if sizes.sum() != len(points):
+        words = f"its cells have {counted(int(sizes.sum()), 'point')} by their offsets and {len(points)} in their list"
+        raise malformed("VTU", words)
+    for kind, (other, order) in BY_AXES.items():
+        rows = np.flatnonzero(types == kind)
+        first = offsets[rows, None] - len(order)
+        points[first + np.arange(len(order))] = points[first + np.array(order)]
+        types[rows] = other
+    first = offsets - sizes
+    for kind in np.intersect1d(types, list(PLAIN)).tolist():
+        rows = types == kind
+        types[rows], sizes[rows] = PLAIN[kind], NODES[PLAIN[kind]]
+    return points[ranges(first, sizes)], np.cumsum(sizes), types
+
+
+def _refuse_other_faces(faces: IntArray, ends: IntArray) -> None:
+    """Refuse polyhedra whose faces do not end where their offsets say.
+
+    faces : (n,) of each polyhedron their number, and of each of them the number of its points and these
+    ends  : (n_polyhedra,) where the faces of each polyhedron end
+    """
+    numbers, begin = faces.tolist(), 0
+    for row, end in enumerate(ends.tolist()):
+        at, left = begin + 1, numbers[begin] if 0 <= begin < len(numbers) else 0
+        while left > 0 and at < len(numbers) and numbers[at] > 0:
+            at, left = at + numbers[at] + 1, left - 1
+        if left or at != end or end > len(numbers):
+            words = f"the faces of polyhedron {row} (from 0) have more or fewer points than they announce"
+            raise malformed("VTU", words)
+        begin = end
 
 
 def _points(mesh: Any) -> FloatArray:

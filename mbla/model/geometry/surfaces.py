@@ -8,9 +8,8 @@ its own block:
     block on the side of turning about -t; its partner passes the edge along -t.
 
 A face that has the corners of another may be that of a neighbour that touches there. It is a second copy where the
-surface closes without it: an odd number of faces meets at an edge of it. So it is where all the faces of a closed
-surface are listed again in the same order. Surfaces with a copy of every face the other way round (both sides of each
-face exported) come apart into twins.
+surface closes without it: an odd number of faces meets at an edge of it. Surfaces with a copy of every face the other
+way round (both sides of each face exported) come apart into twins.
 
 Volume cells of mesh files by their faces (types have meshio's names), and the sets of them joined to blocks.
 """
@@ -24,7 +23,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.geometry.geometry import Geometry
-from mbla.model.geometry.welding import own_vertices, weld
+from mbla.model.geometry.welding import own_vertices, take_faces, weld
 from mbla.model.solids.measures import connected_labels, face_geometry
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import HEXAHEDRON, Polyhedra, take_polyhedra
@@ -164,50 +163,13 @@ def face_codes(polyhedra: Polyhedra, *, oriented: bool) -> IntArray:
 def repeated_faces(surfaces: Polyhedra) -> BoolArray:
     """Faces that are copies of another and not needed to close the surface, (n_faces,)."""
     codes = face_codes(surfaces, oriented=False)
-    _, first, inverse, counts = np.unique(codes, return_index=True, return_inverse=True, return_counts=True)
-    inverse = inverse.reshape(-1)
-    listed_again = counts[inverse] > 1
     copies = np.ones(len(codes), dtype=bool)
-    copies[first] = False
-    if not copies.any():
-        return copies
-    ordered = face_codes(surfaces, oriented=True)
-    turned = ordered != ordered[first[inverse]]
-    edge = _edges(surfaces)
-    patch = _patches(surfaces, edge, listed_again)
-    superfluous = _at_odd_edges(surfaces, edge, patch, listed_again)
-    closed = ~_at_odd_edges(surfaces, edge, patch, listed_again & ~copies, only=listed_again & ~copies)
-    closed[patch[copies & turned]] = False
-    return np.asarray(copies & (superfluous | closed)[patch])
-
-
-def _edges(surfaces: Polyhedra) -> IntArray:
-    """Number of the edge that starts at each corner, (n_corners,)."""
+    copies[np.unique(codes, return_index=True)[1]] = False
     tails, heads = surfaces.loops, surfaces.next_loops
     keys = np.minimum(tails, heads) * len(surfaces.vertices) + np.maximum(tails, heads)
-    return np.unique(keys, return_inverse=True)[1].reshape(-1).astype(np.int64)
-
-
-def _patches(surfaces: Polyhedra, edge: IntArray, chosen: BoolArray) -> IntArray:
-    """Label of the patch of each face, (n_faces,): of the chosen faces those that share edges lie in one."""
-    face = surfaces.face_of_corner
-    corners = np.flatnonzero(chosen[face])
-    order = corners[np.argsort(edge[corners], kind="stable")]
-    same = edge[order[1:]] == edge[order[:-1]]
-    pairs = np.stack([face[order[:-1]][same], face[order[1:]][same]], axis=1)
-    return connected_labels(pairs, len(chosen))
-
-
-def _at_odd_edges(
-    surfaces: Polyhedra, edge: IntArray, patch: IntArray, chosen: BoolArray, only: BoolArray | None = None
-) -> BoolArray:
-    """Patches that have an edge where an odd number of faces meets, of all or of ``only`` some, (n_faces,)."""
-    face = surfaces.face_of_corner
-    counted = edge if only is None else edge[only[face]]
-    odd = np.bincount(counted, minlength=int(edge.max()) + 1) % 2 == 1
-    found = np.zeros(len(chosen), dtype=bool)
-    found[patch[face[chosen[face] & odd[edge]]]] = True
-    return found
+    _, edge, counts = np.unique(keys, return_inverse=True, return_counts=True)
+    odd = counts[edge] % 2 == 1
+    return np.asarray(copies & (np.bincount(surfaces.face_of_corner[odd], minlength=len(codes)) > 0))
 
 
 VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
@@ -224,8 +186,6 @@ VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
         ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))),
     ),
 }
-LAGRANGE = {"tetra": "TETRAHEDRON", "hexahedron": "HEXAHEDRON", "wedge": "WEDGE", "pyramid": "PYRAMID"}
-VOLUME_CELLS |= {f"VTK_LAGRANGE_{other}": VOLUME_CELLS[name] for name, other in LAGRANGE.items()}
 """number of corners and faces by corner, of each shape of cell; cells of higher order begin with their corners"""
 
 
@@ -242,21 +202,10 @@ def join_cells(geometry: Geometry) -> Geometry:
     merged = own_vertices(sorted_cells.vertices, sorted_cells.loops, sorted_cells.loop_start, block)
     welded = weld(merged).polyhedra
     codes = face_codes(welded, oriented=False)
-    single = np.bincount(codes)[codes] == 1
-    faces = np.flatnonzero(single)
     return replace(
         geometry,
-        polyhedra=_outer(welded, faces),
+        polyhedra=take_faces(welded, np.bincount(codes)[codes] == 1),
         names=tuple(present) if any(present) else (),
         cells=False,
         indexed=False,
     )
-
-
-def _outer(surfaces: Polyhedra, faces: IntArray) -> Polyhedra:
-    chosen = np.zeros(len(surfaces.block_of_face), dtype=bool)
-    chosen[faces] = True
-    corners = chosen[surfaces.face_of_corner]
-    counts = np.diff(surfaces.loop_start)[faces]
-    start = np.concatenate([[0], np.cumsum(counts)])
-    return own_vertices(surfaces.vertices, surfaces.loops[corners], start, surfaces.block_of_face[faces])

@@ -156,13 +156,6 @@ def test_a_face_listed_twice_goes() -> None:
         assert told(geometry) == ["1 face listed twice was left out"]
 
 
-def test_every_face_listed_twice() -> None:
-    vertices, faces = box()
-    geometry = repaired(raw((vertices, [*faces, *faces])))
-    assert volumes(geometry) == [1]
-    assert told(geometry) == ["6 faces listed twice were left out"]
-
-
 def test_both_sides_of_every_face_listed() -> None:
     vertices, faces = box()
     geometry = repaired(raw((vertices, [*faces, *(face[::-1] for face in faces)])))

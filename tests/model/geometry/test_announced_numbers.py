@@ -1,8 +1,7 @@
 """Cells of VTU files: those of too many or too few points are refused, pixels and voxels turned into what they are.
 
-Files that announce other numbers of points and cells than they have are refused, however few are missing.
-
-Names that a Gmsh file gives to its physical groups.
+Files that announce other numbers of points and cells than they have are refused, however few are missing. Names that a
+Gmsh file gives to its physical groups.
 """
 
 from __future__ import annotations
@@ -16,8 +15,7 @@ import pytest
 
 from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.meshio_files import write_mesh
-from mbla.model.geometry.meshio_guards import BY_AXES, CELLS, VARIABLE
+from mbla.model.geometry.meshio_files import NODES, POLYGON, write_mesh
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
 from tests.trust.geometry.formats import FORMATS
@@ -63,27 +61,24 @@ def volumes(geometry: Geometry) -> list[float]:
 @pytest.mark.parametrize(
     ("cells", "offsets", "types", "message"),
     [
-        (range(7), [7], [12], "cell 0 (from 0), a hexahedron, has 7 points and needs 8"),
-        ([*range(8), *range(7)], [8, 15], [12, 12], "cell 1 (from 0), a hexahedron, has 7 points and needs 8"),
-        ([*range(8), 0, *range(8)], [8, 17], [12, 12], "cell 1 (from 0), a hexahedron, has 9 points and needs 8"),
-        ([*range(8), *range(3)], [8, 11], [12, 10], "cell 1 (from 0), a tetra, has 3 points and needs 4"),
-        ([*range(8), *range(4)], [4, 3], [10, 10], "cell 1 (from 0), a tetra, has -1 points and needs 4"),
-        (range(2), [2], [7], "cell 0 (from 0), a polygon, has 2 points and needs at least 3"),
-        (range(3), [3], [70], "cell 0 (from 0), a VTK_LAGRANGE_QUADRILATERAL, has 3 points and needs at least 4"),
+        (range(7), [7], [12], "cell 0 (from 0), of VTK type 12, needs 8 and has 7 points"),
+        ([*range(8), *range(7)], [8, 15], [12, 12], "cell 1 (from 0), of VTK type 12, needs 8 and has 7 points"),
+        ([*range(8), 0, *range(8)], [8, 17], [12, 12], "cell 1 (from 0), of VTK type 12, needs 8 and has 9 points"),
+        ([*range(8), *range(4)], [4, 3], [10, 10], "cell 1 (from 0), of VTK type 10, needs 4 and has -1 points"),
+        (range(2), [2], [7], "cell 0 (from 0), of VTK type 7, needs 3 and has 2 points"),
         (range(7), [8], [12], "its cells have 8 points by their offsets and 7 in their list"),
         ([0, *range(8)], [8], [12], "its cells have 8 points by their offsets and 9 in their list"),
     ],
 )
-@pytest.mark.parametrize("kind", ["Int32", "Int64"])
 def test_cells_of_too_few_and_too_many_points(
-    tmp_path: Path, cells: Sequence[int], offsets: list[int], types: list[int], message: str, kind: str
+    tmp_path: Path, cells: Sequence[int], offsets: list[int], types: list[int], message: str
 ) -> None:
     with pytest.raises(GeometryFileError) as caught:
-        vtu(tmp_path / "x.vtu", CUBE, cells, offsets, types, kind)
+        vtu(tmp_path / "x.vtu", CUBE, cells, offsets, types)
     assert str(caught.value) == f"is not a well-formed VTU file: {message}"
 
 
-@pytest.mark.parametrize("kind", [0, 4, 75, 99])
+@pytest.mark.parametrize("kind", [0, 4, 70, 99])
 def test_a_type_that_is_not_read_is_named(tmp_path: Path, kind: int) -> None:
     with pytest.raises(GeometryFileError) as caught:
         vtu(tmp_path / "x.vtu", CUBE, [*range(8), 0, 1, 2], [8, 11], [12, kind])
@@ -110,23 +105,19 @@ def test_pixels_are_quadrilaterals(tmp_path: Path) -> None:
     assert volumes(repair(geometry, 1e-3)) == pytest.approx([1])
 
 
-@pytest.mark.parametrize("kind", sorted(CELLS))
+@pytest.mark.parametrize("kind", sorted(NODES))
 def test_every_type_is_read_or_left_out(tmp_path: Path, kind: int) -> None:
     """A tetrahedron beside it, so that there is a block."""
-    name, nodes = CELLS[kind]
     points = [*CUBE, *([0.1 * i, 0.2 * i, 3.0 + i] for i in range(20))]
-    corners = [0, 1, 3, 4, *range(nodes)]
-    geometry = vtu(tmp_path / "x.vtu", points, corners, [4, 4 + nodes], [10, kind])
+    corners = [0, 1, 3, 4, *range(NODES[kind])]
+    geometry = vtu(tmp_path / "x.vtu", points, corners, [4, 4 + NODES[kind]], [10, kind])
     left_out = [notice.message for notice in geometry.notices if notice.identifier == "mesh-cells-left-out"]
-    read = CELLS[BY_AXES[kind][0]][0] if kind in BY_AXES else name
     assert len(geometry.polyhedra) == (2 if not left_out and kind != 1 else 1)
-    assert not left_out or left_out[0].startswith(f"cells were left out: 1 of type {read};")
 
 
-def test_cells_of_a_variable_number_of_points(tmp_path: Path) -> None:
-    assert {CELLS[kind][0].rpartition("_")[0] for kind in VARIABLE} == {"", "VTK_LAGRANGE"}
+def test_polygons_have_as_many_points_as_they_like(tmp_path: Path) -> None:
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]]
-    geometry = vtu(tmp_path / "x.vtu", points, [0, 1, 2, 0, 1, 2, 3, 4], [3, 8], [7, 7])
+    geometry = vtu(tmp_path / "x.vtu", points, [0, 1, 2, 0, 1, 2, 3, 4], [3, 8], [POLYGON, POLYGON])
     assert np.diff(geometry.polyhedra.loop_start).tolist() == [3, 5]
 
 
@@ -190,24 +181,6 @@ def test_refused(tmp_path: Path, kind: str, one: bytes, other: bytes, message: s
     (tmp_path / name).write_bytes(content.replace(one, other, 1))
     with pytest.raises(GeometryFileError, match=message):
         read_geometry(tmp_path / name)
-
-
-@pytest.mark.parametrize(
-    ("kind", "before", "words"),
-    [
-        ("vtu cells", b'NumberOfPoints="', "VTU"),
-        ("vtu", b'NumberOfCells="', "VTU"),
-    ],
-)
-@pytest.mark.parametrize("digits", [19, 5000])
-def test_a_number_of_many_digits(tmp_path: Path, kind: str, before: bytes, words: str, digits: int) -> None:
-    """Python refuses to read one of more than 4,300."""
-    ((name, content),) = FORMATS[kind].write(arch()).items()
-    assert content.count(before) == 1
-    (tmp_path / name).write_bytes(re.sub(before + rb"\d+", before + digits * b"1", content))
-    with pytest.raises(GeometryFileError) as caught:
-        read_geometry(tmp_path / name)
-    assert str(caught.value) == f"is not a well-formed {words} file: it announces a number of {digits} digits"
 
 
 @pytest.mark.parametrize("kind", ["msh", "msh cells"])
