@@ -185,8 +185,8 @@ SAID = {  # words of the verdict of what is no result, or not fully one
     "approximate": "approximate",
     "no_equilibrium": "no equilibrium",
     "unbounded": "no collapse",
-    "time_limit": "out of time",
-    "iteration_limit": "out of iterations",
+    "time_limit": "the time ran out",
+    "iteration_limit": "the iterations ran out",
     "numerical_error": "numerical",
 }
 

@@ -13,7 +13,6 @@ from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
-from mbla.results.listing.figures import METHODS
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
 from mbla.solution.solution import (
@@ -40,9 +39,9 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     if answers["outer"] is not None and answers["associative"] is None:
         raise ValueError("a circumscribed polyhedron without an inscribed one")
     for name in ("flow_rule", "contact_model"):
-        if get[name] not in get_args(AnalysisSection.model_fields[name].annotation):
+        if get[name] not in _choices(name):
             raise ValueError(f"{name} of a load case")
-    if not {get["solver"], *get["programs/solver"]} <= {"", "auto", *METHODS}:
+    if not {get["solver"], *get["programs/solver"]} <= {"", *_choices("solver")}:
         raise ValueError("name of a solver")
     own = held(Solution, "cases/*", get) | {
         "status": Status(get["claimed_status"]),
@@ -61,6 +60,11 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     lower, upper = get["range"].tolist()
     checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
+
+
+def _choices(key: str) -> tuple[str, ...]:
+    """Of a key of the analysis."""
+    return get_args(AnalysisSection.model_fields[key].annotation)
 
 
 def held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:

@@ -169,9 +169,7 @@ def series_lines(model: Model, series: Series) -> list[str]:
     lines = heading(f"Travelling load {series.name}")
     for words in (worst_words(model, series), spread_over_positions(series)):
         lines += sentence(f"{words}.")
-    vehicle = _is_vehicle(series)
-    what = ("axle 1 at", "axles that act") if vehicle else ("at", "block")
-    head = ["load case", "status", f"along path [{length}]", f"{what[0]} [{length}]", what[1], "load factor"]
+    head = ["load case", "status", f"along path [{length}]", f"axle 1 at [{length}]", "block", "axles", "load factor"]
     return [*lines, "", *table(head, [_row(model, series, case) for case in series.cases], left=2)]
 
 
@@ -210,10 +208,6 @@ def spread_over_positions(series: Series) -> str:
     return words
 
 
-def _is_vehicle(series: Series) -> bool:
-    return len(position_of(series.cases[0]).points) > 1
-
-
 def _acting(position: TravelPosition) -> str:
     """Numbers of the axles that act, from 1: ``3, 4``."""
     return ", ".join(str(axle + 1) for axle in np.flatnonzero(position.acting).tolist())
@@ -227,6 +221,7 @@ def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
         status_name(case.status),
         number(position.distance),
         vector(position.point),
-        _acting(position) if _is_vehicle(series) else model.blocks.name(int(position.blocks[0])),
+        model.blocks.name(int(position.blocks[0])) if position.blocks[0] >= 0 else "-",
+        _acting(position),
         "any multiple" if np.isinf(factor_of(case)) else number(factor_of(case)),
     ]

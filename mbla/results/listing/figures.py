@@ -30,7 +30,7 @@ from mbla.results.outcome import (
     result_of,
 )
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Mechanics, ModelSize, ProgramRecord, Solution, Status
+from mbla.solution.solution import Mechanics, ModelSize, Solution, Status
 from mbla.solution.verification.verify_points import tolerances
 
 
@@ -67,9 +67,6 @@ def _factors(model: Model, case: CaseResult) -> list[str]:
     ends = range_of(case)
     if ends is not None:
         lines += entry("range for this mechanism", f"{digits(ends[0])} .. {digits(ends[1])}   (verified)")
-    elif own is not None and (solution.lower is not None or solution.upper is not None):
-        claimed = [number(np.nan if end is None else end.load_factor) for end in (solution.lower, solution.upper)]
-        lines += entry("range for this mechanism", f"{' .. '.join(claimed)}   (NOT verified)")
     if solution.spread is not None:
         lines += entry("spread of several tries", " .. ".join(number(end) for end in solution.spread))
     if associative is not None and solution.flow_rule != "associative":
@@ -156,30 +153,14 @@ def size_words(size: ModelSize) -> str:
 
 def _verification(case: CaseResult) -> list[str]:
     """``passed`` is said of an answer; of a case that has none only that its status is confirmed."""
-    told, recomputed = "NOT PASSED", ""
-    if case.checks.verified and case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
-        told = f"confirmed: {status_name(case.status)}"
-        if case.status is Status.NO_EQUILIBRIUM:
-            recomputed = ", recomputed from the motion in which the dead load falls"
-        elif case.solution.lock is not None:
-            recomputed = ", recomputed from forces that carry any multiple of the live load"
-    elif case.checks.verified and case.solution.mechanics is not None:
-        told, recomputed = "passed", ": everything recomputed from model, contacts and solution"
-    elif case.checks.verified:
-        told = "nothing contradicts the status"
-    failures = [] if case.checks.verified else [text for text in case.checks.failures if text != case.solution.reason]
-    return entry("verification", told + recomputed) + [line for text in failures for line in sentence(text, "    ")]
-
-
-METHODS = {
-    "mbla": ("mbla", "condensed interior point"),
-    "clarabel": ("clarabel", "interior point"),
-    "highs": ("HiGHS", "interior point and crossover"),
-}
-"""How a solver writes its name, and its method, by its key in a deck."""
-
-FIRST = "associative"
-"""Kind of the program that every flow rule begins with."""
+    if not case.checks.verified:
+        failures = (text for text in case.checks.failures if text != case.solution.reason)
+        return entry("verification", "NOT PASSED") + [line for text in failures for line in sentence(text, "    ")]
+    if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        return entry("verification", f"confirmed: {status_name(case.status)}")
+    if case.solution.mechanics is None:
+        return entry("verification", "nothing contradicts the status")
+    return entry("verification", "passed: everything recomputed from model, contacts and solution")
 
 
 def solver_json(solution: Solution) -> dict[str, Any]:
@@ -192,19 +173,10 @@ def solver_json(solution: Solution) -> dict[str, Any]:
 
 
 def solver_lines(solution: Solution) -> list[str]:
-    """Who solved the associative program, and who others where that is not the same."""
-    first = _distinct(solver_words(program) for program in solution.programs if program.kind == FIRST)
-    others = [words for words in _distinct(map(solver_words, solution.programs)) if words not in first]
-    lines = entry("solver", ", ".join(first)) if first else []
-    return lines + (entry("other programs", ", ".join(others)) if others else [])
-
-
-def solver_words(program: ProgramRecord) -> str:
-    """Solver, method and factorisation of a program, ``mbla (condensed interior point, qdldl)``; empty without one."""
-    if not program.solver:
-        return ""
-    name, method = METHODS[program.solver]
-    return f"{name} ({', '.join(part for part in (method, program.factorization) if part)})"
+    """Who solved the cone programs, and what factorised for them."""
+    used = [[program.solver, program.factorization] for program in solution.programs if program.solver]
+    names = _distinct(f"{solver} ({library})" if library else solver for solver, library in used)
+    return entry("solver", ", ".join(names)) if names else []
 
 
 def _distinct(names: Iterable[str]) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.force_freedom import Enough, ForceFreedom
@@ -66,14 +66,11 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
     normal, shear, sizes = thrust.normal_forces, thrust.shear_forces, np.linalg.norm(thrust.forces, axis=1)
     loaded = int(np.sum(sizes > 1e-6 * sizes.max(initial=0.0)))
     order = np.argsort(-sizes, kind="stable")[: min(loaded, MOST_ROWS)]
-    rows = [[*_interface(model, contacts, int(i)), number(float(normal[i])), number(float(shear[i]))] for i in order]
-    force = model.units.force
     says = (
         f"Locked: these forces, within the strength of the joints, balance the live load alone, so that any multiple "
         f"of it is carried; {counted(loaded, 'interface')} take part, the largest:"
     )
-    head = ["interface", f"at [{model.units.length}]", f"normal [{force}]", f"shear [{force}]"]
-    return ["", *sentence(says), *long_table(head, rows, loaded, left=2)[1:]]
+    return _table(model, contacts, says, {"normal": normal[order], "shear": shear[order]}, order, loaded)
 
 
 def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
@@ -84,22 +81,23 @@ def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ra
     found = sum_by_interface(contacts, mechanics.contact_forces[:, 0])
     widths = ranges[:, 1] - ranges[:, 0]
     order = np.argsort(-widths, kind="stable")[:MOST_ROWS]
-    rows = [[*_interface(model, contacts, int(i)), *(_force(float(v)) for v in (*ranges[i], found[i]))] for i in order]
-    force = model.units.force
     unique = int(np.sum(np.isfinite(widths) & (widths <= UNIQUE * np.abs(ranges).max(axis=1))))
     says = f"Normal forces that are possible at this load factor; {unique} of {len(contacts)} are unique. The widest:"
-    head = ["interface", f"at [{model.units.length}]", f"least [{force}]", "greatest", "found"]
-    return ["", *sentence(says), *long_table(head, rows, len(contacts), left=2)[1:]]
+    forces = {"least": ranges[order, 0], "greatest": ranges[order, 1], "found": found[order]}
+    return _table(model, contacts, says, forces, order, len(contacts))
 
 
-def _force(value: float) -> str:
-    return "unlimited" if np.isinf(value) else number(value)
-
-
-def _interface(model: Model, contacts: Contacts, interface: int) -> list[str]:
-    a, b = contacts.bodies[interface].tolist()
+def _table(
+    model: Model, contacts: Contacts, says: str, forces: dict[str, FloatArray], rows: IntArray, total: int
+) -> list[str]:
+    """A sentence and a table of interfaces, (n,) of ``total``, with forces in columns, (n,) each [N]."""
     size = float(np.abs(model.blocks.vertices).max(initial=0.0))
-    return [f"{model.body_name(a)}/{model.body_name(b)}", vector(contacts.centroids[interface], size)]
+    lines = []
+    for place, (a, b), *values in zip(contacts.centroids[rows], contacts.bodies[rows], *forces.values(), strict=True):
+        told = ["unlimited" if np.isinf(value) else number(value) for value in values]
+        lines.append([f"{model.body_name(int(a))}/{model.body_name(int(b))}", vector(place, size), *told])
+    head = ["interface", f"at [{model.units.length}]", *(f"{name} [{model.units.force}]" for name in forces)]
+    return ["", *sentence(says), *long_table(head, lines, total, left=2)[1:]]
 
 
 # --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
@@ -136,37 +134,21 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
 
 
 def work_lines(load_case: LoadCase, work: Work) -> list[str]:
-    """Shares of the power that the loads put in; nothing where they put in none."""
+    """Shares of the power that the loads put in; nothing where they put in none.
+
+    What is put in is positive, of loads that are lifted negative; what joints dissipate is positive.
+    """
     if work.given <= 0:
         return []
-    settles = load_case.settlement is not None  # whose dead load holds the reaction at rest
-    against = "the reaction at rest less the work of the weights" if settles else "work against the dead load"
+
+    def told(name: str, power: float) -> str:
+        return f"{name} {round(100 * power / work.given, 1) + 0.0:.1f} %"
+
     normal = float(work.normal.sum())
-    sinks = (
-        (against, max(-work.dead, 0.0), work.dead <= 0),
-        ("work against the live load", max(-work.live, 0.0), False),
-        ("friction", float(work.friction.sum()), True),
-        ("cohesion", float(work.cohesion.sum()), False),
-        ("normal forces of the joints", max(normal, 0.0), False),
-        ("dilatancy of the sliding joints", min(normal, 0.0), False),
-    )
-    shares = [(name, power_share(power, work), always) for name, power, always in sinks]
-    balance = ", ".join(f"{share} % {name}" for name, share, always in shares if always or float(share) != 0.0)
-    return sentence(f"Energy balance, {_source(load_case, work)}: {balance}.")
-
-
-def _source(load_case: LoadCase, work: Work) -> str:
-    """What does the work."""
-    if load_case.settlement is not None and work.dead <= 0:
-        return "of the work of the reaction that the support loses"
-    if work.dead <= 0:
-        return "of the work of the live load"
-    if work.live <= 0:
-        return "of the work of the dead load, which drives the mechanism"
-    live, dead = power_share(work.live, work), power_share(work.dead, work)
-    return f"of the work of the live load ({live} %) and the dead load ({dead} %)"
-
-
-def power_share(power: float, work: Work) -> str:
-    """Percentage of the power that is put in, ``-`` where none is."""
-    return f"{round(100 * power / work.given, 1) + 0.0:.1f}" if work.given > 0 else "-"
+    joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
+    joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
+    shares = [told(name, power) for name, power in joints.items() if name == "friction" or told("", power) != " 0.0 %"]
+    settles = load_case.settlement is not None  # the dead load holds the reaction at rest then
+    live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")
+    loads = f"{told(live, work.live)}, {told(dead, work.dead)}"
+    return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")

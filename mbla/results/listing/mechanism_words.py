@@ -20,7 +20,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
-from mbla.results.listing.places import direction_words, extents_of, group_words, point_words, region_words, span_words
+from mbla.results.listing.places import direction_words, extents_of, group_words, point_words, span_words
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, percent
 from mbla.results.results import CaseResult
 
@@ -100,7 +100,7 @@ def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, fai
 
 
 def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
-    """``Part 1, the upper right part (12 blocks of wall, 20.8 % of the weight..) turns about +y ..``."""
+    """``Part 1 (12 blocks of wall, x 2.2 .. 3.2 m, 20.8 % of the weight) turns about +y ..``."""
     motion = motion_words(model, part)
     if part.turns and part.velocity.any() and not _is_far(model, part):
         motion += f", its centroid moving along {_way(part)}"
@@ -112,8 +112,7 @@ def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     if load_case.settlement is not None and np.isin(load_case.settlement.blocks, part.blocks).any():
         details.append("with the support that gives way")
     about = ", ".join(detail for detail in details if detail)
-    region = region_words(model, part.blocks)
-    return f"Part {part.number}{'' if region == 'part' else f', the {region}'} ({about}) {motion}."
+    return f"Part {part.number} ({about}) {motion}."
 
 
 def motion_words(model: Model, part: PartMotion) -> str:

@@ -18,8 +18,6 @@ MOST_NAMED = 8
 """members that are named one by one"""
 AT_END = 0.05
 """share of an extent within which blocks reach to an end of it"""
-FLAT = 1 / 3
-"""thickness over length, both in plan, up to which a structure has a left and a right side as a wall has"""
 NOTHING = 1e-6
 """coordinates below this share of the largest are written as zero: axes are known to the residual of the solution"""
 ALONG_AXIS = 0.995
@@ -38,23 +36,6 @@ def group_words(model: Model, blocks: IntArray) -> str:
     more = len(groups) - MOST_GROUPS
     words = ", ".join(groups[:MOST_GROUPS]) + (f" and {counted(more, 'more group')}" if more > 0 else "")
     return f"{counted(len(blocks), 'block')} of {words}"
-
-
-def region_words(model: Model, blocks: IntArray) -> str:
-    """``upper right part``, ``lower part``, ``part at the +y end``; ``part`` where no side of the structure is meant.
-
-    Left and right are those of a wall along x seen along +y; in other structures the ends of the axes say it.
-
-    blocks : (n,) those of the part
-    """
-    (low, high), (least, greatest) = extents_of(model, blocks), extents_of(model, model.free)
-    margin = AT_END * (greatest - least)
-    side = (greatest - high <= margin).astype(int) - (low - least <= margin)  # 1 and -1: at one end alone
-    height = {-1: "lower ", 0: "", 1: "upper "}[int(side[2])]
-    if margin[1] <= FLAT * margin[0]:
-        return height + {-1: "left ", 0: "", 1: "right "}[int(side[0])] + "part"
-    ends = [f"{'+' if side[axis] > 0 else '-'}{'xy'[axis]}" for axis in (0, 1) if side[axis]]
-    return f"{height}part at the {', '.join(ends)} end" if ends else f"{height}part"
 
 
 def span_words(model: Model, blocks: IntArray) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
-from mbla.results.findings import rounding_of
+from mbla.results.findings import BROKEN, rounding_of
 from mbla.results.listing.answers import answer_value, in_order, reaction_unit, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
@@ -23,25 +23,6 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE, SOLVED_RESIDUAL
-
-STOPPED_BY = {
-    Status.ITERATION_LIMIT: "out of iterations",
-    Status.TIME_LIMIT: "out of time",
-    Status.NUMERICAL_ERROR: "numerical failure",
-}
-"""what ended a case without a result"""
-
-DECIDED = ("associative", "non_associative")
-"""flow rules for which it is decided whether the load factor is bounded at all"""
-
-SCHEMES = {
-    "published": "The published procedure starts from the associative forces and ends high in the range of load "
-    "factors, on the unsafe side: with slope 0 by 3 % and 2 % above the published figures of two of the three walls "
-    "of Ferris and Tin-Loi (2001); a slope above 0 is a dilatancy, which locks confined joints and raises the factor "
-    "towards the associative one.",
-    "lowest": "The lowest load factor that the search found is an upper bound of the least one, no proof of it.",
-}
-"""what is known of a scheme's figures, for the reader of one"""
 
 
 def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> str:
@@ -129,25 +110,21 @@ def _without_figures(case: CaseResult) -> str:
     if case.status is Status.NO_EQUILIBRIUM:
         return "no equilibrium: the structure cannot carry its dead load"
     if case.status is Status.UNBOUNDED:
-        decided = case.solution.flow_rule in DECIDED or case.solution.lock is not None
+        decided = case.solution.flow_rule in ("associative", "non_associative") or case.solution.lock is not None
         words = "no collapse: no multiple of the live load brings the structure down"
         if case.load_case.settlement is not None:
             words = "no least reaction: the structure holds the support back however hard that pulls away from it"
         elif case.load_case.tilt is not None:
             words = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
             decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
-        return words if decided else f"{words} by associative flow; undecided for {_flow(case)} flow"
+        return words if decided else f"{words} by associative flow; undecided for the flow rule of the deck"
     if case.status is Status.NOT_VERIFIED:
         return "NOT VERIFIED: no load factor"
     return f"NOT SOLVED ({_stopped(case)})"
 
 
-def _flow(case: CaseResult) -> str:
-    return case.solution.flow_rule.replace("_", "-")
-
-
 def _stopped(case: CaseResult) -> str:
-    return STOPPED_BY.get(case.status, status_name(case.status))
+    return BROKEN.get(case.status, status_name(case.status))
 
 
 def bound_words(model: Model, case: CaseResult) -> str:
@@ -200,20 +177,16 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     )
 
 
-def spread_words(model: Model, case: CaseResult) -> str:
-    """How far several tries lie apart."""
-    if case.solution.spread is None:
-        return ""
-    least, greatest = (load_factor_words(model, case.load_case, end) for end in case.solution.spread)
-    return f"Several tries ended at different load factors, between {least} and {greatest}."
+PUBLISHED = (
+    "The published procedure starts from the associative forces and ends high in the range of load factors, on the "
+    "unsafe side."
+)
 
 
 def known_words(model: Model, case: CaseResult) -> list[str]:
     """Sentences on what the figure is worth, the solver's own remarks among them."""
-    solution = case.solution
-    shown = solution.mechanics is not None
-    scheme = SCHEMES.get(solution.scheme, "") if shown else ""
-    texts = (uniqueness_words(model, case), spread_words(model, case), scheme, *solution.remarks)
+    published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
+    texts = (uniqueness_words(model, case), published, *case.solution.remarks)
     return [text if text.endswith(".") else f"{text}." for text in texts if text]
 
 

@@ -195,17 +195,17 @@ def words(model: Any, contacts: Any, mechanics: Mechanics) -> str:
 
 def test_work_in_words() -> None:
     text = words(MODEL, CONTACTS, sliding())
-    assert "live load: 0.0 % work against the dead load, 100.0 % friction." in text
+    assert "live load 100.0 %, dead load 0.0 %; dissipated: friction 100.0 %." in text
     model = replace(MODEL, joints={**MODEL.joints, "dry": Joint("dry", 0.65, cohesion=3.0)})
-    assert "68.4 % friction, 31.6 % cohesion" in words(model, CONTACTS, sliding(3.0))
+    assert "friction 68.4 %, cohesion 31.6 %" in words(model, CONTACTS, sliding(3.0))
 
 
 @pytest.mark.parametrize(
     ("factor", "shares"),
     [
-        (0.5, "live load (33.3 %) and the dead load (66.7 %): 0.0 % friction"),
-        (1e-9, "live load (0.0 %) and the dead load (100.0 %): 0.0 % friction"),
-        (-0.5, "work of the dead load, which drives the mechanism: 50.0 % work against the live load, 0.0 % friction"),
+        (0.5, "live load 33.3 %, dead load 66.7 %; dissipated: friction 0.0 %"),
+        (1e-9, "live load 0.0 %, dead load 100.0 %; dissipated: friction 0.0 %"),
+        (-0.5, "live load -50.0 %, dead load 100.0 %; dissipated: friction 0.0 %"),
     ],
 )
 def test_a_dead_load_that_drives_is_a_source_too(factor: float, shares: str) -> None:

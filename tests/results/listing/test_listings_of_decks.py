@@ -12,7 +12,7 @@ from mbla.results.listing.text import WIDTH
 
 DECKS = Path("decks")
 KINDS = {
-    "tutorials/wall": ("Part 1, the upper right part", "Everything that is free (52 blocks) turns about -x"),
+    "tutorials/wall": ("Part 1 (12 blocks of wall", "Everything that is free (52 blocks) turns about -x"),
     "benchmarks/closed_forms/spreading_arch": (
         "2/1 (2, 1, 2.6) 1 -y extrados",
         "is an upper limit to all",
@@ -25,7 +25,7 @@ KINDS = {
     ),
     "benchmarks/closed_forms/groove_locked": ("No collapse", "Locked: these forces"),
     "tutorials/travelling_load": ("any multiple", "extrados"),
-    "benchmarks/closed_forms/leaves": ("the part at the -y end (thin[0]",),
+    "benchmarks/closed_forms/leaves": ("(thin[0]",),
     "benchmarks/closed_forms/guided_blocks": ("was not determined, as blocks are guided",),
     "benchmarks/closed_forms/glued_lintel": ("turns about",),
     "benchmarks/closed_forms/torque_convex": ("twists",),
