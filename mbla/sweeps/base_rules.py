@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import partial
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -12,10 +15,10 @@ from mbla.deck.content import DeckContent
 from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
-from mbla.deck.suggestions import did_you_mean, listed
+from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, key_text, shorten
-from mbla.errors import DeckError, Fault, Finding, Message, Notice, Place
+from mbla.errors import DeckError, Fault, Finding, Message, Place
 from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
@@ -34,22 +37,10 @@ Given = tuple[KeyPath, Any]
 
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
-    checks = (_nested_keys, _idle_values, _without_effect, _directions, _units, _results, _columns, _fragility)
+    checks = (_nested_keys, _without_effect, _directions, _units, _results, _columns, _fragility)
     findings = [finding for check in checks for finding in check(base)]
-    faults = [*_idle_overrides(base), *(base.sweep.fault_at(*finding) for finding in findings)]
+    faults = [*_replaced(base), *(base.sweep.fault_at(*finding) for finding in findings)]
     return faults or list(_values(base))
-
-
-def _nested_keys(base: Base) -> Iterator[Finding]:
-    """No parameter sets what another one sets as a part of its own value."""
-    seen: list[tuple[str, str, KeyPath]] = []
-    for name, place, key, path in _places(base):
-        for other, other_key, outer in seen:
-            short, long = sorted((outer, path), key=len)
-            if long[: len(short)] == short:
-                both = f"parameter {name} sets {shorten(key)}, parameter {other} {shorten(other_key)}"
-                yield Finding("sweep-without-effect", f"{both}: one of them holds the other", *place)
-        seen.append((name, key, path))
 
 
 def _places(base: Base) -> Iterator[tuple[str, KeyPath, str, KeyPath]]:
@@ -59,62 +50,47 @@ def _places(base: Base) -> Iterator[tuple[str, KeyPath, str, KeyPath]]:
             yield name, place, key, path
 
 
-def _idle_values(base: Base) -> Iterator[Finding]:
-    """No value of `set` that a parameter replaces in every point."""
-    for key in base.sweep.content.set:
-        for name in _replacing(base, key):
-            yield Finding("sweep-without-effect", NO_EFFECT.format(name), "set", key)
+def _nested_keys(base: Base) -> Iterator[Finding]:
+    """No parameter sets what another one sets as a part of its own value."""
+    for (name, _, key, path), (other, place, other_key, other_path) in combinations(_places(base), 2):
+        short, long = sorted((path, other_path), key=len)
+        if long[: len(short)] == short:
+            both = f"parameter {other} sets {shorten(other_key)}, parameter {name} {shorten(key)}"
+            yield Finding("sweep-without-effect", f"{both}: one of them holds the other", *place)
 
 
-def _idle_overrides(base: Base) -> Iterator[Fault]:
-    """No value of the command line either."""
+def _replaced(base: Base) -> Iterator[Fault]:
+    """No value of `set` or of the command line that a parameter replaces in every point."""
+    own = [(key, partial(base.sweep.fault_at, ("set", key))) for key in base.sweep.content.set]
     for number, text in enumerate(base.sweep.overrides, start=1):
         key = text.partition("=")[0].strip()
-        for name in _replacing(base, key):
-            yield Fault(Place(LABEL, number, 1), key, Message("sweep-without-effect", NO_EFFECT.format(name)))
-
-
-NO_EFFECT = "has no effect: parameter {} of the sweep sets it in every point"
-
-
-def _replacing(base: Base, key: str) -> list[str]:
-    """Parameters that set a key of the deck, or what holds it, for each of their own keys."""
-    try:
-        fixed = path_of_key(base.tree.data, key.strip())
-    except RefusedError:  # a whole section, which holds more than parameters replace
-        return []
-    return [name for name, _, _, path in _places(base) if fixed[: len(path)] == path]
+        own.append((key, partial(Fault, Place(LABEL, number, 1), key)))
+    for key, fault in own:
+        with suppress(RefusedError):  # a whole section, which holds more than parameters replace
+            fixed = path_of_key(base.tree.data, key.strip())
+            for name, _, _, path in _places(base):
+                if fixed[: len(path)] == path:
+                    said = f"has no effect: parameter {name} of the sweep sets it in every point"
+                    yield fault(Message("sweep-without-effect", said))
 
 
 def _without_effect(base: Base) -> Iterator[Finding]:
     """No parameter changes what nothing in the deck uses: every point would be the same."""
-    idle = unused(_notices(base))
+    # without its expectations: what only they use does not change a point
+    deck = read_deck(base.path, base.fixed, expected=False) if base.deck.content.expected else base.deck
+    ends = (UNUSED.search(notice.message) for notice in deck.notices if notice.identifier.endswith("-unused"))
+    idle = {(match[1], match[2]) for match in ends if match}
     parameters = base.sweep.content.parameters.values()
     texts = [value for each in parameters for value in each.values or () if isinstance(value, str)]
     for _, place, _, path in _places(base):
-        if len(path) < 2:
-            continue
-        section, thing = str(path[0]), str(path[1])
-        if section == "load_cases" and thing not in base.cases:
+        section, thing = (*map(str, path[:2]), "")[:2]
+        if section == "load_cases" and thing and thing not in base.cases:
             message = f"has no effect: load case {shorten(thing)} is not among the cases to solve"
             yield Finding("sweep-without-effect", message, *place)
         named = any(thing in text for text in texts)  # another parameter may bring it into use
         if (section, thing) in idle and not named:
             message = f"has no effect: the deck does not use {section}.{shorten(thing)}"
             yield Finding("sweep-without-effect", message, *place)
-
-
-def _notices(base: Base) -> tuple[Notice, ...]:
-    """Those of the deck without its expectations: what only they use does not change a point."""
-    if not base.deck.content.expected:
-        return base.deck.notices
-    return read_deck(base.path, base.fixed, expected=False).notices
-
-
-def unused(notices: Iterable[Notice]) -> set[tuple[str, str]]:
-    """Section and name of what a deck gives and does not use, by its notices."""
-    found = (UNUSED.search(notice.message) for notice in notices if notice.identifier.endswith("-unused"))
-    return {(match[1], match[2]) for match in found if match}
 
 
 def _directions(base: Base) -> Iterator[Finding]:
@@ -184,9 +160,7 @@ def _fragility(base: Base) -> Iterator[Finding]:
     columns = result_columns(results, base.cases, base.deck.units)
     chosen = [column for column in columns if asked.result in (column.name, column.path)]
     if not chosen:
-        hint = did_you_mean(asked.result, [*(column.name for column in columns), *results]) or ":"
-        cases = f" of {listed(base.cases, 'and')}" if len(base.cases) > 1 else ""
-        message = f"there is no column {shorten(asked.result)}{hint} the results are {listed(results, 'and')}{cases}"
+        message = unknown("column", asked.result, [column.name for column in columns], "the columns are")
         yield Finding("sweep-fragility", message, "fragility", "result")
     elif any(column.kind not in ("float", "int") for column in chosen):
         yield Finding("sweep-fragility", f"{asked.result} is no number", "fragility", "result")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
@@ -22,8 +22,8 @@ from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
-from mbla.sweeps.journal import WHOLE, Journal, JournalHeader, journal_name, journals_in, merged, open_journal
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, shown_folders
+from mbla.sweeps.journal import WHOLE, JournalHeader, journal_name, journals_in, merged, open_journal
+from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
@@ -183,45 +183,27 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     refuse_tables(folder, prepared.files, replace=options.force or options.resume)
     how = {"resume": options.resume, "force": options.force, "retry_failed": options.retry_failed}
     with open_journal(path, header, **how) as journal:
-        tasks = [task for task in asked if task.key not in journal.finished]
+        tasks = {task.key: task for task in asked if task.key not in journal.finished}
         progress = Progress(len(tasks), len(journal.finished))
         if report is not None:
             report(progress, None, None)
-        if tasks:
-            with _noted(journal, options.goes_on), closing(outcomes_of(options.engine, plan, tasks)) as outcomes:
-                _solve(prepared, outcomes, journal, progress, report)
+        try:
+            with closing(outcomes_of(options.engine, plan, tuple(tasks.values()))) as outcomes:
+                for outcome in outcomes:
+                    task = tasks[outcome.key]
+                    journal.add(task, as_named(plan, prepared.deck, outcome))
+                    progress.add(outcome.state == FAILED)
+                    if report is not None:
+                        report(progress, task, journal.finished[outcome.key])
+        except (
+            BaseException
+        ) as error:  # what breaks a sweep off says how much of it is kept, where its own words do not
+            if not isinstance(error, UsageError) and RESUME not in str(error):
+                kept = counted(len(journal.finished), "finished point")
+                error.add_note(f"{kept} in the journal, {options.goes_on}")
+            raise
         finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
         return _finish(prepared, finished, journal.notices, time.perf_counter() - started)
-
-
-@contextmanager
-def _noted(journal: Journal, goes_on: str) -> Iterator[None]:
-    """What breaks a sweep off says how much of it is kept, where its own words do not."""
-    try:
-        yield
-    except BaseException as error:
-        if not isinstance(error, UsageError) and RESUME not in str(error):
-            error.add_note(f"{counted(len(journal.finished), 'finished point')} in the journal, {goes_on}")
-        raise
-
-
-def _solve(
-    prepared: Prepared,
-    outcomes: Generator[Outcome, None, None],
-    journal: Journal,
-    progress: Progress,
-    report: Report | None,
-) -> None:
-    """Each outcome into the journal as it comes."""
-    by_key: Mapping[str, Task] = {task.key: task for task in prepared.tasks}
-    shown = shown_folders(prepared.plan, prepared.deck)
-    started = time.perf_counter()
-    for outcome in map(shown, outcomes):
-        task = by_key[outcome.key]
-        journal.add(task, outcome)
-        progress.add(outcome.state == FAILED, time.perf_counter() - started)
-        if report is not None:
-            report(progress, task, outcome)
 
 
 def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequence[Notice], seconds: float) -> Finished:

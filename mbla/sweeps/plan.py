@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
@@ -97,27 +97,18 @@ def _written(value: Plain) -> str:
     return json.dumps(value, allow_nan=False, ensure_ascii=False).replace("\x85", "\\u0085")
 
 
-BEGINS = r"""(?<![^\s'"(=:,;])"""
-"""where a path may begin in a text"""
 SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
 """place of a value that a point sets: the user did not write it; its key and value stand behind it"""
 
 
-def shown_folders(plan: Plan, deck: str) -> Callable[[Outcome], Outcome]:
-    """What makes an outcome tell of files as the user names them, not by the folders of this machine.
+def as_named(plan: Plan, deck: str, outcome: Outcome) -> Outcome:
+    """An outcome that tells of files as the user names them, not by the folders of this machine.
 
-    The base deck's folder is shown as ``deck``, the path in the sweep file, has it; nothing for that of the sweep.
+    deck : the base deck as the sweep file names it
     """
-    named = Path(deck).parent
-    folders = {Path(plan.folder): "", Path(plan.deck).parent: "" if named == Path() else f"{named}/"}
-    own = {
-        f"{str(each).rstrip('/')}/": shown for folder, shown in folders.items() for each in (folder, folder.resolve())
-    }
-
-    def told(outcome: Outcome) -> Outcome:
-        reason = SETTING.sub("", outcome.reason)
-        for folder, shown in sorted(own.items(), key=lambda item: -len(item[0])):
-            reason = shown.join(re.split(BEGINS + re.escape(folder), reason))
-        return replace(outcome, reason=reason)
-
-    return told
+    reason, named = SETTING.sub("", outcome.reason), Path(deck).parent
+    shown = "" if named == Path() else f"{named}/"
+    for folder, instead in ((Path(plan.folder), ""), (Path(plan.deck).parent, shown)):
+        for each in (folder, folder.resolve()):
+            reason = reason.replace(f"{str(each).rstrip('/')}/", instead) if each != each.parent else reason
+    return replace(outcome, reason=reason)

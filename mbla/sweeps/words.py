@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter, deque
+import time
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,46 +18,40 @@ from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, as_text
 
 BAR = 24
 """characters"""
-WINDOW = 200
-"""points over which the rate is taken: it follows when points become harder, and does not jump with each of them"""
 MINUTE, HOUR = 60.0, 3600.0
 
 
 @dataclass
 class Progress:
-    """Count of finished points; times are seconds since the first point was handed out.
-
-    The rate is that from the first finished point on: before it, processes begin.
+    """Count of finished points.
 
     total   : points to be solved in this run
     earlier : points that the journal had already
+    seconds : since the first point was finished: before it, processes begin
     """
 
     total: int
     earlier: int = 0
     done: int = 0
     failed: int = 0
-    _times: deque[float] = field(default_factory=lambda: deque(maxlen=WINDOW + 1))
+    seconds: float = 0.0
+    _first: float = 0.0
 
-    def add(self, failed: bool, seconds: float) -> None:
+    def add(self, failed: bool) -> None:
         """One more point is finished."""
+        now = time.monotonic()
+        self._first = self._first or now
+        self.seconds = now - self._first
         self.done += 1
         self.failed += failed
-        self._times.append(seconds)
-
-    @property
-    def rate(self) -> float:
-        """Points a second over the last of them; 0 where nothing is known yet."""
-        passed = self._times[-1] - self._times[0] if self._times else 0.0
-        return (len(self._times) - 1) / passed if passed > 0 else 0.0
 
     def words(self) -> str:
         """``312 of 1000 points, 2 failed, 29 s left``."""
         words = [f"{self.done} of {self.total} points"]
         if self.failed:
             words.append(f"{self.failed} failed")
-        if self.rate and self.done < self.total:
-            words.append(f"{duration_words((self.total - self.done) / self.rate)} left")
+        if self.seconds and self.done < self.total:
+            words.append(f"{duration_words(self.seconds * (self.total - self.done) / (self.done - 1))} left")
         return ", ".join(words)
 
     def bar(self) -> str:

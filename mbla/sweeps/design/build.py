@@ -51,7 +51,7 @@ def design_of(sources: Sources) -> Design:
         sampling="" if sample is None else sample.sampling,
         parts=tuple(parts),
         breaches=breaches,
-        remarks=(*_remarks(parts, axes), *_cut(axes, keep)),
+        remarks=tuple(_remarks(axes, keep)),
     )
 
 
@@ -68,25 +68,25 @@ def _points(axes: Sequence[Axis], positions: Sequence[Sequence[int]]) -> list[Po
     return points
 
 
-def _remarks(parts: Sequence[tuple[Part, tuple[str, ...]]], axes: Sequence[Axis]) -> list[str]:
+def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
     """What is worth knowing of samples."""
-    by_name = {axis.dimension.name: axis for axis in axes}
     remarks: list[str] = []
-    for part, names in parts:
-        axis = by_name[names[0]]
-        size = axis.dimension.size
-        if part.kind == "sobol" and size & (size - 1):
+    samples = [axis for axis in axes if axis.sampling]
+    for i, axis in enumerate(axes):
+        name, size = axis.dimension.name, axis.dimension.size
+        ranges = [column.name for column in axis.columns if not column.random]
+        if name.startswith("sobol") and name != axis.columns[0].name and size & (size - 1):
             below = 2 ** (size.bit_length() - 1)
             remarks.append(
                 f"{size} points of a Sobol sequence are spread less evenly than a power of two: {below} or {2 * below}"
             )
-        ranges = [column.name for column in axis.columns if not column.random]
-        if part.seed is not None and 0 < len(ranges) < len(axis.columns):
+        if 0 < len(ranges) < len(axis.columns):
             remarks.append(
-                f"{part.kind}: {', '.join(ranges)} has no distribution, so that shares of these points are no "
+                f"{name}: {', '.join(ranges)} has no distribution, so that shares of these points are no "
                 "probabilities: give it one (uniform), or put it into a part of its own"
             )
-    samples = [axis for axis in axes if axis.sampling]
+        if axis.sampling and (keep.any(i) != keep.all(i)).any():
+            remarks.append(f"constraints leave out points of {name}: shares of its points are of those that stay")
     if len(samples) > 1:
         told = " and ".join(axis.dimension.name for axis in samples)
         remarks.append(
@@ -94,12 +94,6 @@ def _remarks(parts: Sequence[tuple[Part, tuple[str, ...]]], axes: Sequence[Axis]
             "random parameters makes them one"
         )
     return remarks
-
-
-def _cut(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
-    """A remark where constraints leave out some points of a random sample and not others."""
-    cut = [axis.dimension.name for i, axis in enumerate(axes) if axis.sampling and (keep.any(i) != keep.all(i)).any()]
-    return [f"constraints leave out points of {name}: shares of its points are of those that stay" for name in cut]
 
 
 # --- axes -------------------------------------------------------------------------------------------------------------

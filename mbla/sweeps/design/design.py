@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Message
-from mbla.results.listing.text import INDENT, WIDTH, counted, entry, heading, sentence, shortened, table
+from mbla.results.listing.text import INDENT, counted, entry, heading, sentence, shortened, table
 from mbla.sweeps.file.content import Part, SweepContent
 from mbla.sweeps.plan import Plain
 
@@ -192,13 +192,7 @@ def design_lines(design: Design) -> list[str]:
         lines += ["", *sentence(remark)]
     head = ["point", *(column.header for column in design.columns)]
     rows = [[str(point.number), *map(_cell, point.values)] for point in design.points]
-    widths = [max(map(len, cells)) + 2 for cells in zip(head, *rows, strict=True)]
-    lines += heading("Points")
-    for first, last in _tables(widths):
-        chosen = [0, *range(first, last)]
-        lines += table([head[i] for i in chosen], [[row[i] for i in chosen] for row in rows], left=0)
-        lines += [""] if last < len(head) else []
-    return lines
+    return [*lines, *heading("Points"), *table(head, rows, left=0)]
 
 
 def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) -> str:
@@ -210,14 +204,3 @@ def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) ->
 
 def _cell(value: Plain) -> str:
     return f"{value:.6g}" if isinstance(value, float) else shortened(str(value), LONGEST)
-
-
-def _tables(widths: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """First column and end of each table of columns that fit beside each other and the first of all."""
-    first, used = 1, widths[0]
-    for i in range(1, len(widths)):
-        if i > first and used + widths[i] > WIDTH - len(INDENT):
-            yield first, i
-            first, used = i, widths[0]
-        used += widths[i]
-    yield first, len(widths)

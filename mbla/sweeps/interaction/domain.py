@@ -116,20 +116,29 @@ def domain_of(points: Points, question: Question) -> Domain | None:
     corners = points.static[safe, None] * points.ways[safe]
     if points.stands:
         corners = np.vstack([corners, np.zeros(2)])
-    size = max(float(np.abs(corners).max()), 1e-300)
-    corners = np.vstack([corners, FAR * size * points.ways[points.factors.of(Answer.UNBOUNDED)]])
+    far = FAR * max(float(np.abs(corners).max()), 1e-300)
+    corners = np.vstack([corners, far * points.ways[points.factors.of(Answer.UNBOUNDED)]])
     bounded = np.isfinite(points.kinematic) & np.isfinite(points.powers).all(axis=1)
     planes = np.column_stack([points.powers, points.kinematic])[bounded]
-    outer = _sector(question, points.ways, FAR * size)
+    outer = far * SQUARE
+    if not question.closed and question.angles[-1] - question.angles[0] <= 180.0:  # the sector of the angles
+        (first, last) = points.ways[0], points.ways[-1]
+        outer = clipped(clipped(outer, np.array([first[1], -first[0], 0.0])), np.array([-last[1], last[0], 0.0]))
     for plane in planes:
         outer = clipped(outer, plane)
+    along = corners @ planes[:, :2].T
+    size = np.maximum(np.maximum(np.abs(planes[:, 2]), np.abs(along)), 1e-300)
+    crossed = float(((along - planes[:, 2]) / size).max(initial=0.0))
     return Domain(
         inner=convex_hull(corners),
         outer=outer if len(planes) else np.zeros((0, 2)),
-        cut_off=bool((np.abs(outer) > 0.99 * FAR * size).any()),
-        crossed=_crossed(corners, planes),
+        cut_off=bool((np.abs(outer) > 0.99 * far).any()),
+        crossed=crossed if crossed > CROSSED else 0.0,
         planes=planes,
     )
+
+
+SQUARE = np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
 
 
 def convex_hull(points: FloatArray) -> FloatArray:
@@ -155,24 +164,6 @@ def clipped(polygon: FloatArray, plane: FloatArray) -> FloatArray:
 def area(polygon: FloatArray) -> float:
     """Area of a polygon with corners (n, 2)."""
     return float(shapely.area(shapely.Polygon(polygon))) if len(polygon) > 2 else 0.0
-
-
-def _sector(question: Question, ways: FloatArray, far: float) -> FloatArray:
-    """The square of that half-width, or what of it lies between the first angle and the last; corners (n, 2)."""
-    square = far * np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
-    if question.closed or question.angles[-1] - question.angles[0] > 180.0:
-        return square
-    (first, last) = ways[0], ways[-1]
-    sector = clipped(square, np.array([first[1], -first[0], 0.0]))
-    return clipped(sector, np.array([-last[1], last[0], 0.0]))
-
-
-def _crossed(corners: FloatArray, planes: FloatArray) -> float:
-    """Largest relative distance of corners (n, 2) beyond planes (m, 3), where it is more than ``CROSSED``."""
-    along = corners @ planes[:, :2].T
-    size = np.maximum(np.maximum(np.abs(planes[:, 2]), np.abs(along)), 1e-300)
-    worst = float(((along - planes[:, 2]) / size).max(initial=0.0))
-    return worst if worst > CROSSED else 0.0
 
 
 def everywhere(domain: Domain, *, closed: bool) -> float | None:

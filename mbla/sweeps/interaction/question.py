@@ -14,7 +14,6 @@ cases must have one dead load, which belongs to every point.
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Mapping
@@ -32,7 +31,7 @@ from mbla.model.loads.load_case import kind_of
 from mbla.model.loads.load_kind import Entry, entries_of
 from mbla.model.model import Model
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal
-from mbla.sweeps.plan import Plain
+from mbla.sweeps.plan import Plain, override_texts
 
 DIRECTION, TWO_LOADS = "direction", "two_loads"
 DIRECTIONS, ANGLES = 72, 31
@@ -137,12 +136,6 @@ def stretched(degrees: float, ratio: float) -> float:
 
 # --- loads ------------------------------------------------------------------------------------------------------------
 
-NO_SUM = {
-    "travel": "travels: a load case for each of its positions",
-    "tilt": "tilts: its answer is an angle",
-}
-"""kinds of loads that make something else of a load case than a sum of loads, and what"""
-
 
 def _case(deck: Deck, case: str) -> str:
     """The load case, which need not be named where the deck has but one."""
@@ -161,12 +154,11 @@ def _section(deck: Deck, case: str) -> LoadCaseSection:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
     if cases[case].settlement is not None:
         raise UsageError("interact-load", f"load case {case}: a support gives way, there is no live load")
-    for entry in live_entries(deck, case):
-        for kind, words in NO_SUM.items():
-            if getattr(entry.load, kind) is not None:
-                raise UsageError(
-                    "interact-load", f"load case {case}: its live load {words}; a diagram takes other kinds of load"
-                )
+    loads = [entry.load for entry in live_entries(deck, case)]
+    if any(load.travel is not None or load.tilt is not None for load in loads):
+        raise UsageError(
+            "interact-load", f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
+        )
     return cases[case]
 
 
@@ -213,33 +205,29 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
         )
     entries = live_entries(deck, case)
     vectors = [_vector(case, entry) for entry in entries]
-    both = zip(entries, vectors, strict=True)
-    pushes = [complex(x, y) * (1 if entry.factor > 0 else -1) for entry, (x, y, _) in both if x or y]
+    parts = [complex(x, y) for x, y, _ in vectors]
+    pushes = [part * entry.factor for entry, part in zip(entries, parts, strict=True) if part]
     if not pushes:
         raise UsageError("interact-load", f"load case {case}: no live load has a horizontal part that could be turned")
-    way = pushes[0] / abs(pushes[0])
-    turned = [push / abs(push) / way for push in pushes]
-    absolute = all(one.real > 0 and abs(one.imag) <= ONE_WAY for one in turned)
+    turned = [push / pushes[0] for push in pushes]
+    absolute = all(one.real > 0 and abs(one.imag) <= ONE_WAY * abs(one) for one in turned)
+    if absolute:  # from +x on, whatever the direction in the deck
+        parts = [complex(math.copysign(abs(part), each.factor)) for each, part in zip(entries, parts, strict=True)]
 
     def live(azimuth: float) -> list[Plain]:
-        """The loads as a deck writes them; where they all point one way the azimuth counts from +x."""
+        """The loads as a deck writes them."""
         found: list[Plain] = []
-        for entry, (x, y, z) in zip(entries, vectors, strict=True):
-            part = complex(math.copysign(math.hypot(x, y), entry.factor), 0.0) if absolute else complex(x, y)
+        for entry, part, (_, _, z) in zip(entries, parts, vectors, strict=True):
             to = part * complex(*horizontal(azimuth, 1.0))
-            vector = [to.real + 0.0, to.imag + 0.0, z]
-            found.append(written(deck, entry, entry.factor, **{kind_of(entry.load): vector}))
+            change = {kind_of(entry.load): [to.real + 0.0, to.imag + 0.0, z]}
+            found.append(written(deck, entry, entry.factor, **change))
         return found
 
     pair: tuple[str, ...] = ()
-    fixed: tuple[str, ...] = ()
     if not any(z for _, _, z in vectors):  # powers of both say what a mechanism bounds all around
         pair = free_name(deck, "interact_0"), free_name(deck, "interact_90")
-        fixed = tuple(
-            f"load_cases.{name}={json.dumps({'live': live(azimuth)})}"
-            for name, azimuth in zip(pair, (0.0, QUARTER), strict=True)
-        )
     azimuths = angles_between(0.0, FULL_CIRCLE, count)
+    begins = "azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"
     return Question(
         kind=DIRECTION,
         case=case,
@@ -248,10 +236,11 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
         pair=pair,
         angles=azimuths,
         settings=tuple({f"load_cases.{case}.live": live(azimuth)} for azimuth in azimuths),
-        fixed=fixed,
+        fixed=override_texts(
+            {f"load_cases.{name}": {"live": live(azimuth)} for name, azimuth in zip(pair, (0.0, QUARTER), strict=False)}
+        ),
         closed=True,
-        words=f"load case {case}: the horizontal part of its live load is turned; "
-        + ("azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"),
+        words=f"load case {case}: the horizontal part of its live load is turned; {begins}",
     )
 
 
@@ -279,8 +268,7 @@ def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...], angles: tuple[fl
     first, second = pair
     if first == second:
         raise UsageError("interact-option", f"--loads {first} {second}: name two different load cases")
-    section = _section(deck, first)
-    _section(deck, second)
+    section, _ = _section(deck, first), _section(deck, second)
     one, other = ({case.name: case.dead_load for case in model.load_cases}[name] for name in pair)
     if not np.abs(one - other).max(initial=0.0) <= SAME_LOAD * np.abs([one, other]).max(initial=0.0):
         raise UsageError(
@@ -290,8 +278,8 @@ def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...], angles: tuple[fl
         )
     own: dict[str, Plain] = {}
     if section.dead is not None:
-        places = (("load_cases", first, "dead", number) for number in range(len(section.dead)))
-        dead = [Entry(load, place, load.factor) for load, place in zip(section.dead, places, strict=True)]
+        place = ("load_cases", first, "dead")
+        dead = [Entry(load, (*place, number), load.factor) for number, load in enumerate(section.dead)]
         own["dead"] = [written(deck, entry, entry.factor) for entry in dead]
 
     def live(angle: float) -> list[Plain]:

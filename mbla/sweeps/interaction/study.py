@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
 from mbla.deck import Deck
 from mbla.process.run_options import RunOptions
 from mbla.results.listing.text import counted, number, percent, sentence, table
@@ -96,7 +95,7 @@ def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusi
             question.names, question.axes, ("cosine", "sine"), points.places.T, strict=True
         )
     ]
-    lines = [*heading_lines(deck), *sentence(question.words), "", *_point_table(deck, question, points, table), ""]
+    lines = [*heading_lines(deck), *sentence(question.words), "", *_point_table(question, points, table), ""]
     for text in (*words[1:], *_reasons(question, table)):
         lines += sentence(text)
     return Conclusion(
@@ -113,8 +112,7 @@ def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
 
     A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
     """
-    codes = {code for code, state in zip(table["exit_code"].tolist(), table["state"].tolist(), strict=True)
-             if state == "failed"}  # fmt: skip
+    codes = set(table["exit_code"][table["state"] == "failed"].tolist())
     if codes:
         return next((code for code in GRAVEST_FIRST if code in codes), max(codes))
     if domain is not None and domain.crossed:
@@ -124,12 +122,12 @@ def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
 
 def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
     """The least and the greatest of the verified load factors, with their angles."""
-    known, angles = points.known, np.array(question.angles)
     if not points.factors.good.any():
         return {}
-    ends = {"least": float(np.nanmin(known)), "greatest": float(np.nanmax(known))}
+    ends = {"least": float(np.nanmin(points.known)), "greatest": float(np.nanmax(points.known))}
+    angles = {word: np.abs(points.known - end) <= SAME * abs(end) for word, end in ends.items()}
     return {
-        word: {"load_factor": end, "angles": angles[np.abs(known - end) <= SAME * abs(end)].tolist()}
+        word: {"load_factor": end, "angles": np.array(question.angles)[angles[word]].tolist()}
         for word, end in ends.items()
     }
 
@@ -137,33 +135,22 @@ def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
 # --- words ------------------------------------------------------------------------------------------------------------
 
 
-def _point_table(deck: Deck, question: Question, points: Points, results: SweepTable) -> list[str]:
-    """A line for each point."""
-    status = [
-        (text or state).replace("_", " ") if good else f"{(text or state).replace('_', ' ').upper()}"
-        for text, state, good in zip(
-            results["status"].tolist(), results["state"].tolist(), _answered(points), strict=True
-        )
-    ]
-    two = question.kind == TWO_LOADS
+def _point_table(question: Question, points: Points, results: SweepTable) -> list[str]:
+    """A line for each point; in capitals where it has no verified answer, which may be that there is no factor."""
+    unsure = np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)).tolist()
+    told = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
+    status = [str.upper(text or state) if doubt else text or state for text, state, doubt in told]
+    figures = {"load factor": points.known}
+    if question.kind == TWO_LOADS:
+        figures |= dict(zip(question.axes, points.places.T, strict=True))
+    figures |= {"static bound": points.static, "kinem. bound": points.kinematic}
     columns: dict[str, Sequence[str]] = {
-        "angle" if two else "azimuth": [f"{angle:.6g}" for angle in question.angles],
-        "load factor": _figures(points.known),
+        "angle" if question.kind == TWO_LOADS else "azimuth": [f"{angle:.6g}" for angle in question.angles],
+        **{name: [number(value) for value in values.tolist()] for name, values in figures.items()},
+        "mechanism": [text or "" for text in results["mechanism.class"].tolist()],
+        "status": [text.replace("_", " ") for text in status],
     }
-    if two:
-        columns |= {axis: _figures(places) for axis, places in zip(question.axes, points.places.T, strict=True)}
-    columns |= {"static bound": _figures(points.static), "kinem. bound": _figures(points.kinematic)}
-    columns |= {"mechanism": [text or "" for text in results["mechanism.class"].tolist()], "status": status}
     return table(list(columns), list(zip(*columns.values(), strict=True)), left=0)
-
-
-def _figures(values: FloatArray) -> list[str]:
-    return [number(value) for value in values.tolist()]
-
-
-def _answered(points: Points) -> BoolArray:
-    """Points with a verified answer, which may be that there is no load factor, (n,)."""
-    return np.asarray(~np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)))
 
 
 def _factor_words(question: Question, points: Points) -> list[str]:
@@ -205,11 +192,9 @@ def _domain_words(deck: Deck, question: Question, domain: Domain | None) -> list
         words += f"{percent(max(domain.gap, 0.0))} % of its area stay open"
     least = everywhere(domain, closed=question.closed)
     more = [] if least is None else [f"at angles between the points too, it carries at least {number(least)}"]
-    rule = deck.analysis.flow_rule
-    inside = (
-        [] if rule == ASSOCIATIVE else [f"load factors by {rule} flow lie inside of it; their curve may have dents"]
-    )
-    return [words, *more, *inside]
+    if deck.analysis.flow_rule != ASSOCIATIVE:
+        more.append(f"load factors by {deck.analysis.flow_rule} flow lie inside of it; their curve may have dents")
+    return [words, *more]
 
 
 def _reasons(question: Question, results: SweepTable) -> list[str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from mbla.results.listing.text import WIDTH
 from mbla.sweeps.design.design import design_json, design_lines
 from tests.sweeps.design.hand_made import design
 
@@ -47,16 +46,6 @@ def test_a_design_is_listed_with_parts_counts_and_every_point() -> None:
         "      7  0.65    0.3    pointed   True",
         "      8  0.65    0.3  segmental  False",
     ]
-
-
-def test_many_columns_go_below_each_other_and_none_is_lost() -> None:
-    parameters = {f"a_long_name_{i}": {"key": f"k{i}", "values": [i + 0.5, i + 0.25]} for i in range(20)}
-    lines = design_lines(design(parameters, design=[{"zip": {}}]))
-    assert max(map(len, lines)) <= WIDTH
-    words = " ".join(lines[lines.index("Points") :]).split()
-    assert [word for word in words if word.startswith("a_long")] == list(parameters)
-    assert words.count("point") == 4
-    assert {f"{i + share:g}" for i in range(20) for share in (0.5, 0.25)} <= set(words)
 
 
 def test_a_design_as_json() -> None:

@@ -90,7 +90,7 @@ def test_the_names_of_a_deck_are_left_alone(tmp_path: Path) -> None:
         ({"case": "pull"}, "no load case pull in the deck"),
         ({"case": "down"}, "no live load has a horizontal part"),
         ({"case": "twist"}, "load_cases.twist.live.1 is a moment, which is not turned"),
-        ({"case": "tilted"}, "its live load tilts"),
+        ({"case": "tilted"}, "its live load travels or tilts"),
         ({"case": "push", "start": 10.0}, "--from and --to apply with --loads"),
         ({"case": "push", "directions": 0}, "--directions 0: 1 to 3600"),
         ({"case": "push", "loads": ("push", "top")}, "--case and --loads"),
@@ -145,7 +145,7 @@ def test_a_table_named_by_an_included_file_is_found(tmp_path: Path) -> None:
     [
         ({"loads": ("push", "push")}, "name two different load cases"),
         ({"loads": ("push", "pull")}, "no load case pull"),
-        ({"loads": ("push", "tilted")}, "load case tilted: its live load tilts"),
+        ({"loads": ("push", "tilted")}, "load case tilted: its live load travels or tilts"),
         ({"loads": ("push", "weighed")}, "push and weighed have different dead loads"),
         ({"loads": ("push", "top"), "start": 90.0, "end": 90.0}, "the end must lie above"),
         ({"loads": ("push", "top"), "end": 361.0}, "by 360 degrees at most"),
