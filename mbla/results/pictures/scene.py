@@ -9,12 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.results.collapse.clusters import clusters_of
-from mbla.results.collapse.collapse import Failure, failure_of, fall_of
-from mbla.results.collapse.force_freedom import ForceFreedom, force_freedom
+from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
-from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
@@ -71,30 +68,27 @@ class Scene(RecordScene):
         return moved_vertices(self.model.blocks, self.motion)
 
     @cached_property
+    def _moving(self) -> tuple[Collapse, Mechanics] | None:
+        """The mechanism, or the motion that shows a lack of equilibrium; None where there is neither."""
+        if self.collapse is not None and self.mechanics is not None:
+            return self.collapse, self.mechanics
+        motion = self.case.solution.certificate
+        return None if motion is None else fall_of(self.model, self.contacts, motion)
+
+    @cached_property
     def failure(self) -> Failure | None:
-        """Clusters, hinge lines, sliding planes and cracks, numbered as in the listing; None without a mechanism."""
-        if self.mechanics is None or self.collapse is None:
-            return None
-        return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
+        """Clusters, hinge lines, sliding planes and cracks of what is drawn, numbered as in the listing."""
+        return None if self._moving is None else failure_of(self.model, self.contacts, *self._moving)
 
-    @cached_property
+    @property
     def clusters(self) -> IntArray:
-        """Part of the listing that each block is in, 0 at rest, (n_blocks,); found alike without equilibrium."""
-        if self.failure is not None:
-            return self.failure.clusters
-        motion = self.case.solution.certificate
-        if motion is None or self.mechanics is not None:
-            return np.zeros(len(self.model.blocks), dtype=np.int64)
-        exact = rigid_parts(self.model, self.contacts, motion)
-        return clusters_of(self.model, exact, motion).of_block
+        """Part of the listing that each block is in, 0 at rest, (n_blocks,)."""
+        return np.zeros(len(self.model.blocks), dtype=np.int64) if self.failure is None else self.failure.clusters
 
-    @cached_property
+    @property
     def joint_motion(self) -> InterfaceMotion | None:
-        """What each interface does in what is drawn, a mechanism or the motion that shows a lack of equilibrium."""
-        if self.collapse is not None:
-            return self.collapse.interfaces
-        motion = self.case.solution.certificate
-        return None if motion is None else fall_of(self.model, self.contacts, motion)[0].interfaces
+        """What each interface does in what is drawn."""
+        return None if self._moving is None else self._moving[0].interfaces
 
     @cached_property
     def dead_load(self) -> FloatArray:
@@ -120,7 +114,7 @@ class Scene(RecordScene):
         if self.mechanics is not None:
             gives = self.case.load_case.settlement is not None
             besides = "as the support gives way" if gives else "and live load times load factor"
-            return f"contact forces under dead load {besides}"
+            return f"contact forces under dead load {besides}; others may be possible"
         if self.forces is None:
             return "no contact forces to draw: none were found that carry the loads"
         if self.case.solution.lock is not None:
@@ -132,16 +126,6 @@ class Scene(RecordScene):
         """Where resultants are drawn, (n_interfaces, 3) m; those outside their joint at its edge."""
         assert self.thrust is not None  # asked for where there are forces
         return points_to_draw(self.contacts, self.thrust)
-
-    @cached_property
-    def force_freedom(self) -> ForceFreedom | None:
-        """How far the forces are unique; None where there is no result or it was not determined."""
-        solution = self.case.solution
-        if not self.is_result or solution.mechanics is None:
-            return None
-        dimension = 3 if solution.size is None else solution.size.dimension
-        found = force_freedom(self.model, self.contacts, solution.mechanics, dimension)
-        return None if isinstance(found, str) else found
 
     @cached_property
     def slabs(self) -> list[FloatArray]:
@@ -160,7 +144,7 @@ class Scene(RecordScene):
             return [title, f"{counted(len(model.blocks), 'block')}, {free} free; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
-            lines.append(self.force_words + self._unpressed_words() + self._freedom_words())
+            lines.append(self.force_words + self._unpressed_words())
         elif self.collapse is not None and self.failure is not None:
             lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
@@ -173,24 +157,6 @@ class Scene(RecordScene):
         """How many forces have no point of application in their joint, and so are not in the picture."""
         count = 0 if self.thrust is None else int(self.thrust.unpressed.sum())
         return f"; not drawn: {counted(count, 'joint')} in tension or shear without compression" if count else ""
-
-    def _freedom_words(self) -> str:
-        """Whether forces other than these would do; nothing of forces that are no result."""
-        solution, mechanics = self.case.solution, self.mechanics
-        if mechanics is None:
-            return "" if self.forces is None else "; others may do so too"
-        if not self.is_result:
-            return ""
-        freedom = self.force_freedom
-        if freedom is None:
-            return "; one possible state: whether there are others was not determined"
-        if freedom.degree == 0:
-            return "; unique" + ("" if solution.flow_rule == "associative" else " in this mechanism")
-        known = int(freedom.determined.sum())
-        return (
-            f"; one possible state: they may vary in up to {counted(freedom.degree, 'way')}, "
-            f"{known} of {counted(len(self.contacts), 'resultant')} are unique"
-        )
 
     def mark_of(self, kind: str) -> str:
         """What a reader must not overlook: that figures are not verified, or no result; empty where they are."""
