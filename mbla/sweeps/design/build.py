@@ -6,22 +6,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.deck.suggestions import listed
 from mbla.errors import DeckError, Fault, Message
 from mbla.results.listing.text import counted
 from mbla.sweeps.design.constraints import constrained
-from mbla.sweeps.design.design import Axis, Design, Dimension, Point, Sources, SweepColumn
+from mbla.sweeps.design.design import Axis, Design, Dimension, Point, Sources
 from mbla.sweeps.design.sampling import quantiles
-from mbla.sweeps.design.ways import RANGES, WAYS, Filled, Form, Way, WayError
+from mbla.sweeps.design.ways import WayError, columns_of, filled, grid_quantiles
 from mbla.sweeps.file.content import RANDOM, SAMPLED, Part, design_parts, key_paths, way_of
 from mbla.sweeps.plan import Plain
 
-ANGLES = ("azimuth", "elevation")
+RANGES = ("linear", "log", "horizon")
+"""ways whose values in a grid must differ"""
 
 
 def design_of(sources: Sources) -> Design:
@@ -122,61 +121,31 @@ def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list
 
 def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
     """The axes of one part; ``together``: name of that of parameters which change together."""
-    ways = {name: _way(sources, name) for name in part.parameters}
-    owners = [(name, form) for name, (how, section) in ways.items() for form in how.forms(section)]
-    sampled = part.kind in SAMPLED
-    streams = [name + form.suffix for name, form in owners]
-    drawn = quantiles(part.kind, part.points, part.seed or 0, streams) if sampled else np.zeros((0, len(streams)))
+    parameters, sampled = sources.content.parameters, part.kind in SAMPLED
+    columns = {
+        name: columns_of(name, one, sources.units.get(name, one.unit), sampled and way_of(one) in RANDOM)
+        for name, one in ((name, parameters[name]) for name in part.parameters)
+    }
+    streams = [column.name for own in columns.values() for column in own]
+    drawn = iter(quantiles(part.kind, part.points, part.seed or 0, streams).T) if sampled else iter(())
     axes: list[Axis] = []
     faults: list[Fault] = []
-    for name, (how, section) in ways.items():
-        key = way_of(sources.content.parameters[name])
+    for name, own in columns.items():
+        key, keys = way_of(parameters[name]), key_paths(name, parameters[name])
         try:
-            u = how.grid(section) if how.grid and not sampled else drawn[:, [owner == name for owner, _ in owners]]
-            filled = how.at(section, u, sources.vectors.get(name))
-            if not sampled and key in RANGES and len(set(map(str, filled.columns[0]))) < len(u):
+            u = np.column_stack([next(drawn) for _ in own]) if sampled else grid_quantiles(parameters[name])
+            values, settings = filled(parameters[name], u, sources.vectors.get(name))
+            if not sampled and key in RANGES and len(set(map(str, values[0]))) < len(u):
                 few = f"has {len(u)} points that numbers do not tell apart: widen the range, or take fewer"
                 raise WayError("sweep-values", few)
         except WayError as error:
             faults.append(sources.fault_at(("parameters", name, key), error.message))
         else:
-            axes.append(_axis(sources, name, filled, sampled and key in RANDOM))
+            rows, into = tuple(zip(*values, strict=True)), tuple(dict.fromkeys(keys, value) for value in settings)
+            axes.append(Axis(Dimension(name, len(rows)), own, rows, into))
     if faults:
         raise DeckError(faults)
     return axes if part.kind == "grid" else [_joined(together, axes, part.kind if sampled else "")]
-
-
-def _way(sources: Sources, name: str) -> tuple[Way, Any]:
-    """The way in which a parameter says its values, and what it says."""
-    parameter = sources.content.parameters[name]
-    key = way_of(parameter)
-    return WAYS[key], getattr(parameter, key)
-
-
-def _axis(sources: Sources, name: str, filled: Filled, random: bool) -> Axis:
-    """The axis of one parameter, under its name."""
-    parameter = sources.content.parameters[name]
-    how, section = _way(sources, name)
-    keys = key_paths(name, parameter)
-    unit = sources.units.get(name, parameter.unit)
-    columns = tuple(_column(name, form, unit, keys, random) for form in how.forms(section))
-    return Axis(
-        Dimension(name, len(filled.settings)),
-        columns,
-        tuple(zip(*filled.columns, strict=True)),
-        tuple(dict.fromkeys(keys, value) for value in filled.settings),
-    )
-
-
-def _column(name: str, form: Form, unit: str, keys: Sequence[str], random: bool) -> SweepColumn:
-    of = listed(keys, "and")
-    words = {
-        "parameter": f"value of {of}",
-        "azimuth": f"azimuth of {of}, from +x towards +y",
-        "elevation": f"elevation of {of} above the horizon",
-    }[form.role]
-    shown = "degree" if form.role in ANGLES else "" if form.kind in ("text", "bool") else unit
-    return SweepColumn(name + form.suffix, shown, words, form.kind, form.role, name, random)
 
 
 def _joined(name: str, axes: Sequence[Axis], sampling: str) -> Axis:

@@ -1,4 +1,4 @@
-"""Ways of saying the values of a parameter; a new one is a function of quantiles and a line in ``WAYS``.
+"""Ways of saying the values of a parameter, each a function of quantiles.
 
 Values of a grid are those at quantiles too: of a range at equal steps from 0 to 1, of a list in the middle of each.
 
@@ -19,25 +19,25 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.suggestions import listed
 from mbla.errors import ValueRefused
-from mbla.sweeps.design.design import Vector
+from mbla.sweeps.design.design import SweepColumn, Vector
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal, sine_cosine, spatial
 from mbla.sweeps.file import content as types
+from mbla.sweeps.file.content import Parameter, key_paths, way_of
 from mbla.sweeps.plan import Plain
 
 DIGITS = 12
 """significant digits that are kept"""
 EXACT_DIGITS = 15
 """decimal digits that every float holds"""
-RANGES = ("linear", "log", "horizon")
-"""ways whose values in a grid must differ"""
 GOLDEN_ANGLE = (3 - math.sqrt(5)) / 2
 """as a share of the full circle"""
 
@@ -46,51 +46,75 @@ class WayError(ValueRefused):
     """The values cannot be had in this design; the message says why and what helps."""
 
 
-@dataclass(frozen=True)
-class Form:
-    """A column that a parameter fills.
+def columns_of(name: str, parameter: Parameter, unit: str, random: bool) -> tuple[SweepColumn, ...]:
+    """The columns that a parameter fills, each of which takes a quantile."""
+    of = listed(key_paths(name, parameter), "and")
+    around = SweepColumn(name, "degree", f"azimuth of {of}, from +x towards +y", "float", "azimuth", name, random)
+    if parameter.sphere is not None:
+        words = f"elevation of {of} above the horizon"
+        above = replace(around, name=f"{name}_elevation", words=words, role="elevation")
+        return replace(around, name=f"{name}_azimuth"), above
+    if parameter.horizon is not None:
+        return (around,)
+    kind = "int" if parameter.whole is not None else "float"
+    kind = kind if parameter.values is None else _kind_of(parameter.values)
+    shown = "" if kind in ("text", "bool") else unit
+    return (SweepColumn(name, shown, f"value of {of}", kind, "parameter", name, random),)
 
-    suffix : after the name of the parameter
-    kind   : ``float``, ``int``, ``bool`` or ``text``
-    role   : ``parameter``, ``azimuth`` or ``elevation``
+
+def grid_quantiles(parameter: Parameter) -> FloatArray:
+    """The quantiles of a grid, (n_values, n_columns): ends and equal steps of ranges, middles of what is counted."""
+    count = types.level_count(parameter) or 1
+    middles = (np.arange(count) + 0.5) / count
+    if parameter.sphere is not None:
+        return np.column_stack([np.mod(np.arange(count) * GOLDEN_ANGLE, 1.0), middles])
+    if parameter.values is not None or parameter.whole is not None:
+        return middles[:, None]
+    turn = parameter.horizon  # the last of a full circle, which is the first once more, is left out
+    return np.linspace(0.0, 1.0, count, endpoint=turn is None or turn.end - turn.start != FULL_CIRCLE)[:, None]
+
+
+Filled = tuple[tuple[Sequence[Plain], ...], Sequence[Plain]]
+"""Values for each column of a parameter, and what goes into the deck, one for each position"""
+
+
+def filled(parameter: Parameter, u: FloatArray, vector: Vector | None) -> Filled:
+    """What a parameter has at quantiles (n, n_columns) between 0 and 1.
+
+    vector : of the base deck, which a direction turns; None for everything else
+
+    Raises WayError where the values cannot be had.
     """
-
-    kind: str = "float"
-    role: str = "parameter"
-    suffix: str = ""
-
-
-@dataclass(frozen=True)
-class Filled:
-    """Values of a parameter.
-
-    columns  : values for each of its columns, one for each position
-    settings : what goes into the deck, one for each position
-    """
-
-    columns: tuple[Sequence[Plain], ...]
-    settings: Sequence[Plain]
+    section: Any = getattr(parameter, way_of(parameter))
+    if parameter.values is not None:
+        kind = _kind_of(section)
+        picked = [section[i] for i in np.floor(u[:, 0] * len(section)).astype(int).tolist()]
+        return ([_shown(value, kind) for value in picked],), picked
+    if parameter.horizon is not None:
+        return _horizon(section, u[:, 0], vector)
+    if parameter.sphere is not None:
+        return _sphere(section, u, vector)
+    values = _numbers(section, u[:, 0])
+    return (values,), values
 
 
-@dataclass(frozen=True)
-class Way:
-    """One way of saying values; ``section`` is what the sweep file holds under its key.
-
-    at    : (section, u, vector) -> values at quantiles u (n, n_quantiles), between 0 and 1
-    grid  : section -> the quantiles of a grid; None for distributions
-    forms : section -> the columns, each of which takes one quantile
-
-    ``vector`` is that of the base deck which a direction turns; None for everything else.
-    """
-
-    at: Callable[[Any, FloatArray, Vector | None], Filled]
-    grid: Callable[[Any], FloatArray] | None
-    forms: Callable[[Any], tuple[Form, ...]] = lambda section: (Form(),)
-
-
-def _plain(values: Sequence[Plain]) -> Filled:
-    """Values that fill their one column as they go into the deck."""
-    return Filled((values,), values)
+def _numbers(section: Any, u: FloatArray) -> Sequence[Plain]:
+    """Numbers at quantiles (n,) of a range or a distribution."""
+    if isinstance(section, types.LinearRange | types.Uniform):
+        return _between(float(section.start), float(section.end), u)
+    if isinstance(section, types.LogRange):
+        return _log(float(section.start), float(section.end), u)
+    if isinstance(section, types.WholeRange):
+        count = section.end - section.start + 1
+        whole: list[Plain] = (section.start + np.floor(u * count).astype(np.int64)).tolist()
+        return whole
+    with np.errstate(over="ignore", invalid="ignore"):  # infinite values are told with the place in the file
+        if isinstance(section, types.Normal):
+            values = cut_normal(u, section.mean, section.deviation, section.least, section.greatest)
+            return rounded_within(values, section.least, section.greatest)
+        if isinstance(section, types.Lognormal):
+            return rounded_within(_lognormal(section, u), section.least or 0.0, section.greatest)
+        return _triangular(section, u)
 
 
 # --- rounding ---------------------------------------------------------------------------------------------------------
@@ -128,28 +152,10 @@ def _with_ends(values: Sequence[float], start: float, end: float, u: FloatArray)
 # --- ranges and lists -------------------------------------------------------------------------------------------------
 
 
-def _steps(section: types.LinearRange | types.LogRange) -> FloatArray:
-    return np.linspace(0.0, 1.0, section.points or 2)[:, None]
-
-
-def _middles(count: int) -> FloatArray:
-    return ((np.arange(count) + 0.5) / count)[:, None]
-
-
-def _linear(section: types.LinearRange | types.Uniform, u: FloatArray, vector: Vector | None) -> Filled:
-    return _plain(_between(float(section.start), float(section.end), u[:, 0]))
-
-
-def _log(section: types.LogRange, u: FloatArray, vector: Vector | None) -> Filled:
+def _log(start: float, end: float, u: FloatArray) -> list[float]:
     """Equal ratios: every decade equally often."""
-    start, end = float(section.start), float(section.end)
-    values = 10 ** (math.log10(start) * (1 - u[:, 0]) + math.log10(end) * u[:, 0])
-    return _plain(_with_ends(rounded_within(values, min(start, end), max(start, end)), start, end, u[:, 0]))
-
-
-def _whole(section: types.WholeRange, u: FloatArray, vector: Vector | None) -> Filled:
-    count = section.end - section.start + 1
-    return _plain((section.start + np.floor(u[:, 0] * count).astype(np.int64)).tolist())
+    values = 10 ** (math.log10(start) * (1 - u) + math.log10(end) * u)
+    return _with_ends(rounded_within(values, min(start, end), max(start, end)), start, end, u)
 
 
 def _kind_of(values: Sequence[Plain]) -> str:
@@ -168,12 +174,6 @@ def _shown(value: Plain, kind: str) -> Plain:
     return value if kind != "text" or isinstance(value, str) else json.dumps(value, ensure_ascii=False)
 
 
-def _list(section: Sequence[Plain], u: FloatArray, vector: Vector | None) -> Filled:
-    kind = _kind_of(section)
-    picked = [section[i] for i in np.floor(u[:, 0] * len(section)).astype(int).tolist()]
-    return Filled(([_shown(value, kind) for value in picked],), picked)
-
-
 # --- distributions ----------------------------------------------------------------------------------------------------
 
 
@@ -183,32 +183,22 @@ def cut_normal(u: FloatArray, mean: float, deviation: float, least: float | None
 
     low = -math.inf if least is None else (least - mean) / deviation
     high = math.inf if greatest is None else (greatest - mean) / deviation
-    with np.errstate(over="ignore", invalid="ignore"):  # infinite values are told with the place in the file
-        values: FloatArray = mean + deviation * np.asarray(truncnorm.ppf(u, low, high), dtype=float)
-    return values
+    return np.asarray(mean + deviation * np.asarray(truncnorm.ppf(u, low, high), dtype=float))
 
 
-def _normal(section: types.Normal, u: FloatArray, vector: Vector | None) -> Filled:
-    values = cut_normal(u[:, 0], section.mean, section.deviation, section.least, section.greatest)
-    return _plain(rounded_within(values, section.least, section.greatest))
-
-
-def _lognormal(section: types.Lognormal, u: FloatArray, vector: Vector | None) -> Filled:
+def _lognormal(section: types.Lognormal, u: FloatArray) -> FloatArray:
     variance = 2 * math.log(math.hypot(1.0, section.deviation / section.mean))
     mean = math.log(section.mean) - variance / 2
     least, greatest = (None if end is None else math.log(end) for end in (section.least, section.greatest))
-    with np.errstate(over="ignore", invalid="ignore"):
-        values = np.exp(cut_normal(u[:, 0], mean, math.sqrt(variance), least, greatest))
-    return _plain(rounded_within(values, section.least or 0.0, section.greatest))
+    return np.exp(cut_normal(u, mean, math.sqrt(variance), least, greatest))
 
 
-def _triangular(section: types.Triangular, u: FloatArray, vector: Vector | None) -> Filled:
+def _triangular(section: types.Triangular, u: FloatArray) -> list[float]:
     from scipy.stats import triang
 
     start, span = float(section.start), float(section.end) - float(section.start)
-    with np.errstate(over="ignore", invalid="ignore"):
-        values = np.asarray(triang.ppf(u[:, 0], (section.mode - start) / span, loc=start, scale=span), dtype=float)
-    return _plain(rounded_within(values, start, float(section.end)))
+    values = np.asarray(triang.ppf(u, (section.mode - start) / span, loc=start, scale=span), dtype=float)
+    return rounded_within(values, start, float(section.end))
 
 
 # --- directions -------------------------------------------------------------------------------------------------------
@@ -227,24 +217,12 @@ def _length_to_turn(components: Iterable[float], given: float | None) -> float:
     return size
 
 
-def _around(section: types.Horizon) -> FloatArray:
-    """Equal angles; the last of a full circle, which is the first once more, is left out."""
-    full = section.end - section.start == FULL_CIRCLE
-    return np.linspace(0.0, 1.0, section.points or 1, endpoint=not full)[:, None]
-
-
 def _horizon(section: types.Horizon, u: FloatArray, vector: Vector | None) -> Filled:
     """The horizontal part of a vector is turned, its vertical part stays."""
     along_x, along_y, vertical = map(float, vector or (0.0, 0.0, 0.0))
     size = _length_to_turn((along_x, along_y), section.size)
-    azimuths = _between(section.start, section.end, u[:, 0])
-    return Filled((azimuths,), [[*horizontal(azimuth, size), vertical] for azimuth in azimuths])
-
-
-def _spiral(section: types.Sphere) -> FloatArray:
-    points = section.points or 1
-    order = np.arange(points)
-    return np.column_stack([np.mod(order * GOLDEN_ANGLE, 1.0), (order + 0.5) / points])
+    azimuths = _between(section.start, section.end, u)
+    return (azimuths,), [[*horizontal(azimuth, size), vertical] for azimuth in azimuths]
 
 
 def _sphere(section: types.Sphere, u: FloatArray, vector: Vector | None) -> Filled:
@@ -255,24 +233,4 @@ def _sphere(section: types.Sphere, u: FloatArray, vector: Vector | None) -> Fill
     azimuths = rounded_within(FULL_CIRCLE * u[:, 0], None, None)
     size = _length_to_turn(vector or (0.0,), section.size)
     both = zip(azimuths, elevations, strict=True)
-    return Filled((azimuths, elevations), [list(spatial(azimuth, elevation, size)) for azimuth, elevation in both])
-
-
-_AZIMUTH = (Form(role="azimuth"),)
-_BOTH_ANGLES = (Form(role="azimuth", suffix="_azimuth"), Form(role="elevation", suffix="_elevation"))
-
-WAYS: dict[str, Way] = {
-    "values": Way(_list, lambda section: _middles(len(section)), forms=lambda section: (Form(_kind_of(section)),)),
-    "linear": Way(_linear, _steps),
-    "log": Way(_log, _steps),
-    "whole": Way(
-        _whole, lambda section: _middles(section.end - section.start + 1), forms=lambda section: (Form("int"),)
-    ),
-    "normal": Way(_normal, None),
-    "lognormal": Way(_lognormal, None),
-    "uniform": Way(_linear, None),
-    "triangular": Way(_triangular, None),
-    "horizon": Way(_horizon, _around, forms=lambda section: _AZIMUTH),
-    "sphere": Way(_sphere, _spiral, forms=lambda section: _BOTH_ANGLES),
-}
-"""by the key of a parameter in the sweep file"""
+    return (azimuths, elevations), [list(spatial(azimuth, elevation, size)) for azimuth, elevation in both]

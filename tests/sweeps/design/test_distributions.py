@@ -11,8 +11,8 @@ from scipy import stats
 
 from mbla.arrays import FloatArray
 from mbla.sweeps.design.sampling import quantiles
-from mbla.sweeps.design.ways import WAYS, cut_normal
-from mbla.sweeps.file.content import Parameter, way_of
+from mbla.sweeps.design.ways import cut_normal, filled
+from mbla.sweeps.file.content import Parameter
 from tests.sweeps.design.hand_made import column, drawn
 
 KINDS = ("random", "latin_hypercube", "sobol")
@@ -60,9 +60,7 @@ U = np.array([1e-12, 1e-6, 0.01, 0.2, 0.5, 0.8, 0.99, 1 - 1e-6])
 
 
 def at(parameter: dict[str, Any], u: FloatArray) -> FloatArray:
-    checked = Parameter.model_validate(parameter)
-    key = way_of(checked)
-    return np.array(WAYS[key].at(getattr(checked, key), u[:, None], None).settings, dtype=float)
+    return np.array(filled(Parameter.model_validate(parameter), u[:, None], None)[1], dtype=float)
 
 
 def share_of_normal(value: FloatArray, mean: float, deviation: float, least: float, greatest: float) -> FloatArray:
