@@ -20,7 +20,7 @@ from mbla.sweeps.design.design import Design, design_json
 from mbla.sweeps.engine.engine import EngineOptions, check_options, outcomes_of
 from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
-from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of
+from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal import WHOLE, JournalHeader, journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
@@ -152,8 +152,8 @@ def _fragility(asked: FragilitySection | None, table: SweepTable) -> Conclusion:
     if asked is None:
         return Conclusion()
     found = fragility_of(table, asked.result, asked.demand, asked.confidence)
-    texts = {FRAGILITY: fragility_csv(found)}
-    return Conclusion(record={"fragility": fragility_json(found)}, texts=texts, lines=fragility_lines(found))
+    texts = {FRAGILITY: fragility_csv(found, table)}
+    return Conclusion(record={"fragility": found}, texts=texts, lines=fragility_lines(found, table))
 
 
 def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:

@@ -18,19 +18,17 @@ verified answer is unknown: it is counted on either side in turn, and the interv
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy.special import betaincinv
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import IntArray
 from mbla.results.listing.text import sentence, table
-from mbla.results.record.json_values import number, numbers
 from mbla.results.record.keys import Key
 from mbla.results.tables.formats import csv_text
-from mbla.sweeps.answers import Answers, answers_of
-from mbla.sweeps.design.design import SweepColumn, header_of
+from mbla.sweeps.answers import answers_of
+from mbla.sweeps.design.design import header_of
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.tables.sweep_table import SweepTable, as_text
 
@@ -39,105 +37,53 @@ SAME = 1e-6
 that is the demand, as the slenderness of a block that rocks may be, must not be counted by its rounding"""
 
 
-@dataclass(frozen=True)
-class Fragility:
-    """Of one result, at one combination of what is not sampled.
-
-    column     : of the result
-    at, units  : value and unit of each parameter outside of the sample, by its name
-    points     : sample points, at least one
-    left_out   : sample points that constraints leave out here: the probability is that of the others
-    demands    : (n,) in the unit of the column
-    below      : (n,) points certainly below each
-    unknown    : points without a verified answer
-    lower, upper : (n,) ends of the interval
-    confidence : of the interval
-    sampling   : ``random``, ``latin_hypercube`` or ``sobol``
-    """
-
-    column: SweepColumn
-    at: Mapping[str, Plain]
-    units: Mapping[str, str]
-    points: int
-    left_out: int
-    demands: FloatArray
-    below: IntArray
-    unknown: int
-    lower: FloatArray
-    upper: FloatArray
-    confidence: float
-    sampling: str
-
-    @property
-    def least(self) -> FloatArray:
-        """Fraction below each demand if every unknown point is above it, (n,)."""
-        return np.asarray(self.below / self.points)
-
-    @property
-    def greatest(self) -> FloatArray:
-        """The same if every unknown point is below it, (n,)."""
-        return np.asarray((self.below + self.unknown) / self.points)
-
-
-def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confidence: float) -> tuple[Fragility, ...]:
+def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confidence: float) -> list[dict[str, Any]]:
     """For each column of a result and each combination of what is not sampled, in the order of the table.
 
     result  : name of a column of numbers, or key path, which is one in each load case
     demands : in the unit of the result
+
+    Returns objects as ``fragility_keys`` describes them.
     """
     found = []
+    size = next(dimension.size for dimension in table.dimensions if dimension.name == table.samples)
     for column in (column for column in table.of_role("result") if result in (column.name, column.path)):
         answers = answers_of(table, column)
         for at, rows in _combinations(table):
-            found.append(_fragility(table, answers, at, rows, np.array(demands, dtype=np.float64), confidence))
-    return tuple(found)
+            values, points = answers.values[rows][answers.good[rows]], len(rows)
+            fallen, unknown = int(answers.below[rows].sum()), int(answers.unknown[rows].sum())
+            told = []
+            for demand in map(float, demands):
+                below = fallen + int((values < demand - SAME * abs(demand)).sum())
+                probability = [below / points, (below + unknown) / points]
+                ends = list(interval(below, unknown, points, confidence))
+                told.append({"demand": demand, "below": below, "probability": probability, "interval": ends})
+            found.append(
+                {
+                    "result": column.name,
+                    "unit": column.unit,
+                    "at": at,
+                    "sampling": table.sampling,
+                    "confidence": confidence,
+                    "points": points,
+                    "left_out": size - points,
+                    "unknown": unknown,
+                    "demands": told,
+                }
+            )
+    return found
 
 
-def interval(below: IntArray, unknown: int, points: int, confidence: float) -> tuple[FloatArray, FloatArray]:
-    """Ends of the interval of the probability, (n,) each; 0 and 1 where nothing is known.
+def interval(below: int, unknown: int, points: int, confidence: float) -> tuple[float, float]:
+    """Ends of the interval of the probability; 0 and 1 where nothing is known.
 
-    below   : (n,) points certainly below
+    below   : points certainly below
     unknown : points that may be below or not
     """
-    tail = (1.0 - confidence) / 2.0
-    least, greatest = np.asarray(below, dtype=np.float64), np.asarray(below + unknown, dtype=np.float64)
-    first, last = least > 0, greatest < points
-    lower, upper = np.zeros(len(least)), np.ones(len(least))
-    lower[first] = betaincinv(least[first], points - least[first] + 1.0, tail)
-    upper[last] = betaincinv(greatest[last] + 1.0, points - greatest[last], 1.0 - tail)
+    tail, most = (1.0 - confidence) / 2.0, below + unknown
+    lower = float(betaincinv(below, points - below + 1.0, tail)) if below else 0.0
+    upper = float(betaincinv(most + 1.0, points - most, 1.0 - tail)) if most < points else 1.0
     return lower, upper
-
-
-def _fragility(
-    table: SweepTable,
-    answers: Answers,
-    at: Mapping[str, Plain],
-    rows: IntArray,
-    demands: FloatArray,
-    confidence: float,
-) -> Fragility:
-    values = answers.values[rows][answers.good[rows]]
-    below = (values[:, None] < demands - SAME * np.abs(demands)).sum(axis=0) + int(answers.below[rows].sum())
-    count = int(answers.unknown[rows].sum())
-    lower, upper = interval(below, count, len(rows), confidence)
-    return Fragility(
-        column=answers.column,
-        at=at,
-        units={column.name: column.unit for column in table.columns if column.name in at},
-        points=len(rows),
-        left_out=_sample_size(table) - len(rows),
-        demands=demands,
-        below=below,
-        unknown=count,
-        lower=lower,
-        upper=upper,
-        confidence=confidence,
-        sampling=table.sampling,
-    )
-
-
-def _sample_size(table: SweepTable) -> int:
-    return next(dimension.size for dimension in table.dimensions if dimension.name == table.samples)
 
 
 def _combinations(table: SweepTable) -> Iterator[tuple[dict[str, Plain], IntArray]]:
@@ -156,37 +102,28 @@ def _combinations(table: SweepTable) -> Iterator[tuple[dict[str, Plain], IntArra
 
 
 NOT_INDEPENDENT = (
-    "the points of a {} are not independent: the interval is that of as many points drawn at random, mostly too wide "
-    "for these, and not guaranteed"
+    "the points of a {} sample are not independent: the interval is that of as many points drawn at random, mostly too "
+    "wide for these, and not guaranteed"
 )
-SAMPLED = {
-    "random": "",
-    "latin_hypercube": NOT_INDEPENDENT.format("Latin hypercube"),
-    "sobol": NOT_INDEPENDENT.format("Sobol sequence"),
-}
-"""what is said of intervals of samples that are not drawn point by point"""
 UNKNOWN = (
     "points without a verified answer are unknown: they are counted both as below and as above a demand, and the "
     "interval holds both"
 )
 
 
-def fragility_lines(found: Sequence[Fragility]) -> list[str]:
+def fragility_lines(found: Sequence[Mapping[str, Any]], of: SweepTable) -> list[str]:
     """A table of every demand, combination and result, and what must be known of them."""
     if not found:
         return []
-    rows = _rows(found)
+    rows = _rows(found, of)
     head = [name for name in rows if name not in ("confidence", "sampling")]
     cells = [[_short(value) for value in row] for row in zip(*(rows[name] for name in head), strict=True)]
-    lines = sentence(
-        f"probability that a result lies below a demand, with its {100 * found[0].confidence:g} % interval:"
-    )
+    confidence = 100 * found[0]["confidence"]
+    lines = sentence(f"probability that a result lies below a demand, with its {confidence:g} % interval:")
     lines += table([SHORT.get(name, name) for name in head], cells)
-    remarks = [
-        *dict.fromkeys(SAMPLED[one.sampling] for one in found),
-        *([UNKNOWN] if any(one.unknown for one in found) else []),
-    ]
-    return lines + [line for remark in remarks if remark for line in sentence(remark)]
+    if of.sampling != "random":
+        lines += sentence(NOT_INDEPENDENT.format(of.sampling.replace("_", " ")))
+    return lines + (sentence(UNKNOWN) if any(one["unknown"] for one in found) else [])
 
 
 SHORT = {
@@ -202,60 +139,27 @@ def _short(value: Plain) -> str:
     return f"{value:.4g}" if isinstance(value, float) else as_text(value)
 
 
-def _rows(found: Sequence[Fragility]) -> dict[str, list[Any]]:
+def _rows(found: Sequence[Mapping[str, Any]], of: SweepTable) -> dict[str, list[Any]]:
     """Columns by their headers: a row for each result, combination and demand."""
-    rows = [(one, row) for one in found for row in range(len(one.demands))]
-    first = found[0]
-    return {
-        "result": [one.column.name for one, _ in rows],
-        **{header_of(name, first.units[name]): [one.at[name] for one, _ in rows] for name in first.at},
-        header_of("demand", first.column.unit): [float(one.demands[row]) for one, row in rows],
-        "points": [one.points for one, _ in rows],
-        "below": [int(one.below[row]) for one, row in rows],
-        "unknown": [one.unknown for one, _ in rows],
-        "probability_least": [float(one.least[row]) for one, row in rows],
-        "probability_greatest": [float(one.greatest[row]) for one, row in rows],
-        "interval_lower": [float(one.lower[row]) for one, row in rows],
-        "interval_upper": [float(one.upper[row]) for one, row in rows],
-        "confidence": [one.confidence for one, _ in rows],
-        "sampling": [one.sampling for one, _ in rows],
+    rows = [(one, each) for one in found for each in one["demands"]]
+    headers = {column.name: column.header for column in of.columns}
+    columns = {"result": [one["result"] for one, _ in rows]}
+    columns |= {headers[name]: [one["at"][name] for one, _ in rows] for name in found[0]["at"]}
+    columns[header_of("demand", found[0]["unit"])] = [each["demand"] for _, each in rows]
+    columns |= {
+        "points": [one["points"] for one, _ in rows],
+        "below": [each["below"] for _, each in rows],
+        "unknown": [one["unknown"] for one, _ in rows],
     }
+    for name, (low, high) in {"probability": ("least", "greatest"), "interval": ("lower", "upper")}.items():
+        columns |= {f"{name}_{end}": [each[name][i] for _, each in rows] for i, end in enumerate((low, high))}
+    return columns | {name: [one[name] for one, _ in rows] for name in ("confidence", "sampling")}
 
 
-def fragility_csv(found: Sequence[Fragility]) -> str:
+def fragility_csv(found: Sequence[Mapping[str, Any]], of: SweepTable) -> str:
     """The text of sweep_fragility.csv: a row for each result, combination and demand."""
-    if not found:
-        return ""
-    rows = _rows(found)
-    return csv_text(tuple(rows), [np.array(values, dtype=object) for values in rows.values()])
-
-
-def fragility_json(found: Sequence[Fragility]) -> list[dict[str, Any]]:
-    """An object for each result and combination, as ``fragility_keys`` describes them."""
-    return [
-        {
-            "result": one.column.name,
-            "unit": one.column.unit,
-            "at": dict(one.at),
-            "sampling": one.sampling,
-            "confidence": one.confidence,
-            "points": one.points,
-            "left_out": one.left_out,
-            "unknown": one.unknown,
-            "demands": [
-                {
-                    "demand": number(demand),
-                    "below": int(below),
-                    "probability": numbers((least, greatest)),
-                    "interval": numbers((lower, upper)),
-                }
-                for demand, below, least, greatest, lower, upper in zip(
-                    one.demands, one.below, one.least, one.greatest, one.lower, one.upper, strict=True
-                )
-            ],
-        }
-        for one in found
-    ]
+    rows = _rows(found, of) if found else {}
+    return csv_text(tuple(rows), [np.array(values, dtype=object) for values in rows.values()]) if rows else ""
 
 
 def fragility_keys(place: str) -> tuple[Key, ...]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.results.record.json_values import json_line
 from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
-from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_lines, fragility_of, interval
+from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of, interval
 from mbla.sweeps.plan import DONE, FAILED, Outcome
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
@@ -67,9 +68,9 @@ EXACT = float(FRICTION.cdf(DEMAND))
 
 def coverage(samples: Sequence[FloatArray], confidence: float) -> float:
     """Share of samples whose interval holds the exact probability."""
-    below = np.array([(sample < DEMAND).sum() for sample in samples])
-    lower, upper = interval(below, 0, POINTS, confidence)
-    return float(np.mean((lower <= EXACT) & (upper >= EXACT)))
+    below = [int((sample < DEMAND).sum()) for sample in samples]
+    ends = {count: interval(count, 0, POINTS, confidence) for count in set(below)}
+    return float(np.mean([ends[count][0] <= EXACT <= ends[count][1] for count in below]))
 
 
 def test_the_probability_of_a_sliding_block() -> None:
@@ -77,9 +78,10 @@ def test_the_probability_of_a_sliding_block() -> None:
     factors = FRICTION.rvs(4000, random_state=np.random.default_rng(1))
     (found,) = fragility_of(table_of([solved(factors)]), "load_factor", (DEMAND,), 0.99)
     assert pytest.approx(norm.cdf((np.log(DEMAND / MEAN) + SPREAD**2 / 2) / SPREAD)) == EXACT
-    assert found.lower[0] < EXACT < found.upper[0]
-    assert found.least[0] == found.greatest[0] == np.mean(factors < DEMAND)
-    assert found.upper[0] - found.lower[0] < 0.03
+    (one,) = found["demands"]
+    lower, upper = one["interval"]
+    assert lower < EXACT < upper < lower + 0.03
+    assert one["probability"] == [np.mean(factors < DEMAND)] * 2
 
 
 @pytest.mark.parametrize("confidence", [0.5, 0.9, 0.95, 0.99])
@@ -92,9 +94,12 @@ def test_the_interval_holds_its_confidence_over_many_samples(confidence: float) 
 
 @pytest.mark.parametrize(("below", "points"), [(0, 20), (1, 20), (7, 20), (20, 20), (3, 500)])
 def test_the_interval_is_that_of_clopper_and_pearson(below: int, points: int) -> None:
-    lower, upper = interval(np.array([below]), 0, points, 0.95)
     expected = binomtest(below, points).proportion_ci(0.95, "exact")
-    assert (lower[0], upper[0]) == pytest.approx((expected.low, expected.high), rel=1e-9)
+    assert interval(below, 0, points, 0.95) == pytest.approx((expected.low, expected.high), rel=1e-9)
+
+
+def below_of(found: Mapping[str, Any]) -> list[int]:
+    return [one["below"] for one in found["demands"]]
 
 
 # --- answers that are no load factor ------------------------------------------------------------------------------
@@ -110,22 +115,23 @@ MIXED: list[Found] = [
 
 def test_a_share_has_no_side_for_what_does_not_stand() -> None:
     (found,) = fragility_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
-    assert (found.below[0], found.unknown) == (1, 3)
+    assert (below_of(found), found["unknown"]) == ([1], 3)
 
 
 def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
     (found,) = fragility_of(table_of([MIXED[:4]]), "load_factor", (0.1, 0.2, 0.3, 9.0), 0.95)
-    assert found.below.tolist() == [1, 1, 2, 3]  # a load factor equal to the demand bears it
-    assert found.unknown == 0
+    assert below_of(found) == [1, 1, 2, 3]  # a load factor equal to the demand bears it
+    assert found["unknown"] == 0
 
 
 def test_a_failed_point_is_counted_both_ways() -> None:
-    (found,) = fragility_of(table_of([MIXED]), "load_factor", (0.3,), 0.95)
-    assert (found.below.tolist(), found.unknown, found.points) == ([2], 1, 5)
-    assert (found.least[0], found.greatest[0]) == (0.4, 0.6)
-    assert found.lower[0] == pytest.approx(binomtest(2, 5).proportion_ci(0.95, "exact").low)
-    assert found.upper[0] == pytest.approx(binomtest(3, 5).proportion_ci(0.95, "exact").high)
-    text = " ".join(" ".join(fragility_lines([found])).split())
+    table = table_of([MIXED])
+    (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
+    assert (below_of(found), found["unknown"], found["points"]) == ([2], 1, 5)
+    assert found["demands"][0]["probability"] == [0.4, 0.6]
+    ends = [binomtest(count, 5).proportion_ci(0.95, "exact") for count in (2, 3)]
+    assert found["demands"][0]["interval"] == pytest.approx([ends[0].low, ends[1].high])
+    text = " ".join(" ".join(fragility_lines([found], table)).split())
     assert "load_factor 0.3 5 2 1 0.4 0.6 " in text
     assert "counted both as below and as above a demand" in text
 
@@ -136,25 +142,24 @@ def test_a_failed_point_is_counted_both_ways() -> None:
 def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
     table = table_of([solved([0.1, 0.2]), solved([0.3, 0.4])], "sobol", (0.25, 1 / 3))
     found = fragility_of(table, "load_factor", (0.15, 0.35), 0.9)
-    assert [one.at for one in found] == [{"t": 0.25}, {"t": 1 / 3}]
-    assert [one.below.tolist() for one in found] == [[1, 2], [0, 1]]
-    record = fragility_json(found)
-    json_line({"fragility": record})
-    assert record[1]["demands"][1]["probability"] == [0.5, 0.5]
-    rows = list(csv.DictReader(fragility_csv(found).splitlines()))
+    assert [one["at"] for one in found] == [{"t": 0.25}, {"t": 1 / 3}]
+    assert list(map(below_of, found)) == [[1, 2], [0, 1]]
+    json_line({"fragility": found})
+    assert found[1]["demands"][1]["probability"] == [0.5, 0.5]
+    rows = list(csv.DictReader(fragility_csv(found, table).splitlines()))
     assert [(float(row["t [m]"]), float(row["demand"]), int(row["below"])) for row in rows] == [
         (0.25, 0.15, 1),
         (0.25, 0.35, 2),
         (1 / 3, 0.15, 0),
         (1 / 3, 0.35, 1),
     ]
-    lines = fragility_lines(found)
+    lines = fragility_lines(found, table)
     assert " ".join(lines[1].split()) == "result t [m] demand points below unknown at least at most from to"
     assert lines[2].split() == ["load_factor", "0.25", "0.15", "2", "1", "0", "0.5", "0.5", "0.02532", "0.9747"]
-    assert "Sobol" in " ".join(lines[6:])
+    assert "sobol" in " ".join(lines[6:])
 
 
 def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
     table = table_of([solved([0.3 * (1 - 1e-9), 0.3 * (1 - 1e-5)])])
     (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
-    assert found.below.tolist() == [1]
+    assert below_of(found) == [1]

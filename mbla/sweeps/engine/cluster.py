@@ -18,7 +18,6 @@ import uuid
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from types import TracebackType
 from typing import Any, TypeVar
 
 import distributed
@@ -108,15 +107,26 @@ class Connection:
         with self._stack:
             self._stack.enter_context(silenced())
             self.client = self._connected()
-            self._await_workers()
+            for _ in self._pauses():
+                self.look()
+                if self.threads:
+                    break
+            else:
+                raise UsageError("scheduler-lost", self._no_worker())
             self._check_workers()
             self._stack = self._stack.pop_all()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self._stack.close()
+
+    def _pauses(self) -> Iterator[None]:
+        """Looks at something that may come, until there was time enough for it."""
+        until = time.monotonic() + self._options.patience
+        yield
+        while time.monotonic() < until:
+            time.sleep(LOOK / 10)
+            yield
 
     def look(self, every: float = 0.0) -> None:
         """See what workers there are, unless that was less than so many seconds ago.
@@ -133,10 +143,8 @@ class Connection:
             return
         self._looked = now
         self.refuse_lost()
-        try:
+        with self.lost_where_it_fails():
             self.threads = sum(within(REPLY, self.client.nthreads).values())
-        except (OSError, *CANCELLED) as error:  # a TimeoutError is one
-            raise self._lost() from error
         if self.threads or not self._seen:
             self._seen = now
         elif now - self._seen > self._options.patience:
@@ -149,10 +157,10 @@ class Connection:
 
     @contextmanager
     def lost_where_it_fails(self) -> Iterator[None]:
-        """What cannot be handed over is the scheduler's end: raises FileError."""
+        """What cannot be asked or handed over is the scheduler's end: raises FileError."""
         try:
             yield
-        except (OSError, RuntimeError, *CANCELLED) as error:
+        except (OSError, RuntimeError, *CANCELLED) as error:  # a TimeoutError is one
             raise self._lost() from error
 
     def ask_quietly(self, ask: Callable[[Any], Any]) -> None:
@@ -185,30 +193,13 @@ class Connection:
 
     def _address_in_file(self) -> str:
         """The address that a scheduler wrote, waited for as long as for the scheduler itself."""
-        path, until = self._options.scheduler_file, time.monotonic() + self._options.patience
+        path = self._options.scheduler_file
         assert path is not None
-        while True:
-            try:
+        for _ in self._pauses():
+            with suppress(OSError, ValueError, KeyError, TypeError):  # or not yet the whole of it
                 return str(json.loads(path.read_text(encoding="utf-8"))["address"])
-            except FileNotFoundError:
-                words = "there is no such file; `dask scheduler --scheduler-file` writes it"
-            except OSError as error:
-                raise UsageError("scheduler-file", f"--scheduler-file {path}: {error.strerror}") from error
-            except (ValueError, KeyError, TypeError):
-                words = "not a file that `dask scheduler --scheduler-file` wrote"  # or not yet the whole of it
-            if time.monotonic() > until:
-                raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
-            time.sleep(LOOK / 10)
-
-    def _await_workers(self) -> None:
-        until = time.monotonic() + self._options.patience
-        while True:
-            self.look()
-            if self.threads:
-                return
-            if time.monotonic() > until:
-                raise UsageError("scheduler-lost", self._no_worker())
-            time.sleep(LOOK / 10)
+        words = "there is no file with an address; `dask scheduler --scheduler-file` writes it"
+        raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
 
     def _check_workers(self) -> None:
         """UsageError naming each worker that has another mbla or other libraries than this process."""
@@ -219,21 +210,17 @@ class Connection:
             raise UsageError(
                 "scheduler-lost", f"a worker of {self._name()} does not answer within {REPLY:g} s: restart it"
             ) from None
+        ours = {"mbla": program_identity()} | self.libraries
         faults = []
         for worker, answer in sorted(answers.items()):
-            if isinstance(answer, ImportError):
-                faults.append(f"worker {worker} cannot import this mbla: {_line(answer)}")
-            elif isinstance(answer, Exception):
-                if not isinstance(answer, OSError):  # that is one that has just gone
-                    faults.append(f"worker {worker}: {type(answer).__name__}: {_line(answer)}")
-            elif words := difference(
-                {"mbla": program_identity()} | self.libraries, {"mbla": answer["program"], **answer["libraries"]}
-            ):
-                faults.append(f"worker {worker} on {answer['machine']}: {words}")
+            if isinstance(answer, dict):
+                words = difference(ours, {"mbla": answer["program"], **answer["libraries"]})
+                faults += [f"worker {worker} on {answer['machine']}: {words}"] if words else []
+            elif not isinstance(answer, OSError):  # that is one that has just gone
+                faults.append(f"worker {worker}: {type(answer).__name__}: {_line(answer)}")
         if faults:
-            raise UsageError(
-                "workers-differ", "\n".join([*faults, "install the same versions in the workers' environment"])
-            )
+            remedy = "install the same versions in the workers' environment"
+            raise UsageError("workers-differ", "\n".join([*faults, remedy]))
 
     def _no_worker(self) -> str:
         return (

@@ -171,5 +171,5 @@ def test_no_scheduler_there(tmp_path: Path) -> None:
 
     gone = "tcp://127.0.0.1:9"
     refused(f"no connection to the scheduler {gone}", scheduler=gone, patience=0.5)
-    words = r"none\.json: there is no such file; `dask scheduler --scheduler-file`"
+    words = r"none\.json: there is no file with an address; `dask scheduler --scheduler-file`"
     refused(words, scheduler_file=tmp_path / "none.json", patience=0.1)

@@ -62,7 +62,7 @@ def test_workers_that_differ(monkeypatch: pytest.MonkeyPatch) -> None:
     }
     assert refusal(monkeypatch, Script(workers=workers)).splitlines() == [
         f"worker tcp://a on north: its mbla is 0.0.9+abc, here it is {own['program']}",
-        "worker tcp://b cannot import this mbla: No module named 'mbla.sweeps'",
+        "worker tcp://b: ImportError: No module named 'mbla.sweeps'",
         "worker tcp://c: RuntimeError: no disk",
         f"worker tcp://f on south: its numpy is 1.0, here it is {own['libraries']['numpy']}",
         "install the same versions in the workers' environment",
@@ -88,4 +88,7 @@ def test_a_scheduler_file_that_is_none(monkeypatch: pytest.MonkeyPatch, tmp_path
     path = tmp_path / "scheduler.json"
     path.write_text(content, encoding="utf-8")
     words = refusal(monkeypatch, Script(), scheduler="", scheduler_file=path)
-    assert words == f"--scheduler-file {path}: not a file that `dask scheduler --scheduler-file` wrote"
+    assert (
+        words
+        == f"--scheduler-file {path}: there is no file with an address; `dask scheduler --scheduler-file` writes it"
+    )

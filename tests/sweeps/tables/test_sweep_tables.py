@@ -17,7 +17,7 @@ import xarray
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Values
-from mbla.sweeps.fragility import fragility_csv, fragility_json, fragility_of
+from mbla.sweeps.fragility import fragility_csv, fragility_of
 from mbla.sweeps.tables.read_table import read_sweep_table
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, SweepRun, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
@@ -147,7 +147,7 @@ def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, 
 
 def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
-    conclusion = Conclusion(record={"fragility": fragility_json(found)}, texts={FRAGILITY: fragility_csv(found)})
+    conclusion = Conclusion(record={"fragility": found}, texts={FRAGILITY: fragility_csv(found, table())})
     record, _ = write_tables(tmp_path, RUN, table(), TableFiles(), conclusion)
     assert [each["at"] for each in record["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
     assert "sweep_fragility.csv" in record["files"]
@@ -247,7 +247,7 @@ def paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 def test_keys_and_types_of_the_record() -> None:
     full = table()
-    found = fragility_json(fragility_of(full, "load_factor", (0.2, 0.4), 0.95))
+    found = fragility_of(full, "load_factor", (0.2, 0.4), 0.95)
     run = SweepRun(**{**vars(RUN), "notices": (Notice("warning", "some", "words"),)})
     record = json.loads(json_line(sweep_json(run, full, {"fragility": found}, ("sweep.csv",))))
     described = {key.path: key for key in SWEEP_RECORD}
