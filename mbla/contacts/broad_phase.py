@@ -13,12 +13,15 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.polygons import CrowdedError, box_pairs
-from mbla.model.generators.amounts import most_pairs
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import chunks, rows_and_items
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
+
+MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
+"""of blocks that are looked at: so many, or so many times the number of blocks; those that share no volume have some
+ten"""
 
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within
 # the tolerance would be narrower than 3.5 tolerances.
@@ -56,7 +59,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
     lower, upper = block_boxes(blocks)
     # Half the reach on either box is enough for every pair; the exact reach of the pair is compared after.
     margin = (NEAR_MISS * tolerance / 2 * blocks.sizes)[:, None]
-    most = most_pairs(len(blocks))
+    most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
     try:
         i, j = box_pairs(lower - margin, upper + margin, most)
     except CrowdedError as crowded:

@@ -15,7 +15,7 @@ from mbla.deck.items.item import Item
 from mbla.deck.sections.materials import Material
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
-from mbla.errors import DeckError, Fault, Message, Notice
+from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.generators import KINDS, amount_of, amounts, generator_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.model import Ground
@@ -67,7 +67,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     DeckError
         with all faults, where no item can be built; where all of them together make too much
     """
-    _refuse_together(deck)
+    _refuse_amounts(deck)
     placed: list[_Placed] = []
     grounds: list[Ground] = []
     notices: list[Notice] = []
@@ -79,7 +79,10 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
         group = item.group or kind
         try:
             generated = _generate(deck, kind, item, path)
-            _refuse_copies(item, generated, n_blocks)
+            copies = repetitions(item.repeat)
+            made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
+            if made > amounts.MOST:
+                raise ItemRefused(Finding("too-many-units", amounts.too_many(made)))
         except ItemRefused as refused:
             faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
             partial |= {group, f"{group}_springers"}
@@ -89,7 +92,6 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             partial |= {group, f"{group}_springers"}
             continue
         notices += generated.notices
-        copies = repetitions(item.repeat)
         for copy in range(len(copies)):
             own = transform_item(generated, copies.map(copy)) if copy else generated
             for ground in own.grounds:
@@ -128,36 +130,33 @@ def density_of(material: Material, units: Units) -> float:
 
 
 def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
-    """An item in the coordinates of the deck; ItemRefused where it makes too much, before any of it is made."""
+    """An item in the coordinates of the deck."""
     site = Site(
         deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
     )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
-        amounts.refuse_too_many(amount_of(kind, item), item)
         generated = generator_of(kind)(item, site)
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
 
 
-def _refuse_together(deck: Deck) -> None:
-    """DeckError where items make more than can be handled, each of which could be, before any of them is made."""
-    with np.errstate(all="ignore"):  # lengths beyond what a double holds are told by the item itself
-        items = [kind_of(block_item) for block_item in deck.content.blocks]
-        about = [amount_of(kind, item).of_copies(item) for kind, item in items]
-    if message := amounts.too_many_together(sum(each for each in about if each <= amounts.MOST)):
-        raise DeckError([deck.fault_at(("blocks",), message)])
-
-
-def _refuse_copies(item: Item, generated: Generated, before: int) -> None:
-    """Refuse an item that with its copies, and with the blocks before it, makes more than can be handled."""
-    copies = amounts.copies_of(item)
-    key: str | KeyPath = "repeat" if item.repeat else ()
-    blocks = sum(len(part.polyhedra) for part in generated.parts) * copies
-    amounts.refuse_beyond(amounts.MOST, blocks, key, "blocks")
-    if copies > 1:
-        facets = sum(len(part.polyhedra.block_of_face) for part in generated.parts)
-        amounts.refuse_too_many(amounts.Amount(facets, key, "facets"), item)
-    amounts.refuse_beyond(amounts.MOST, before + blocks, (), "blocks, with those of the items before it")
+def _refuse_amounts(deck: Deck) -> None:
+    """DeckError where items make more than can be handled, each or together, before any of them is made."""
+    faults, together = [], 0.0
+    for number, block_item in enumerate(deck.content.blocks):
+        kind, item = kind_of(block_item)
+        with np.errstate(all="ignore"):  # lengths beyond what a double holds are told by the item itself
+            amount = amount_of(kind, item)
+            units = amount.units * min(amounts.copies_of(item), 10 * amounts.MOST)
+        if units > amounts.MOST:
+            path = ("blocks", number, kind, *filter(None, (amount.key,)))
+            faults.append(deck.fault_at(path, Message("too-many-units", amounts.too_many(units))))
+        else:
+            together += units
+    if together > amounts.MOST:
+        faults.append(deck.fault_at(("blocks",), Message("too-many-units", amounts.too_many(together))))
+    if faults:
+        raise DeckError(faults)
 
 
 def _labels(deck: Deck, placed: Sequence[_Placed]) -> Labels:

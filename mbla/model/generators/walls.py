@@ -10,7 +10,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Buttress, Gable, Masonry, Opening
 from mbla.deck.items.walls import WallItem, WallsItem
-from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
@@ -35,7 +34,7 @@ from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passa
 def amount_wall(item: WallItem) -> Amount:
     """About how many units such an item has."""
     gables = [] if item.gable is None else [item.gable]
-    return amount_of_units(item, item.length, ("length",), gables, item.buttresses)
+    return amount_of_units(item, item.length, "length", gables, item.buttresses)
 
 
 def generate_wall(item: WallItem, site: Site) -> Generated:
@@ -55,7 +54,7 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
 def amount_walls(item: WallsItem) -> Amount:
     """About how many units such an item has."""
     length = sum(line.whole_length for line in lines_of(item))
-    return amount_of_units(item, length, ("plan",), item.gables, item.buttresses)
+    return amount_of_units(item, length, "plan", item.gables, item.buttresses)
 
 
 def generate_walls(item: WallsItem, site: Site) -> Generated:
@@ -170,7 +169,7 @@ def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ..
 
 
 def amount_of_units(
-    item: Masonry, length: float, key: KeyPath, gables: Sequence[Gable], buttresses: Sequence[Buttress]
+    item: Masonry, length: float, key: str, gables: Sequence[Gable], buttresses: Sequence[Buttress]
 ) -> Amount:
     """About how many units walls have.
 
