@@ -15,7 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.masonry import Buttress, Masonry, Opening, OpeningArch
 from mbla.errors import Finding
 from mbla.model.generators.generator import Part
-from mbla.model.generators.masonry.courses import blocks_in
+from mbla.model.generators.masonry.courses import blocks_in, prisms_in
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Slopes, Void
 
 USUAL_EMBRACE = 60.0
@@ -119,8 +119,7 @@ def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[Part]:
         if each.opening.arch is not None:
             outlines = voussoir_outlines(each.opening.arch, each.span, low, high)
             n = len(outlines)
-            cut = [(number, outline) for number, outline in enumerate(outlines)]
-            made = blocks_in(leg, np.zeros((n, 4)), np.tile([0.0, leg.thickness], (n, 1)), cut)
+            made = prisms_in(leg, list(outlines), np.tile([0.0, leg.thickness], (n, 1)))
             labels = {"course": np.full(n, each.span.bottom), "voussoir": np.arange(n)}
             yield Part(made, member="voussoir", labels=labels, material=each.opening.arch.material)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,8 @@ from mbla.model.generators.masonry.bonds import (
 )
 from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Stretch, solid_stretches
 from mbla.model.solids.blocks import NONE
-from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.plane import cut as cut_off
+from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, prisms, take_polyhedra
 
 SAME_PLACE = 1e-9
 """corners of an outline this close, relative to its extent, are one corner"""
@@ -34,26 +35,18 @@ def outline_between(stretch: Stretch, left: float, right: float, low: float, hig
     """
     corners = np.array([[left, low], [right, low], [right, high], [left, high]])
     corners = _left_of(corners, np.array([stretch.left_top, high]), np.array([stretch.left, low]))
-    corners = _left_of(corners, np.array([stretch.right, low]), np.array([stretch.right_top, high]))
-    apart = np.abs(corners - np.roll(corners, 1, axis=0)).max(axis=1) > SAME_PLACE * np.ptp(corners, axis=0).max()
-    found: FloatArray = corners[apart]
-    return found
+    return _left_of(corners, np.array([stretch.right, low]), np.array([stretch.right_top, high]))
 
 
 def _left_of(corners: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """The part of a convex outline to the left of the line from start to end."""
-    direction = end - start
+    """The part of a convex outline (n, 2) to the left of the line from start to end, each corner once."""
+    direction, extent = end - start, np.ptp(corners, axis=0).max()
     side = direction[0] * (corners[:, 1] - start[1]) - direction[1] * (corners[:, 0] - start[0])
-    side[np.abs(side) <= SAME_PLACE * np.ptp(corners, axis=0).max() * np.abs(direction).max()] = 0.0
-    if (side >= 0).all() or not np.isfinite(side).all():  # blocks as large as that are refused by their coordinates
+    side[np.abs(side) <= SAME_PLACE * extent * np.abs(direction).max()] = 0.0
+    if not np.isfinite(side).all():  # blocks as large as that are refused by their coordinates
         return corners
-    kept: list[FloatArray] = []
-    for a, b, at_a, at_b in zip(corners, np.roll(corners, -1, axis=0), side, np.roll(side, -1), strict=True):
-        if at_a >= 0:
-            kept.append(a)
-        if at_a * at_b < 0:
-            kept.append(a + at_a / (at_a - at_b) * (b - a))
-    return np.array(kept)
+    found = cut_off(corners[None], side[None])[0]
+    return np.asarray(found[np.abs(found - np.roll(found, 1, axis=0)).max(axis=1) > SAME_PLACE * extent])
 
 
 @dataclass(frozen=True)
@@ -72,41 +65,28 @@ class CourseUnits:
     joints: FloatArray
 
 
-@dataclass
-class _Laying:
-    """What is kept from one course to the next: random numbers, joints of the course below."""
-
-    numbers: np.random.Generator | None
-    below: FloatArray = field(default_factory=lambda: np.empty(0))
-
-
 def lay_courses(leg: Leg) -> Iterator[CourseUnits]:
-    """The courses of a wall from the bottom; equal ones are laid once."""
+    """The courses of a wall from the bottom."""
     irregular = leg.item.irregular
-    laying = _Laying(None if irregular is None else stream(irregular, leg.number + 1))
-    laid: dict[object, CourseUnits] = {}
-    least = NO_UNIT * leg.item.unit[0]
+    numbers = None if irregular is None else stream(irregular, leg.number + 1)
+    below, least = np.empty(0), NO_UNIT * leg.item.unit[0]
     for course in range(leg.n_courses):
         voids = [void.at(course, leg.levels) for void in leg.voids if void.covers(course)]
         stretches = tuple(solid_stretches(leg.outside(course), [*voids, *leg.interruptions(course)], least))
-        if irregular is not None or any(stretch.sloped for stretch in stretches):
-            units = _course(leg, course, stretches, laying)
-        else:
-            headers = leg.item.headers
-            key = (leg.second(course), course % (2 * headers.every) if headers else 0, leg.faces(course), stretches)
-            if key not in laid:
-                laid[key] = _course(leg, course, stretches, laying)
-            units = laid[key]
-        laying.below = units.joints
+        units = _course(leg, course, stretches, below, numbers)
+        below = units.joints
         yield units
 
 
-def _course(leg: Leg, course: int, stretches: tuple[Stretch, ...], laying: _Laying) -> CourseUnits:
+def _course(
+    leg: Leg, course: int, stretches: tuple[Stretch, ...], below: FloatArray, numbers: np.random.Generator | None
+) -> CourseUnits:
+    """Units of one course; of random length with random numbers, off the joints (n,) of the course below."""
     found = pattern(leg.item, course, leg.length, leg.second(course), leg.fitted and leg.begins_at_a_corner)
     ends, outlines, joints = [np.empty((0, 2))], {}, [np.empty(0)]
     count = 0
     for stretch in stretches:
-        inner = _random(leg, course, stretch, laying) if laying.numbers is not None else _regular(leg, course, found)
+        inner = _regular(leg, course, found) if numbers is None else _random(leg, course, stretch, below, numbers)
         inner = _within(leg, stretch, inner)
         edges = np.concatenate([[stretch.left], inner, [stretch.right]])
         joints.append(inner)
@@ -120,7 +100,7 @@ def _course(leg: Leg, course: int, stretches: tuple[Stretch, ...], laying: _Layi
     units = np.concatenate(ends)
     middles = np.minimum(units.mean(axis=1), found.joints[-1])
     through = found.through_at(middles)
-    if laying.numbers is not None:
+    if numbers is not None:
         through = headers_by_number(leg.item, course, len(units))
     return CourseUnits(units, through, outlines, np.concatenate(joints))
 
@@ -146,12 +126,12 @@ def _off_faces(leg: Leg, joints: FloatArray, passage: Passage) -> FloatArray:
     return joints
 
 
-def _random(leg: Leg, course: int, stretch: Stretch, laying: _Laying) -> FloatArray:
-    assert laying.numbers is not None
+def _random(leg: Leg, course: int, stretch: Stretch, below: FloatArray, numbers: np.random.Generator) -> FloatArray:
+    """Joints (n,) of a stretch of random units, off those below and the faces of walls that run through there."""
     faces = [face for passage in leg.faces(course) for face in (passage.left, passage.right)]
     inside = [face for face in faces if NO_UNIT < face / leg.item.unit[0] < leg.length / leg.item.unit[0] - NO_UNIT]
-    avoid = np.sort(np.concatenate([laying.below, inside]))
-    return random_joints(leg.item, stretch.left, stretch.right, avoid, laying.numbers)
+    avoid = np.sort(np.concatenate([below, inside]))
+    return random_joints(leg.item, stretch.left, stretch.right, avoid, numbers)
 
 
 def _within(leg: Leg, stretch: Stretch, joints: FloatArray) -> FloatArray:
@@ -227,21 +207,13 @@ def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tup
     numbers = np.array([number for number, _ in cut])
     whole = np.setdiff1d(np.arange(len(boxes)), numbers)
     made = join_polyhedra(
-        [cuboids(least[whole], greatest[whole]), prisms(leg, [outline for _, outline in cut], across[numbers])]
+        [cuboids(least[whole], greatest[whole]), prisms_in(leg, [o for _, o in cut], across[numbers])]
     )
     return take_polyhedra(made, np.argsort(np.concatenate([whole, numbers]), kind="stable"))
 
 
-def prisms(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:
-    """Prisms through a wall, faces outwards; outlines (k, 2) counter-clockwise along the wall and up."""
-    vertices, faces = [], []
-    for outline, (near, far) in zip(outlines, across, strict=True):
-        n = len(outline)
-        sides = [leg.in_plan(outline[:, 0], np.full(n, place)) for place in (near, far)]
-        vertices.append(np.column_stack([np.concatenate(sides), np.tile(outline[:, 1], 2)]))
-        ring = list(range(n))
-        after = [*ring[1:], 0]
-        # from the right face an outline is counter-clockwise
-        around = [[j, i, i + n, j + n] for i, j in zip(ring, after, strict=True)]
-        faces.append([ring, [i + n for i in reversed(ring)], *around])
-    return polyhedra_from_lists(vertices, faces)
+def prisms_in(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:
+    """Prisms through a wall; outlines (k, 2) counter-clockwise along it and up, across (n, 2) from its right face."""
+    made = prisms(outlines, across)
+    s, r, z = made.vertices.T
+    return replace(made, vertices=np.column_stack([leg.in_plan(s, r), z]))
