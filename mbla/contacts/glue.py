@@ -32,6 +32,7 @@ from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.ragged import numbered
 
 
 @dataclass(frozen=True)
@@ -69,14 +70,8 @@ def glue_blocks(model: Model, bodies: IntArray) -> Glue:
     part = connected_labels(node[bodies], n_blocks + 1)
     held = (part[:n_blocks] == part[n_blocks]) & ~model.fixed
     own = part.max() + 1 + np.arange(n_blocks)
-    _, first, label = np.unique(
-        np.where(held | model.fixed, own, part[:n_blocks]), return_index=True, return_inverse=True
-    )
-    if len(first) == n_blocks:
-        return Glue(None, held)
-    number = np.empty(len(first), dtype=np.int64)
-    number[np.argsort(first)] = np.arange(len(first))
-    return Glue(number[label], held)
+    label, first = numbered(np.where(held | model.fixed, own, part[:n_blocks]))
+    return Glue(None if len(first) == n_blocks else label, held)
 
 
 @dataclass(frozen=True)

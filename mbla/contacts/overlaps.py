@@ -23,8 +23,8 @@ from mbla.model.solids.ragged import chunks, ranges, rows_and_items
 
 # Heights of vertices over facets computed together: bounds memory to some 100 MB.
 _BATCH = 1_000_000
-# Products of facets and vertices above which a pair is taken by itself, with a matrix product.
-_LARGE = 20_000
+# Products of facets and vertices above which a pair is intersected at once: for surveyed stones that is the faster way.
+_LARGE = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,14 @@ def find_overlaps(blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: 
     """Overlaps deeper than the tolerance (relative to block size)."""
     rows = np.flatnonzero(pairs.box_depths > tolerance * pairs.sizes)
     for one, other in ((0, 1), (1, 0)):
-        clearance = _clearances(blocks, facets, pairs.blocks[rows, one], pairs.blocks[rows, other])
-        rows = rows[clearance < -tolerance * pairs.sizes[rows]]
+        n_facets, n_vertices = np.diff(facets.facet_start), np.diff(blocks.vertex_start)
+        first, second = pairs.blocks[rows, one], pairs.blocks[rows, other]
+        small = n_facets[first] * np.maximum(n_vertices[first], n_vertices[second]) <= _LARGE
+        together = ~small
+        together[small] = (
+            _clearances(blocks, facets, first[small], second[small]) < -tolerance * pairs.sizes[rows[small]]
+        )
+        rows = rows[together]
     return _by_solids(blocks, pairs, rows, tolerance)
 
 
@@ -71,32 +77,13 @@ def _least_heights(blocks: Blocks, facets: Facets, one: IntArray, other: IntArra
     n_vertices = np.diff(blocks.vertex_start)[other]
     start = starts(n_facets)
     least = np.empty(start[-1])
-    products = n_facets * n_vertices
-    small = np.flatnonzero(products <= _LARGE)
-    for part in chunks(products[small], _BATCH):
-        rows = small[part]
+    for rows in chunks(n_facets * n_vertices, _BATCH):
         pair, facet = rows_and_items(facets.facet_start[one[rows]], n_facets[rows])
         row, vertex = rows_and_items(blocks.vertex_start[other[rows]][pair], n_vertices[rows][pair])
         arms = blocks.vertices[vertex] - facets.origins[facet][row]
         height = sign * np.einsum("ki,ki->k", arms, facets.normals[facet][row])
-        least[ranges(start[rows], n_facets[rows])] = np.minimum.reduceat(height, starts(n_vertices[rows][pair])[:-1])
-    for large in np.flatnonzero(products > _LARGE):
-        of_facets = slice(facets.facet_start[one[large]], facets.facet_start[one[large] + 1])
-        vertices = blocks.vertices[blocks.vertex_start[other[large]] : blocks.vertex_start[other[large] + 1]]
-        least[start[large] : start[large + 1]] = _least_of_large(
-            vertices, sign * facets.normals[of_facets], facets.origins[of_facets]
-        )
+        least[start[rows.start] : start[rows.stop]] = np.minimum.reduceat(height, starts(n_vertices[rows][pair])[:-1])
     return least
-
-
-def _least_of_large(vertices: FloatArray, normals: FloatArray, origins: FloatArray) -> FloatArray:
-    """Least height of vertices (n, 3) over each of many planes, (m,), in slabs of a matrix product."""
-    about = vertices[0]  # differences first: far from the origin the products would lose digits
-    arms, offsets = vertices - about, np.einsum("ki,ki->k", origins - about, normals)
-    slab = max(_BATCH // len(vertices), 1)
-    least = [(arms @ normals[i : i + slab].T).min(axis=0) for i in range(0, len(normals), slab)]
-    heights: FloatArray = np.concatenate(least) - offsets
-    return heights
 
 
 def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: float) -> Overlaps:

@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
-from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.ragged import items_of_rows, numbered
 
 
 def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
@@ -41,7 +41,7 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
         loops=new_vertex[blocks.loops[corners]],
         loop_start=starts(np.diff(blocks.loop_start)[faces]),
         face_start=_joined_start(blocks.face_start, joined, count),
-        facet_of_face=_numbered(blocks.facet_of_face[faces]),
+        facet_of_face=numbered(blocks.facet_of_face[faces])[0],
         face_normals=blocks.face_normals[faces],
         convex=alone & blocks.convex[first],
         volumes=volumes,
@@ -65,14 +65,6 @@ def _joined_start(start: IntArray, joined: IntArray, count: int) -> IntArray:
     items = np.zeros(count, dtype=np.int64)
     np.add.at(items, joined, np.diff(start))
     return starts(items)
-
-
-def _numbered(facets: IntArray) -> IntArray:
-    """Facets numbered in the order in which they come."""
-    _, first, row = np.unique(facets, return_index=True, return_inverse=True)
-    number = np.empty(len(first), dtype=np.int64)
-    number[np.argsort(first)] = np.arange(len(first))
-    return np.asarray(number[row])
 
 
 def polyhedra_of(blocks: Blocks) -> Polyhedra:

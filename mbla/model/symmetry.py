@@ -29,7 +29,7 @@ from mbla.model.model import Ground, LoadCase, Model, Settlement
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
-from mbla.model.solids.build import Labels, build_blocks
+from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.supports import plane_of
@@ -161,23 +161,10 @@ def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
 def _labels(model: Model, others: IntArray) -> Labels:
     """Names of blocks and images: images go on counting in the groups of their originals."""
     blocks = model.blocks
-    groups = np.array(blocks.groups, dtype=np.str_)
-    names, codes = np.unique(groups, return_inverse=True)
-    counts = np.bincount(codes, minlength=len(names))
-    indices = blocks.group_indices.copy()
-    following = np.zeros(len(others), dtype=np.int64)
-    for code in range(len(names)):
-        own = np.flatnonzero(codes[others] == code)
-        order = own[np.argsort(indices[others][own], kind="stable")]
-        following[order] = counts[code] + np.arange(len(order))
-    own_labels = blocks.labels
-    images = BlockLabels(tuple(own_labels.members[b] for b in others.tolist()), own_labels.positions[others])
-    return Labels(
-        (*blocks.groups, *(blocks.groups[b] for b in others.tolist())),
-        np.concatenate([indices, following]),
-        np.concatenate([blocks.densities, blocks.densities[others]]),
-        join_labels([own_labels, images]),
-    )
+    groups = (*blocks.groups, *(blocks.groups[b] for b in others.tolist()))
+    images = BlockLabels(tuple(blocks.labels.members[b] for b in others.tolist()), blocks.labels.positions[others])
+    densities = np.concatenate([blocks.densities, blocks.densities[others]])
+    return Labels(groups, indices_in_groups(groups), densities, join_labels([blocks.labels, images]))
 
 
 def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:

@@ -82,7 +82,7 @@ SQUARE = 1e-6
 @rule(WallsItem)
 def walls(item: WallsItem) -> Iterator[Finding]:
     """Lines run along the axes and turn by right angles; what belongs to a wall names one that is there."""
-    lines = list(_lines(item))
+    lines = list(plan_lines(item))
     if faults := [*_check_lines(lines), *_check_turns(item)]:
         yield from faults
         return
@@ -105,7 +105,7 @@ def _one_gable_each(item: WallsItem) -> Iterator[Finding]:
             yield Finding("duplicate-key", f"wall {segment} has a gable already", "gables", number, "segment")
 
 
-def _lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]:
+def plan_lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]:
     """Key path, start and end of each wall's line: those of the plan, then the cross walls."""
     points = [*item.plan, item.plan[0]] if item.closed else item.plan
     for number in range(len(points) - 1):

@@ -22,8 +22,6 @@ from mbla.model.wording import counted, was
 
 LONGEST_REASON = 500
 """characters of what is said of a file that is refused, some of which libraries say, or the file itself"""
-LONGEST_LINE = 1_000_000
-"""characters of a line of text, with those that continue it: a face of some hundred thousand corners"""
 
 
 class GeometryFileError(Refusal):
@@ -33,13 +31,6 @@ class GeometryFileError(Refusal):
 def malformed(kind: str, reason: str) -> GeometryFileError:
     """What a file is refused by that is not what its extension says."""
     return GeometryFileError("geometry-file", f"is not a well-formed {kind} file: {reason}")
-
-
-def refuse_long_line(number: int, length: int) -> None:
-    """Raises GeometryFileError for a line of so many characters that what it lists would take gigabytes."""
-    if length > LONGEST_LINE:
-        words = f"line {number} is too long: with the lines that it continues it has more than {LONGEST_LINE:,} "
-        raise GeometryFileError("geometry-too-large", words + "characters; no face has so many corners")
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,6 @@ from mbla.model.geometry.geometry import (
     GeometryFileError,
     empty_objects,
     malformed,
-    refuse_long_line,
     unused_points,
 )
 from mbla.model.geometry.welding import surfaces_by_label
@@ -99,23 +98,15 @@ def _unused(content: _Content) -> tuple[Notice, ...]:
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next.
-
-    Raises
-    ------
-    GeometryFileError
-        for a line that is too long
-    """
-    joined, length = "", 0
+    """Lines with their numbers, without comments; lines that end in a backslash are joined to the next."""
+    joined = ""
     for number, raw in enumerate([*path.read_text(encoding="utf-8", errors="replace").splitlines(), ""], start=1):
-        length += len(raw)
-        refuse_long_line(number, length)
         part = raw.split("#", 1)[0].strip().replace("\t", " ")
         joined += part.removesuffix("\\") + " "
         if not part.endswith("\\"):
             if line := joined.strip():
                 yield number, line
-            joined, length = "", 0
+            joined = ""
 
 
 def _read_line(content: _Content, keyword: str, rest: str) -> None:

@@ -27,7 +27,7 @@ from mbla.model.geometry.welding import own_vertices, take_faces, weld
 from mbla.model.solids.measures import connected_labels, face_geometry
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import HEXAHEDRON, Polyhedra, take_polyhedra
-from mbla.model.solids.ragged import ranges
+from mbla.model.solids.ragged import numbered, ranges
 
 SAME_DIRECTION = 0.05
 """angle in radians below which two faces at an edge lie on each other and bound different blocks: where blocks meet
@@ -51,12 +51,8 @@ def split_surfaces(surfaces: Polyhedra) -> Split:
     """
     if not len(surfaces):
         return Split(surfaces, np.empty(0, dtype=np.int64), 0)
-    labels = connected_labels(_partners(surfaces), len(surfaces.block_of_face))
-    first, codes = np.unique(labels, return_index=True, return_inverse=True)[1:]
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    part = rank[codes.reshape(-1)]
-    source = surfaces.block_of_face[np.sort(first)]
+    part, first = numbered(connected_labels(_partners(surfaces), len(surfaces.block_of_face)))
+    source = surfaces.block_of_face[first]
     kept = _first_of_twins(face_codes(surfaces, oriented=False), part, len(first))
     number = np.cumsum(kept) - 1
     order = np.argsort(part, kind="stable")

@@ -26,7 +26,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import chunks, next_item, ranges, row_maxima, row_means, row_sums
+from mbla.model.solids.ragged import chunks, next_item, numbered, ranges, row_maxima, row_means, row_sums
 
 
 @dataclass(frozen=True)
@@ -155,8 +155,7 @@ def connected_labels(pairs: IntArray, n_nodes: int) -> IntArray:
 
     ones = np.ones(len(pairs), dtype=np.int8)
     graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(n_nodes, n_nodes)).tocsr()
-    _, first, label = np.unique(connected_components(graph, directed=False)[1], return_index=True, return_inverse=True)
-    return np.asarray(np.argsort(np.argsort(first))[label], dtype=np.int64)
+    return numbered(connected_components(graph, directed=False)[1])[0]
 
 
 def volumes_and_centroids(polyhedra: Polyhedra) -> tuple[FloatArray, FloatArray]:

@@ -7,6 +7,17 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 
 
+def numbered(codes: IntArray) -> tuple[IntArray, IntArray]:
+    """Number of the code of each item, (n,), from 0 in the order of first appearance, and where each appears, (n_codes,).
+
+    >>> numbered(np.array([7, 3, 7, 5]))
+    (array([0, 1, 0, 2]), array([0, 1, 3]))
+    """
+    _, first, row = np.unique(codes, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    return np.asarray(np.argsort(order)[row.reshape(-1)], dtype=np.int64), np.asarray(first[order], dtype=np.int64)
+
+
 def ranges(first: IntArray, counts: IntArray) -> IntArray:
     """Concatenated ranges first[i] ... first[i] + counts[i] - 1, (n_items,) from (n,) and (n,).
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.model.geometry.geometry import LONGEST_LINE, Geometry, GeometryFileError
+from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.obj import read_obj
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
@@ -140,18 +140,6 @@ def test_malformed(tmp_path: Path, text: str, message: str) -> None:
 def test_lines_go_on_after_a_backslash_even_where_the_file_ends(tmp_path: Path) -> None:
     text = CUBE + FACES.replace("f 4 1 5 8\n", "f 4 \\\n 1 \\\n\\\n5 8 \\\n")
     assert volumes(obj(tmp_path), text) == pytest.approx([1.0])
-
-
-@pytest.mark.parametrize("separator", [" ", " \\\n"])
-def test_a_line_without_end_is_refused_before_its_corners_are_read(tmp_path: Path, separator: str) -> None:
-    obj(tmp_path).write_text(CUBE + "f" + f"{separator}1" * (LONGEST_LINE // 2) + "\n")
-    with pytest.raises(GeometryFileError) as caught:
-        read_obj(obj(tmp_path))
-    assert caught.value.message.identifier == "geometry-too-large"
-    assert str(caught.value).endswith(
-        "is too long: with the lines that it continues it has more than 1,000,000 characters; "
-        "no face has so many corners"
-    )
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.walls import WallsItem
+from mbla.deck.items.walls import WallsItem, plan_lines
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.generators.masonry.leg import Passage
@@ -79,20 +79,16 @@ def lines_of(item: WallsItem) -> list[Line]:
     """Walls of the main line, then the cross walls, ends still free where they meet other walls."""
     thickness = item.leaves * item.unit[1]
     middle = {"left": 0.5, "centre": 0.0, "right": -0.5}[item.side] * thickness
-    points = np.array([*item.plan, item.plan[0]] if item.closed else item.plan)
-    lines = [
-        _line(points[n], points[n + 1], middle, thickness, ("plan", (n + 1) % len(item.plan)))
-        for n in range(len(points) - 1)
-    ]
-    n_lines = len(lines)
+    every = [_line(np.array(start), np.array(end), middle, thickness, key) for key, start, end in plan_lines(item)]
+    n_lines = len(every) - len(item.cross_walls)
+    lines = every[:n_lines]
     for n in range(n_lines if item.closed else n_lines - 1):
         here, beyond = lines[n], lines[(n + 1) % n_lines]
         turn = float(here.along[0] * beyond.along[1] - here.along[1] * beyond.along[0])
         reach = thickness / 2 - turn * middle
         lines[n] = replace(here, after=reach)
         lines[(n + 1) % n_lines] = replace(lines[(n + 1) % n_lines], before=reach)
-    for number, wall in enumerate(item.cross_walls):
-        lines.append(_line(np.array(wall.from_), np.array(wall.to), middle, thickness, ("cross_walls", number)))
+    lines += every[n_lines:]
     return [_reaching_through(line, lines) if line.key[0] == "cross_walls" else line for line in lines]
 
 
