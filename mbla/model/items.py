@@ -149,7 +149,7 @@ def _refuse_amounts(deck: Deck) -> None:
             amount = amount_of(kind, item)
             units = amount.units * min(amounts.copies_of(item), 10 * amounts.MOST)
         if units > amounts.MOST:
-            path = ("blocks", number, kind, *filter(None, (amount.key,)))
+            path: KeyPath = ("blocks", number, kind, amount.key) if amount.key else ("blocks", number, kind)
             faults.append(deck.fault_at(path, Message("too-many-units", amounts.too_many(units))))
         else:
             together += units

@@ -155,7 +155,7 @@ def connected_labels(pairs: IntArray, n_nodes: int) -> IntArray:
 
     ones = np.ones(len(pairs), dtype=np.int8)
     graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(n_nodes, n_nodes)).tocsr()
-    return numbered(connected_components(graph, directed=False)[1])[0]
+    return numbered(connected_components(graph, directed=False)[1].astype(np.int64))[0]
 
 
 def volumes_and_centroids(polyhedra: Polyhedra) -> tuple[FloatArray, FloatArray]:

@@ -8,7 +8,7 @@ from mbla.arrays import FloatArray, IntArray
 
 
 def numbered(codes: IntArray) -> tuple[IntArray, IntArray]:
-    """Number of the code of each item, (n,), from 0 in the order of first appearance, and where each appears, (n_codes,).
+    """Number of the code of each item, (n,), from 0 in order of first appearance, and where each appears, (n_codes,).
 
     >>> numbered(np.array([7, 3, 7, 5]))
     (array([0, 1, 0, 2]), array([0, 1, 3]))
