@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import os
 import platform
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.metadata import PackageNotFoundError, distribution
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from mbla import __version__
@@ -49,35 +48,16 @@ OPTIONAL = ("cvxopt",)
 """Libraries that are used where they are installed."""
 
 
-def collect_provenance() -> dict[str, str]:
-    """Versions and platform by name, read from the installed packages without importing them.
-
-    Read once in a process, whose libraries stay the same: it takes as long as a fifth of a small run.
-    """
-    return dict(_found())
-
-
 @cache
-def _found() -> dict[str, str]:
+def collect_provenance() -> dict[str, str]:
+    """Versions and platform by name, read from the installed packages without importing them, once in a process."""
     versions = {"mbla": __version__, "python": platform.python_version()}
     for library in (*LIBRARIES, *OPTIONAL):
         try:
-            versions[library] = _version(library)
+            versions[library] = version(library)
         except PackageNotFoundError:
             versions[library] = "not installed"
     return versions | {"platform": platform.platform(), "machine": platform.machine()}
-
-
-def _version(library: str) -> str:
-    """Version of an installed package, by the one line of its description that says it: reading all takes long.
-
-    Raises
-    ------
-    PackageNotFoundError
-        if it is not installed
-    """
-    line = re.search(r"^Version: *(\S+)", distribution(library).read_text("METADATA") or "", re.MULTILINE)
-    return line[1] if line else "unknown"
 
 
 def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
@@ -205,7 +185,7 @@ def results_before(
         contacts=contacts,
         cases=(),
         notices=notices_of(deck, model, contacts),
-        provenance=collect_provenance(),
+        provenance=dict(collect_provenance()),
         settings=settings_in_words(deck, settings),
         time=seconds,
         exit_code=0,

@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 from mbla.results.results import CaseResult
@@ -73,13 +72,15 @@ def largest_displacements(blocks: Blocks, motion: FloatArray) -> FloatArray:
     return largest
 
 
-def contact_displacements(model: Model, contacts: Contacts, motion: FloatArray) -> FloatArray:
-    """Mean displacement of the two bodies at every contact point, (n_points, 3) m; grounds do not move."""
-    total = np.zeros_like(contacts.points)
-    for side in (0, 1):
-        owners = contacts.bodies[contacts.interface_of_point, side]
-        block = owners < len(model.blocks)
-        total[block] += displacements_at(model.blocks, motion, owners[block], contacts.points[block])
+def mean_displacements(blocks: Blocks, motion: FloatArray, bodies: IntArray, points: FloatArray) -> FloatArray:
+    """Mean linearised displacement of two bodies at each point, (n, 3) m; grounds do not move.
+
+    bodies : (n, 2) of each point, blocks and then grounds
+    """
+    total = np.zeros_like(points)
+    for owners in bodies.T:
+        block = owners < len(blocks)
+        total[block] += displacements_at(blocks, motion, owners[block], points[block])
     return total / 2
 
 

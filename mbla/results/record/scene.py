@@ -15,7 +15,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.mechanics import interface_resultants
-from mbla.results.collapse.motion import contact_displacements, drawn_motion, vertex_displacements
+from mbla.results.collapse.motion import drawn_motion, mean_displacements, vertex_displacements
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
@@ -135,7 +135,9 @@ class Scene:
     @cached_property
     def contact_displacements(self) -> FloatArray:
         """Mean of both bodies at every contact point, (n_points, 3) m."""
-        return contact_displacements(self.model, self.contacts, self.motion)
+        contacts = self.contacts
+        bodies = contacts.bodies[contacts.interface_of_point]
+        return mean_displacements(self.model.blocks, self.motion, bodies, contacts.points)
 
     @cached_property
     def parts(self) -> IntArray:

@@ -18,7 +18,7 @@ from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.collapse import kept
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.motion import displacements_at, motion_scale, moved_vertices
+from mbla.results.collapse.motion import mean_displacements, motion_scale, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.record.scene import Scene
 from mbla.results.vtu.arrays import Arrays, arrays_of
@@ -99,18 +99,10 @@ def interfaces_mesh(scene: Scene) -> Mesh | None:
     return Mesh(contacts.points, cells, moved, arrays_of(scene, "interfaces", "cells"))
 
 
-def interface_displacements(scene: Scene, interfaces: IntArray, points: FloatArray) -> FloatArray:
-    """Mean displacement of the two bodies of each interface at a point of it, (n, 3) m; grounds do not move.
-
-    interfaces : (n,)
-    points     : (n, 3) m
-    """
-    total = np.zeros_like(points)
-    for side in (0, 1):
-        owners = scene.contacts.bodies[interfaces, side]
-        block = owners < len(scene.model.blocks)
-        total[block] += displacements_at(scene.model.blocks, scene.motion, owners[block], points[block])
-    return total / 2
+def _displaced(scene: Scene, interfaces: IntArray, points: FloatArray) -> Arrays:
+    """The motion as drawn of a point of each of some interfaces, (n,) and (n, 3) m."""
+    bodies = scene.contacts.bodies[interfaces]
+    return {"displacement": mean_displacements(scene.model.blocks, scene.motion, bodies, points)}
 
 
 def thrust_mesh(scene: Scene) -> Mesh | None:
@@ -130,7 +122,7 @@ def thrust_mesh(scene: Scene) -> Mesh | None:
     return Mesh(
         points,
         cells,
-        data | {"displacement": interface_displacements(scene, shown, points)},
+        data | _displaced(scene, shown, points),
         {
             "kind": np.repeat(np.array([POINT, LINE], dtype=np.int8), [count, len(lines)]),
             "line": np.concatenate([np.full(count, -1), numbers]),
@@ -153,5 +145,6 @@ def hinges_mesh(scene: Scene) -> Mesh | None:
     turns = scale * np.einsum("ij,ij->i", motion.rotation, np.nan_to_num(motion.hinge_directions))
     rows = np.arange(len(points))
     cells = [("line", rows[: 2 * len(lines)].reshape(-1, 2), lines), ("vertex", rows[2 * len(lines) :, None], corners)]
-    moved = {"displacement": interface_displacements(scene, owners, points)}
-    return Mesh(points, cells, moved, arrays_of(scene, "hinges", "cells") | {"rotation": turns})
+    return Mesh(
+        points, cells, _displaced(scene, owners, points), arrays_of(scene, "hinges", "cells") | {"rotation": turns}
+    )

@@ -9,8 +9,8 @@ from scipy.linalg import expm
 from mbla.results.collapse.motion import (
     LARGEST_ROTATION,
     SHARE_OF_SIZE,
-    contact_displacements,
     drawn_motion,
+    mean_displacements,
     motion_scale,
     movable_size,
     moved_vertices,
@@ -77,6 +77,8 @@ def test_small_spinning_block_does_not_turn_several_times(results: Results) -> N
 def test_contact_points_move_with_the_mean_of_their_bodies(results: Results) -> None:
     motion = np.zeros((3, 6))
     motion[1, 0] = 1.0
-    moved = contact_displacements(results.model, results.contacts, motion)
+    contacts = results.contacts
+    bodies = contacts.bodies[contacts.interface_of_point]
+    moved = mean_displacements(results.model.blocks, motion, bodies, contacts.points)
     assert moved[:4] == pytest.approx(np.tile([0.5, 0, 0], (4, 1)))
     assert not moved[4:].any()
