@@ -1,10 +1,10 @@
-"""A proximal step of the convex contact model: forces as unknowns, limits of friction given.
+"""Static form of the convex contact model where the limits of friction are given: the motion that they resist least.
 
-    min ½ ρ ‖x − x̄‖² − λ   s.t.   A x + f_D + λ f_L = 0,   −f_t ≤ N,   ‖T‖ ≤ l at the points
-                                   (R − ½ θ k, T − T', (1 − ½ θ) k) and (V − R, T') in cones,   k ≥ |M_n|/ρ
-                                   the stress block of every interface that can crush
+    max λ   s.t.   A x + f_D + λ f_L = 0,   −f_t ≤ N,   ‖T‖ ≤ l at the points
+                   (R − ½ θ k, T − T', (1 − ½ θ) k) and (V − R, T') in cones,   k ≥ |M_n|/ρ
+                   the stress block of every interface that can crush
 
-with l, R and V from the normal forces of x̄, so that sliding and twisting do not dilate. The dual variables are the
+With l, R and V from the normal forces of other forces, sliding and twisting do not dilate. The dual variables are the
 velocities of the blocks, and the motions of the interfaces.
 """
 
@@ -27,7 +27,7 @@ LEAST_LIMIT = 1e-12
 
 @dataclass(frozen=True)
 class ConvexStaticForm(StaticForm):
-    """The cone program of proximal steps, and how to read its solution.
+    """The cone program, its limits of friction exchanged with ``rhs_for``, and how to read its solution.
 
     conditions : (n_rows, 6 n_interfaces) the rows of all conditions on resultants
     n_torsion  : how many of them belong to torsion
@@ -45,12 +45,21 @@ class ConvexStaticForm(StaticForm):
         crushing = self.conditions[split:].T @ duals[split:]
         return np.stack([torsion.reshape(-1, 6), crushing.reshape(-1, 6)], axis=1)
 
+    def rhs_for(self, limit: FloatArray, share: FloatArray, rest: FloatArray) -> FloatArray:
+        """Right-hand side with limits l of the points, (n_points,), and R and V − R of the interfaces, (n_torsion,)."""
+        n_points, n, rhs = self.convex.points.n_points, len(share), self.cone_program.rhs.copy()
+        first = len(rhs) - self.conditions.shape[0] - 3 * n_points
+        rhs[first : first + 3 * n_points : 3] = np.maximum(limit, LEAST_LIMIT)
+        first += 3 * n_points
+        rhs[first + 2 * n : first + 6 * n : 4] = np.maximum(share, LEAST_LIMIT)
+        rhs[first + 6 * n : first + 9 * n : 3] = np.maximum(rest, LEAST_LIMIT)
+        return rhs
 
-def convex_proximal_form(convex: ConvexProgram, rho: float) -> ConvexStaticForm:
-    """The proximal step; its anchor and limits come with ``convex_proximal_data``."""
+
+def given_friction_form(convex: ConvexProgram) -> ConvexStaticForm:
+    """The program without friction; its limits come with ``ConvexStaticForm.rhs_for``."""
     program, none, rows = convex.points, np.zeros(convex.points.n_points), ConeRows()
-    given = replace(program, limits=replace(program.limits, friction=none, cohesion=none))
-    form = gravity_form(given)
+    form = gravity_form(replace(program, limits=replace(program.limits, friction=none, cohesion=none)))
     base, size = form.cone_program, form.expand.shape[1]
     _torsion(convex, rows)
     n_torsion = rows.n_rows
@@ -69,26 +78,10 @@ def convex_proximal_form(convex: ConvexProgram, rho: float) -> ConvexStaticForm:
         cost=np.append(np.zeros(size + rows.n_helpers), -1.0),
         matrix=matrix,
         rhs=np.concatenate([base.rhs, rows.constants]),
-        quadratic=np.concatenate([np.full(size, rho), np.zeros(rows.n_helpers + 1)]),
+        quadratic=None,
         further_cones=tuple(rows.cone_sizes.tolist()),
     )
     return ConvexStaticForm(program, form.expand, form.offset, cone_program, convex, conditions, n_torsion)
-
-
-def convex_proximal_data(
-    form: ConvexStaticForm, rho: float, anchor: FloatArray, limit: FloatArray, share: FloatArray, rest: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Cost and right-hand side of a step from forces x̄, (n_points, 3), with limits l, R and V − R."""
-    program, rhs = form.convex.points, form.cone_program.rhs.copy()
-    first = len(rhs) - form.conditions.shape[0] - 3 * program.n_points
-    rhs[first : first + 3 * program.n_points : 3] = np.maximum(limit, LEAST_LIMIT)
-    first += 3 * program.n_points
-    n = len(share)
-    rhs[first + 2 * n : first + 6 * n : 4] = np.maximum(share, LEAST_LIMIT)
-    rhs[first + 6 * n : first + 9 * n : 3] = np.maximum(rest, LEAST_LIMIT)
-    cost = form.cone_program.cost.copy()
-    cost[: anchor.size] = -rho * anchor.ravel()
-    return cost, rhs
 
 
 def _torsion(convex: ConvexProgram, rows: ConeRows) -> None:

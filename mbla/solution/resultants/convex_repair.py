@@ -13,6 +13,7 @@ The helping unknowns of the conditions are chosen well inside their ranges, wher
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -22,6 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.ragged import next_item
 from mbla.process.stopwatch import timed
 from mbla.program.kinematic import KinematicForm
+from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram, convex_form
 from mbla.program.resultants.conditions import ConeRows
 from mbla.program.resultants.crushing import CrushingLimits, corner_values, crushing_cones
@@ -29,7 +31,6 @@ from mbla.program.resultants.torsion import TorsionLimits
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
-from mbla.solution.resultants.convex_law import with_motions
 from mbla.solution.resultants.convex_units import in_units, unit_at_collapse, units_of_unknowns
 from mbla.solution.resultants.least_step import Equilibrium, StepOf, augmented_step, normal_step
 
@@ -105,9 +106,23 @@ def repaired_convex_motions(
     for threshold in THRESHOLDS:
         kept = np.where(size > threshold * speed, motions, 0.0)
         together = sp.csr_array((convex.resultants.T @ kept.sum(axis=1).ravel())[None, :])
-        moved = list(repaired_mechanisms(with_motions(program, together), np.append(velocities, 1.0)))
+        moved = list(repaired_mechanisms(_with_motions(program, together), np.append(velocities, 1.0)))
         found += [(u[:-1], float(u[-1]) * kept) for u in moved]
     return found
+
+
+def _with_motions(program: Program, motions: sp.csr_array) -> Program:
+    """The program with motions of interfaces behind the velocities of the blocks: v = Aᵀu − motionsᵀ w.
+
+    motions : (n_motions, 3 n_points)
+    """
+    none = np.zeros(motions.shape[0])
+    return replace(
+        program,
+        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motions])),
+        dead_load=np.concatenate([program.dead_load, none]),
+        live_load=np.concatenate([program.live_load, none]),
+    )
 
 
 def _sizes(cones: ConeVectors, matrix: sp.csr_array, units: FloatArray) -> FloatArray:

@@ -15,8 +15,8 @@ from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
-from mbla.solution.resultants.convex_proximal import solve_convex_proximal
 from mbla.solution.resultants.convex_units import unit_at_collapse
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ContactMode, Mechanics, Solution, Standing, Status
@@ -53,7 +53,7 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
     if analysis.flow_rule != "associative" and (associative.state is not None or locked):
         if associative.state is not None:
             unit = unit_at_collapse(convex, associative.state.load_factor)
-        sequence = solve_convex_proximal(convex, associative.programs, settings, log, unit)
+        sequence = solve_by_alternation(convex, associative, settings, log, unit)
         if locked and sequence.status is not Status.SOLVED:
             sequence = replace(sequence, status=Status.NOT_VERIFIED, state=None, reason=LOCKED)
     mechanics = of_associative = _mechanics(convex, associative.state, convex.points.limits.friction)

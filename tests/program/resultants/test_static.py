@@ -1,4 +1,4 @@
-"""The proximal step of the convex model allows, at given limits of friction, the forces that its formulas allow."""
+"""The static form of the convex model allows, at given limits of friction, the forces that its formulas allow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from mbla.program.resultants.conditions import MN, T1, T2
 from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import curve_size
 from mbla.program.resultants.shapes import local_points
-from mbla.program.resultants.static import ConvexStaticForm, convex_proximal_data, convex_proximal_form
+from mbla.program.resultants.static import ConvexStaticForm, given_friction_form
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
 from tests.program.resultants.test_shapes import PRISM, prism_line
@@ -87,7 +87,7 @@ def allowed(
 )
 def test_forces_at_given_limits(name: str, law: str) -> None:
     convex = convex_program(name, law)
-    form = convex_proximal_form(convex, 1.0)
+    form = given_friction_form(convex)
     draw, seen = np.random.default_rng(1), []
     n, n_torsion = convex.points.n_points, len(convex.torsion.interfaces)
     for _ in range(60):
@@ -104,7 +104,7 @@ def test_forces_at_given_limits(name: str, law: str) -> None:
             near = np.array([0.3 * even.get(row, 1.0) / pressed[row] for row in convex.interface_of_point.tolist()])
             forces[:, 0] = near * draw.uniform(0.9, 1.1, n)
             forces[:, 1:] *= 0.01
-        _, rhs = convex_proximal_data(form, 1.0, np.zeros((n, 3)), limit, share, rest)
+        rhs = form.rhs_for(limit, share, rest)
         left = allowed(convex, forces, limit, share, rest)
         if np.abs(left).min() > 1e-4:
             good = bool((left > 0).all())
@@ -121,10 +121,10 @@ def test_each_of_two_rectangles_has_bounds_of_its_own() -> None:
     )
     line = prism_line(OUTLINES["rectangle"], f"joints.dry={{friction: 0.5, {STRENGTH}}}", text=text)
     convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    form = convex_proximal_form(convex, 1.0)
+    form = given_friction_form(convex)
     strength = float(convex.crushing.strength[0])
     ones = np.ones(2)
-    _, rhs = convex_proximal_data(form, 1.0, np.zeros((8, 3)), np.ones(8), ones, ones)
+    rhs = form.rhs_for(np.ones(8), ones, ones)
     arms = local_points(line.contacts).reshape(2, 4, 2)
     for pressed, axis, way in itertools.product((0, 1), (0, 1), (1.0, -1.0)):
         for share, held in ((0.45, True), (0.55, False)):

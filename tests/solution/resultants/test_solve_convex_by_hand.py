@@ -47,7 +47,7 @@ def test_a_program_without_an_answer_leaves_no_load_factor(sense: float, monkeyp
 def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monkeypatch: pytest.MonkeyPatch) -> None:
     line = line_of((DECKS / "groove.yaml").read_text(encoding="utf-8"), "parameters.mu=2", "expected={}")
     nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
-    monkeypatch.setattr(convex, "solve_convex_proximal", lambda *arguments: nothing)
+    monkeypatch.setattr(convex, "solve_by_alternation", lambda *arguments: nothing)
     solution, _ = convex_of(line, "non_associative")
     assert solution.associative is None
     assert solution.status is Status.NOT_VERIFIED
