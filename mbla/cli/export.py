@@ -159,7 +159,7 @@ def export(options: argparse.Namespace) -> int:
     """Write tables and meshes; their paths are printed. Raises UsageError for ``--vtkhdf``, which is no more."""
     with loading():
         from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.tables.tables import Formats, export_results
+        from mbla.results.tables.tables import export_results
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
@@ -167,9 +167,8 @@ def export(options: argparse.Namespace) -> int:
         raise UsageError(
             "command-line", "export: --vtkhdf is no more: ParaView reads the VTU files that every run writes"
         )
-    formats = Formats(options.csv, options.parquet)
-    for path in export_results(
-        results, folder, options.result.stem, formats, options.case, options.table, options.force
-    ):
+    formats = {"csv": options.csv or not options.parquet, "parquet": options.parquet}
+    chosen = (options.case, options.table)
+    for path in export_results(results, folder, options.result.stem, *chosen, **formats, force=options.force):
         print(path)
     return 0

@@ -25,7 +25,7 @@ from mbla.results.record.json_values import json_line
 from mbla.results.report.report import report_html
 from mbla.results.series import told_cases
 from mbla.results.tables.formats import table_csv
-from mbla.results.tables.tables import Formats, export_results, tables_of
+from mbla.results.tables.tables import export_results, tables_of
 from mbla.results.verify import verify_file
 
 HEAD = """\
@@ -245,7 +245,7 @@ def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
         assert len(meshio.read(path).points) == pyvista.read(path).n_points
     options = PictureOptions(kinds=KINDS, size=(600, 400))
     assert all(path.stat().st_size > 0 for path in plot_results(results, tmp_path / "pictures", "odd", options))
-    assert export_results(results, tmp_path / "tables", "odd", Formats(csv=True, parquet=True))
+    assert export_results(results, tmp_path / "tables", "odd", parquet=True)
     page, remarks = report_html(results, view=False)
     assert not remarks
     hidden = re.compile(r'<style.*?</style>|<svg.*?</svg>|<pre.*?</pre>|"data:[^"]*"', re.DOTALL)

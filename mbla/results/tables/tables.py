@@ -7,7 +7,6 @@ nothing has to be read from names of files. Tables without rows are written too,
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from operator import itemgetter
 from pathlib import Path
 from types import SimpleNamespace
@@ -167,21 +166,15 @@ def tables_page() -> str:
     return "\n".join(lines)
 
 
-@dataclass(frozen=True)
-class Formats:
-    """What is written; CSV where nothing is asked for."""
-
-    csv: bool = False
-    parquet: bool = False
-
-
 def export_results(
     results: Results,
     folder: Path,
     stem: str,
-    formats: Formats,
     cases: Sequence[str] = (),
     tables: Sequence[str] = (),
+    *,
+    csv: bool = True,
+    parquet: bool = False,
     force: bool = False,
 ) -> list[Path]:
     """Write ``STEM_TABLE.csv`` and ``STEM_TABLE.parquet``; the paths written.
@@ -197,11 +190,10 @@ def export_results(
     """
     chosen = tables_of(results, tables or None, cases or None)
     with OutputFolder(folder, stem, force, beside=True) as out:
-        if formats.csv or not formats.parquet:
-            for name, table in chosen.items():
+        for name, table in chosen.items():
+            if csv:
                 out.write_text(f"{stem}_{name}.csv", table_csv(table))
-        if formats.parquet:
-            for name, table in chosen.items():
+            if parquet:
                 out.write_bytes(f"{stem}_{name}.parquet", table_parquet(table, _about(results, table)))
     return [folder / name for name in out.names]
 

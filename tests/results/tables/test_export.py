@@ -17,10 +17,8 @@ from mbla.cli import main
 from mbla.deck.units import Units
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
-from mbla.results.tables.tables import TABLES, Formats, export_results, tables_of
+from mbla.results.tables.tables import TABLES, export_results, tables_of
 from tests.results.synthetic import full_results
-
-BOTH = Formats(csv=True, parquet=True)
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +33,7 @@ def results() -> Results:
 @pytest.fixture(scope="module")
 def folder(results: Results, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("tables")
-    export_results(results, folder, "tower", BOTH)
+    export_results(results, folder, "tower", parquet=True)
     return folder
 
 
