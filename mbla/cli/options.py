@@ -33,31 +33,6 @@ def place(text: str) -> Path:
     return Path(text)
 
 
-def seconds(text: str) -> float:
-    """A positive number of seconds."""
-    return _number(text, float, lambda value: 0 < value < float("inf"), "a positive number of seconds")
-
-
-def relative(text: str) -> float:
-    """A relative difference, zero or more."""
-    return _number(text, float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
-
-
-def relative_above_zero(text: str) -> float:
-    """A relative error above zero and below one."""
-    return _number(text, float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
-
-
-def degrees(text: str) -> float:
-    """An angle in degrees, within two turns."""
-    return _number(text, float, lambda value: -720 <= value <= 720, "an angle from -720 to 720 degrees")
-
-
-def threads(text: str) -> int:
-    """A number of threads."""
-    return _number(text, int, _is_count, f"a whole number of threads, 1 to {MOST}")
-
-
 def shard(text: str) -> tuple[int, int]:
     """Part and number of parts, ``2/8``; raises ArgumentTypeError for what is none."""
     match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
@@ -66,33 +41,30 @@ def shard(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def workers(text: str) -> int:
-    """A number of processes."""
-    return _number(text, int, _is_count, f"a whole number of processes, 1 to {MOST}")
+def _number(kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Callable[[str], Amount]:
+    """What reads a number; it raises ArgumentTypeError for what is none that is allowed."""
+
+    def read(text: str) -> Amount:
+        try:
+            value = kind(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
+        if not allowed(value):
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
+        return value
+
+    return read
 
 
-def points(text: str) -> int:
-    """A number of points; how many may be depends on what is asked."""
-    return _number(text, int, lambda value: True, "a whole number of points")
-
-
-def dots(text: str) -> int:
-    """Dots per inch."""
-    return _number(text, int, lambda value: True, "a whole number of dots per inch")
-
-
-def _is_count(value: int) -> bool:
-    return 1 <= value <= MOST
-
-
-def _number(text: str, kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Amount:
-    try:
-        value = kind(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}") from None
-    if not allowed(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
-    return value
+seconds = _number(float, lambda value: 0 < value < float("inf"), "a positive number of seconds")
+relative = _number(float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
+relative_above_zero = _number(float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
+degrees = _number(float, lambda value: -720 <= value <= 720, "an angle from -720 to 720 degrees")
+threads = _number(int, lambda value: 1 <= value <= MOST, f"a whole number of threads, 1 to {MOST}")
+workers = _number(int, lambda value: 1 <= value <= MOST, f"a whole number of processes, 1 to {MOST}")
+points = _number(int, lambda value: True, "a whole number of points")
+"""how many may be depends on what is asked"""
+dots = _number(int, lambda value: True, "a whole number of dots per inch")
 
 
 # --- options that commands share ------------------------------------------------------------------------------------

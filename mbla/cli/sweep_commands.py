@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from mbla.sweeps.words import Progress
 
 NAMED_FAILURES = 20
-"""failed points that have a line of their own while the sweep goes on"""
+"""failed points that have a line of their own while the sweep goes on; the journal has the reasons of all"""
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
 
@@ -160,31 +160,21 @@ class _Reporter:
     def __init__(self) -> None:
         self._terminal = sys.stderr.isatty()
         self._last = time.monotonic()
-        self._failures = 0
 
     def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
-        if outcome is not None and task is not None and outcome.state == "failed":
-            self._failure(f"point {task.number} failed: {outcome.reason}")
+        failed = outcome is not None and outcome.state == "failed"
+        if task is not None and outcome is not None and failed and progress.failed <= NAMED_FAILURES:
+            self.end()
+            say(f"mbla: point {task.number} failed: {outcome.reason}", 0)
         if self._terminal:
             rewrite_line(progress.bar())
-            return
-        if outcome is None:
+        elif outcome is None:
             known = f", {progress.earlier} are in the journal" if progress.earlier else ""
-            self._line(f"{progress.total} points to solve{known}")
+            say(f"mbla: {progress.total} points to solve{known}", 0)
         elif time.monotonic() - self._last >= BETWEEN_LINES:
             self._last = time.monotonic()
-            self._line(progress.words())
-
-    def _failure(self, words: str) -> None:
-        self._failures += 1
-        if self._failures > NAMED_FAILURES + 1:
-            return
-        self.end()
-        self._line(words if self._failures <= NAMED_FAILURES else "more points failed: the journal has their reasons")
+            say(f"mbla: {progress.words()}", 0)
 
     def end(self) -> None:
         """What is said next has a line of its own."""
         clear_line(self._terminal or None)
-
-    def _line(self, text: str) -> None:
-        say(f"mbla: {text}", 0)

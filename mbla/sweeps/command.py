@@ -25,7 +25,7 @@ from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal import WHOLE, JournalHeader, journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
 from mbla.sweeps.results import result_columns
-from mbla.sweeps.tables.sweep_json import SweepRun, counts, sweep_json
+from mbla.sweeps.tables.sweep_json import counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
 from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
 from mbla.sweeps.words import Progress
@@ -209,11 +209,12 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
 def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequence[Notice], seconds: float) -> Finished:
     """The table of all points, and its files once none is missing, which may be so in a shard."""
     design, keys = prepared.design, prepared.keys
-    table = sweep_table(prepared.title, design, prepared.columns, finished, keys, unfinished=True)
+    table = sweep_table(prepared.title, design, prepared.columns, finished, keys)
     failed = any(finished[key].state == FAILED for key in keys if key in finished)
     conclusion = prepared.conclude(table)
     table = with_columns(table, conclusion.columns)
-    run = SweepRun(
+    record = sweep_json(
+        table,
         sweep=prepared.name,
         deck=prepared.deck,
         created=datetime.now(UTC).isoformat(timespec="seconds"),
@@ -222,12 +223,11 @@ def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequen
         seconds=seconds,
         notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
     )
+    record |= conclusion.record
     remark, folder = "", Path(prepared.plan.folder)
-    if counts(table)["unfinished"]:
-        record = sweep_json(run, table, conclusion.record)
-    else:
-        record, remark = write_tables(folder, run, table, prepared.files, conclusion)
-    return Finished(record, table, run.exit_code, folder, conclusion.lines, remark)
+    if not counts(table)["unfinished"]:
+        record, remark = write_tables(folder, record, table, prepared.files, conclusion)
+    return Finished(record, table, record["exit_code"], folder, conclusion.lines, remark)
 
 
 def dry_run_json(prepared: Prepared) -> dict[str, Any]:

@@ -33,49 +33,20 @@ def read_sweep_table(path: Path) -> SweepTable:
     folder = path if path.is_dir() else path.parent
     if path != folder and path.name not in (CSV, JSON):
         raise FileError("sweep-table-damaged", f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
-    if not (folder / JSON).is_file() or not (folder / CSV).is_file():
-        missing = JSON if not (folder / JSON).is_file() else CSV
-        raise FileError(
-            "sweep-table-damaged",
-            f"{folder / missing}: there is none; mbla sweep writes {CSV} and {JSON} into one folder",
-        )
-    record = _record(folder / JSON)
-    rows = _rows(folder / CSV)
+    content: dict[str, bytes] = {}
+    for name in (JSON, CSV):
+        with file_errors(folder / name):
+            content[name] = (folder / name).read_bytes()
     try:
-        return _table(record, rows)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
-        what = str(error.args[0]) if error.args else type(error).__name__
-        raise FileError(
-            "sweep-table-damaged", f"{folder / CSV}: is not the table that {JSON} describes: {what}"
-        ) from error
-
-
-def _record(path: Path) -> dict[str, Any]:
-    with file_errors(path):
-        data = path.read_bytes()
-    try:
-        record = json.loads(data.decode("utf-8"))
-    except (ValueError, RecursionError) as error:
-        raise FileError("sweep-table-damaged", f"{path}: is no JSON: {str(error).splitlines()[0]}") from error
-    if not isinstance(record, dict) or not {"sweep", "version", "columns", "design"} <= set(record):
-        raise FileError("sweep-table-damaged", f"{path}: is no record of a sweep")
-    if record["version"] != VERSION:
-        raise FileError(
-            "sweep-table-damaged",
-            f"{path}: version {record['version']} of the record, written by mbla {record.get('mbla')}; "
-            f"this mbla reads version {VERSION}",
-        )
-    return record
-
-
-def _rows(path: Path) -> list[list[str]]:
-    with file_errors(path):
-        data = path.read_bytes()
-    try:
-        text = data.decode("utf-8")
-        return list(csv.reader(io.StringIO(text, newline=""), strict=True))
-    except (ValueError, csv.Error) as error:
-        raise FileError("sweep-table-damaged", f"{path}: is no CSV: {error}") from error
+        record = json.loads(content[JSON].decode("utf-8"))
+        if record["version"] != VERSION:
+            raise ValueError(f"{JSON} is of version {record['version']}, this mbla reads version {VERSION}")
+        text = io.StringIO(content[CSV].decode("utf-8"), newline="")
+        return _table(record, list(csv.reader(text, strict=True)))
+    except (KeyError, TypeError, ValueError, IndexError, RecursionError, csv.Error) as error:
+        what = " ".join(str(error.args[0]).split()) if error.args else type(error).__name__
+        words = f"{folder}: {JSON} and {CSV} are no table of a sweep: {what}"
+        raise FileError("sweep-table-damaged", words) from error
 
 
 def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
@@ -91,8 +62,8 @@ def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
     position = positions_at(places, dimensions)
     if not set(OWN_COLUMNS) <= {column.name for column in columns}:
         raise ValueError("columns are missing")
-    if wrong := next((number for number, row in enumerate(rows, 1) if len(row) != len(columns)), None):
-        raise ValueError(f"row {wrong} has {len(rows[wrong - 1])} cells, {len(columns)} columns")
+    if any(len(row) != len(columns) for row in rows):
+        raise ValueError("its rows are not as long as each other")
     cells = list(zip(*rows[1:], strict=True)) or [()] * len(columns)
     return SweepTable(
         title=str(record["title"]),

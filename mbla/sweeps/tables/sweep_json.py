@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -24,41 +23,27 @@ VERSION = 1
 """of this record and of the layout of sweep.h5; raised by one with every change that an older reader would misread"""
 
 
-@dataclass(frozen=True)
-class SweepRun:
-    """What is said of a sweep beside its table.
-
-    sweep     : file name of the sweep file
-    deck      : the base deck as the sweep file names it
-    created   : date of the run, UTC, ISO 8601
-    exit_code : of the sweep
-    left_out  : points of the design that broke a constraint
-    seconds   : of the whole run by the clock
-    notices   : remarks and warnings
-    """
-
-    sweep: str
-    deck: str
-    created: str
-    exit_code: int
-    left_out: int = 0
-    seconds: float = 0.0
-    notices: tuple[Notice, ...] = ()
-
-
 def sweep_json(
-    run: SweepRun, table: SweepTable, concluded: Mapping[str, Any] | None = None, files: Sequence[str] = ()
+    table: SweepTable,
+    *,
+    sweep: str,
+    deck: str,
+    created: str,
+    exit_code: int,
+    left_out: int = 0,
+    seconds: float = 0.0,
+    notices: Sequence[Notice] = (),
 ) -> dict[str, Any]:
-    """The record; ``concluded``: further keys, and those that have another value than that of a plain sweep."""
+    """The record of a plain sweep, its files not known yet; arguments as ``SWEEP_RECORD`` describes them."""
     return {
         "mbla": __version__,
-        "sweep": run.sweep,
+        "sweep": sweep,
         "version": VERSION,
-        "deck": run.deck,
+        "deck": deck,
         "title": table.title,
-        "created": run.created,
-        "exit_code": run.exit_code,
-        "points": counts(table) | {"left_out": run.left_out},
+        "created": created,
+        "exit_code": exit_code,
+        "points": counts(table) | {"left_out": left_out},
         "design": {
             "dimensions": [asdict(dimension) for dimension in table.dimensions],
             "samples": table.samples or None,
@@ -67,16 +52,10 @@ def sweep_json(
         },
         "columns": [asdict(column) for column in table.columns],
         "fragility": [],
-        "notices": [notice_json(notice) for notice in run.notices],
-        "time": {"total": number(run.seconds)},
-        "files": list(files),
-        **(concluded or {}),
+        "notices": [notice_json(notice) for notice in notices],
+        "time": {"total": number(seconds)},
+        "files": [],
     }
-
-
-def record_text(record: Mapping[str, Any]) -> str:
-    """A record as its file has it."""
-    return json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def counts(table: SweepTable) -> dict[str, int]:

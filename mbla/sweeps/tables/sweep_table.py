@@ -78,18 +78,14 @@ def sweep_table(
     columns: Sequence[SweepColumn],
     outcomes: Mapping[str, Outcome],
     keys: Sequence[str],
-    *,
-    unfinished: bool = False,
 ) -> SweepTable:
     """The table: number of the point, what the design sets, state, results, and how it ended.
 
-    columns    : of results, as ``result_columns`` makes them
-    keys       : key of each point of the design, in their order; points with one key have one outcome
-    unfinished : points without an outcome have a row without values; raises KeyError for them otherwise
+    columns  : of results, as ``result_columns`` makes them
+    outcomes : by key; points without one, which are not solved yet, have a row without values
+    keys     : key of each point of the design, in their order; points with one key have one outcome
     """
-    if len(keys) != len(design.points):
-        raise AssertionError(f"{len(keys)} keys of {len(design.points)} points")
-    found = [outcomes.get(key) if unfinished else outcomes[key] for key in keys]
+    found = [outcomes.get(key) for key in keys]
     parts: list[tuple[SweepColumn, Values]] = [
         (POINT, column_values("int", [point.number for point in design.points])),
         *(
@@ -103,9 +99,6 @@ def sweep_table(
         ),
         *((column, _own(column.name, column.kind, found)) for column in AFTER),
     ]
-    names = [column.name for column, _ in parts]
-    if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise AssertionError(f"columns of one name: {', '.join(twice)}")
     position = np.array([point.position for point in design.points], dtype=np.int64)
     return SweepTable(
         title=title,
@@ -137,21 +130,12 @@ def column_values(kind: str, values: Sequence[Plain]) -> Values:
     """Values of one column as an array: nan, masked or None where there is none.
 
     Lists, which decks take as vectors, are text.
-
-    Raises
-    ------
-    ValueError
-        a value is not of that kind
     """
     if kind == "text":
         texts = np.empty(len(values), dtype=object)
         texts[:] = [None if value is None or value == "" else as_text(value) for value in values]
         return texts
     numbers: dict[str, type] = {"float": float, "int": int, "bool": bool}
-    for value in values:
-        fits = isinstance(value, bool) == (kind == "bool") and isinstance(value, bool | int | float)
-        if value is not None and not (fits and (kind != "int" or isinstance(value, int))):
-            raise ValueError(f"{value!r} in a column of kind {kind}")
     if kind == "float":
         return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
     plain: Any = [numbers[kind](0 if value is None else value) for value in values]

@@ -9,6 +9,7 @@ values, which xarray shows as nan.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,7 +25,7 @@ from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.record.scene import Values
 from mbla.results.tables.formats import ParquetColumn, csv_text, parquet_bytes, require_parquet
 from mbla.sweeps.tables.read_table import CSV, JSON
-from mbla.sweeps.tables.sweep_json import VERSION, SweepRun, counts, record_text, sweep_json
+from mbla.sweeps.tables.sweep_json import VERSION, counts
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 FILETYPE = "mbla sweep"
@@ -35,7 +36,7 @@ OF_DESIGN = ("parameter", "azimuth", "elevation")
 """roles of columns that lie along one dimension"""
 
 
-def sweep_hdf5(run: SweepRun, table: SweepTable) -> bytes:
+def sweep_hdf5(record: Mapping[str, Any], table: SweepTable) -> bytes:
     """The bytes of sweep.h5; layout: schemas/results.md."""
     scales = {dimension.name: _scale(table, axis) for axis, dimension in enumerate(table.dimensions)}
     arrays: dict[str, Labelled] = {}
@@ -50,10 +51,7 @@ def sweep_hdf5(run: SweepRun, table: SweepTable) -> bytes:
         "filetype": FILETYPE,
         "version": VERSION,
         "mbla_version": __version__,
-        "created": run.created,
-        "title": table.title,
-        "sweep": run.sweep,
-        "deck": run.deck,
+        **{key: record[key] for key in ("created", "title", "sweep", "deck")},
         "sampling": table.sampling,
         "complete": int(counts(table)["unfinished"] == 0),
     }
@@ -118,13 +116,13 @@ def _labelled(
     return Labelled(values, dimensions, words | (more or {}), missing)
 
 
-def sweep_parquet(run: SweepRun, table: SweepTable) -> bytes:
+def sweep_parquet(record: Mapping[str, Any], table: SweepTable) -> bytes:
     """The bytes of sweep.parquet, units as metadata; UsageError where pyarrow is not installed."""
     columns = [
         ParquetColumn(column.name, column.kind, column.unit, column.words, values)
         for column, values in zip(table.columns, table.values, strict=True)
     ]
-    about = {"table": "sweep", "sweep": run.sweep, "deck": run.deck, "mbla": __version__, "created": run.created}
+    about = {"table": "sweep", **{key: record[key] for key in ("sweep", "deck", "mbla", "created")}}
     return parquet_bytes(columns, about)
 
 
@@ -187,9 +185,9 @@ def refuse_tables(folder: Path, files: TableFiles, *, replace: bool) -> None:
 
 
 def write_tables(
-    folder: Path, run: SweepRun, table: SweepTable, files: TableFiles, conclusion: Conclusion
+    folder: Path, record: Mapping[str, Any], table: SweepTable, files: TableFiles, conclusion: Conclusion
 ) -> tuple[dict[str, Any], str]:
-    """Write the files; the record, as in sweep.json, and why there are no pictures, if that is so.
+    """Write the files; the record with their names, as in sweep.json, and why there are no pictures, if that is so.
 
     Raises
     ------
@@ -204,16 +202,16 @@ def write_tables(
         for name, text in conclusion.texts.items():
             out.write_text(name, text)
         if files.parquet:
-            out.write_bytes(PARQUET, sweep_parquet(run, table))
+            out.write_bytes(PARQUET, sweep_parquet(record, table))
         if files.hdf5:
-            out.write_bytes(HDF5, sweep_hdf5(run, table))
+            out.write_bytes(HDF5, sweep_hdf5(record, table))
         for stem, draw in () if remark else conclusion.pictures.items():
             for ending in PICTURES:
                 with out.writing(f"{stem}.{ending}") as path:
                     draw(path)
-        record = sweep_json(run, table, conclusion.record, sorted({*out.names, JSON}))
-        out.write_text(JSON, record_text(record))
-    return record, remark
+        written = {**record, "files": sorted({*out.names, JSON})}
+        out.write_text(JSON, json.dumps(written, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+    return written, remark
 
 
 def _without_pictures() -> str:

@@ -14,7 +14,7 @@ from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import Conclusion, TableFiles, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample
-from tests.sweeps.tables.synthetic import RUN, table
+from tests.sweeps.tables.synthetic import record, table
 
 pytest.importorskip("matplotlib")
 SMALL = PictureOptions(size=(400, 300))
@@ -69,7 +69,7 @@ def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
-    write_tables(tmp_path / "wall.out", RUN, table(), TableFiles(), Conclusion(record={"fragility": found}))
+    write_tables(tmp_path / "wall.out", record(fragility=found), table(), TableFiles(), Conclusion())
     return tmp_path / "wall.out"
 
 

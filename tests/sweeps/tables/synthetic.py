@@ -1,13 +1,16 @@
 """A sweep made by hand: friction in a grid with a sample of thickness and a seed, one point of it left out."""
 
+from typing import Any
+
 from mbla.deck.units import Units
 from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain
 from mbla.sweeps.results import result_columns
-from mbla.sweeps.tables.sweep_json import SweepRun
+from mbla.sweeps.tables.sweep_json import sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 
-RUN = SweepRun("wall.sweep.yaml", "wall.yaml", "2026-11-21T10:00:00Z", 8, left_out=1, seconds=3.5)
+CREATED = "2026-11-21T10:00:00Z"
+ABOUT: dict[str, Any] = {"sweep": "wall.sweep.yaml", "deck": "wall.yaml", "created": CREATED, "exit_code": 8}
 RESULTS = ("status", "load_factor", "verified", "mechanism.hinges", "model.total_weight", "time.solve/standing")
 FRICTION, THICKNESS = (0.5, 0.7), (0.1, 0.2, 1 / 3)
 LEFT_OUT = (1, 2)
@@ -60,4 +63,9 @@ def table(*without: str) -> SweepTable:
     """The table; points with these keys have not been solved yet."""
     columns = result_columns(RESULTS, ("push",), Units(force="kN"))
     known = {key: outcome for key, outcome in outcomes().items() if key not in without}
-    return sweep_table("Wände", design(), columns, known, keys(), unfinished=bool(without))
+    return sweep_table("Wände", design(), columns, known, keys())
+
+
+def record(**changes: Any) -> dict[str, Any]:
+    """The record of the whole table."""
+    return sweep_json(table(), **ABOUT, left_out=1, seconds=3.5) | changes
