@@ -168,13 +168,9 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     """
     started = time.perf_counter()
     plan, folder = prepared.plan, Path(prepared.plan.folder)
+    deck = {"base deck": plan.fingerprint[:16], "load cases": " ".join(plan.cases)}
     header = JournalHeader(
-        program=plan.program,
-        fingerprint=plan.fingerprint,
-        columns={column.name: column.kind for column in prepared.columns},
-        title=prepared.title,
-        cases=plan.cases,
-        libraries=library_versions(),
+        {**deck, "mbla": plan.program, **library_versions()}, {each.name: each.kind for each in prepared.columns}
     )
     part, parts = options.shard or (1, 1)
     asked = prepared.tasks[part - 1 :: parts]  # neighbours take about as long as each other, and so do shards then

@@ -15,7 +15,7 @@ import json
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -34,7 +34,7 @@ from mbla.sweeps.identity import difference
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 from mbla.sweeps.tables.sweep_table import READ_CELL
 
-FORMAT = 2
+FORMAT = 3
 """of journals; a program with another one does not go on with them"""
 FIRST = ("key", "number", "state", "exit_code", "reason", "tries", "seconds")
 """columns before those of results"""
@@ -52,27 +52,12 @@ _SWEEP = "sweep"
 class JournalHeader:
     """What all rows of a journal have in common.
 
-    program     : version and hash of the mbla that solves the points
-    fingerprint : hash of the base deck's content
-    columns     : kind of each result column by its name, in order
-    title       : of the sweep, for human readers
-    cases       : load cases that are solved; all if empty
-    libraries   : versions of those on which the digits of answers depend, by name
+    belongs : what it is of, in words: base deck, load cases, mbla and libraries; a run of anything else is refused
+    columns : kind of each result column by its name, in order
     """
 
-    program: str
-    fingerprint: str
+    belongs: Mapping[str, str]
     columns: Mapping[str, str]
-    title: str = ""
-    cases: tuple[str, ...] = ()
-    libraries: Mapping[str, str] = field(default_factory=dict)
-
-    @property
-    def says(self) -> dict[str, str]:
-        """Everything that must be the same for a journal to be gone on with, in words."""
-        results = " ".join(f"{name} ({kind})" for name, kind in self.columns.items())
-        content = {"base deck": self.fingerprint[:12], "load cases": " ".join(self.cases), "results": results}
-        return {"mbla": self.program, **self.libraries, **content}
 
     @property
     def all_columns(self) -> tuple[str, ...]:
@@ -184,14 +169,15 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
         version = record.pop("mbla_sweep_journal")
         if version != FORMAT:
             raise ValueError
-        found = JournalHeader(**{**record, "cases": tuple(record["cases"])})
+        found = JournalHeader(**record)
         if second != _line(found.all_columns):
             raise ValueError
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise FileError(
             "journal-damaged", f"{path}: is no journal of a sweep of format {FORMAT}; {BEGIN_ANEW}"
         ) from error
-    if words := difference(header.says, found.says):
+    ours, theirs = ({**each.belongs, "results": " ".join(each.columns)} for each in (header, found))
+    if words := difference(ours, theirs):
         raise FileError(
             "journal-of-another-sweep", f"{path}: of another sweep ({words}): it cannot be gone on with; {BEGIN_ANEW}"
         )

@@ -157,31 +157,25 @@ class SupervisedRunner:
             return False
         words = ""
         for _ in range(STARTS):
-            if self.stopped:
-                raise StoppedError
-            words = self._begin()
-            if not words:
-                return True
-        raise UsageError("worker-refused", f"the process that solves points cannot be started: {words}")
-
-    def _begin(self) -> str:
-        """Start a process; what went wrong in words. UsageError where it refuses the plan."""
-        self._stop()
-        try:
-            self._start()
-            if self.stopped:  # ``kill`` may have come before there was anything to kill
+            self._stop()
+            try:
+                if not self.stopped:
+                    self._start()
+                if self.stopped:  # also where ``kill`` came before there was anything to kill
+                    self._stop()
+                    raise StoppedError
+                refused: str = self._ask(self.plan, time.monotonic() + START)
+            except TimeoutError:
+                words = f"not ready after {START:g} s"
+            except (EOFError, OSError) as error:
+                words = str(error) if self._process is None else self._death()
+            else:
+                if not refused:
+                    return True
                 self._stop()
-                raise StoppedError
-            refused: str = self._ask(self.plan, time.monotonic() + START)
-        except TimeoutError:
-            self._stop()
-            return f"not ready after {START:g} s"
-        except (EOFError, OSError) as error:
-            return str(error) if self._process is None else self._death()
-        if refused:
-            self._stop()
-            raise UsageError("worker-refused", refused)
-        return ""
+                raise UsageError("worker-refused", refused)
+        self._stop()
+        raise UsageError("worker-refused", f"the process that solves points cannot be started: {words}")
 
     def _start(self) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the process

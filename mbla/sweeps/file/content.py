@@ -5,6 +5,7 @@ Numbers are plain; values that go into the deck are written as the deck takes th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -277,6 +278,7 @@ class Part:
     kind       : ``grid``, ``zip``, ``random``, ``latin_hypercube`` or ``sobol``
     parameters : their names, in the order of the part
     path       : place of the part in the sweep file, for messages
+    of         : names as the file gives them; None where it leaves that to the rest
     points     : of a sample; 0 for grid and zip
     seed       : of a sample
     """
@@ -284,6 +286,7 @@ class Part:
     kind: str
     parameters: tuple[str, ...]
     path: KeyPath
+    of: Sequence[str] | None = None
     points: int = 0
     seed: int | None = None
 
@@ -296,27 +299,18 @@ def design_parts(content: SweepContent) -> tuple[Part, ...]:
     """
     if content.design is None:
         return (Part("grid", tuple(content.parameters), ("parameters",)),)
-    named = {name for each in content.design for name in (getattr(each, _kind(each)).of or ())}
+    sections = [(kind, getattr(each, kind)) for each in content.design for kind in KINDS if getattr(each, kind)]
+    named = {name for _, section in sections for name in section.of or ()}
     rest = tuple(name for name in content.parameters if name not in named)
     parts = []
-    for index, each in enumerate(content.design):
-        parts.append(_part(index, each, rest, content))
-        rest = () if getattr(each, _kind(each)).of is None else rest
+    for index, (kind, section) in enumerate(sections):
+        names = rest if section.of is None else tuple(name for name in section.of if name in content.parameters)
+        sampled = (section.points, section.seed) if isinstance(section, Sampled) else ()
+        parts.append(Part(kind, names, ("design", index, kind), section.of, *sampled))
+        rest = () if section.of is None else rest
     return tuple(parts)
 
 
 def is_random(part: Part, content: SweepContent) -> bool:
     """Whether the points of a part are a random sample: drawn, and every parameter with a probability."""
     return part.kind in SAMPLED and all(way_of(content.parameters[name]) in RANDOM for name in part.parameters)
-
-
-def _part(index: int, each: DesignPart, rest: tuple[str, ...], content: SweepContent) -> Part:
-    kind = _kind(each)
-    section = getattr(each, kind)
-    names = rest if section.of is None else tuple(name for name in section.of if name in content.parameters)
-    sampled = (section.points, section.seed) if isinstance(section, Sampled) else ()
-    return Part(kind, names, ("design", index, kind), *sampled)
-
-
-def _kind(each: DesignPart) -> str:
-    return next(kind for kind in KINDS if getattr(each, kind) is not None)

@@ -10,9 +10,9 @@ from typing import Any
 
 from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
-from mbla.deck.section import one_of, rule
+from mbla.deck.section import exactly_one_of, rule
 from mbla.deck.suggestions import listed
-from mbla.deck.text.tree import shorten
+from mbla.deck.text.tree import KeyPath, shorten
 from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
@@ -39,10 +39,8 @@ FARTHEST = 40
 """deviations: no sample lies so far from the mean in double precision"""
 
 
-@rule(types.Parameter, types.DesignPart)
-def one_key(item: types.Parameter | types.DesignPart) -> Iterator[Finding]:
-    """One way of saying values, one kind of part."""
-    yield from one_of(item, WAYS if isinstance(item, types.Parameter) else KINDS)
+exactly_one_of(*WAYS)(types.Parameter)
+exactly_one_of(*KINDS)(types.DesignPart)
 
 
 @rule(types.Parameter)
@@ -61,11 +59,7 @@ def plain_values(item: types.Parameter) -> Iterator[Finding]:
 @rule(types.Parameter)
 def key_paths_of_text(item: types.Parameter) -> Iterator[Finding]:
     """A key path has something in it."""
-    if isinstance(item.key, str):
-        keys: list[tuple[tuple[str | int, ...], str]] = [(("key",), item.key)]
-    else:
-        keys = [(("key", index), key) for index, key in enumerate(item.key or ())]
-    for path, key in keys:
+    for (_, _, *path), key in key_places("", item) if item.key is not None else ():
         if not key.strip():
             yield Finding("sweep-key", "must not be empty: write a key path such as joints.dry.friction", *path)
 
@@ -137,10 +131,10 @@ def keys_once(sweep: SweepContent) -> Iterator[Finding]:
             owners.setdefault(spelt(key), f"parameter {name} sets it too")
 
 
-def key_places(name: str, parameter: Parameter) -> Iterator[tuple[tuple[str | int, ...], str]]:
+def key_places(name: str, parameter: Parameter) -> Iterator[tuple[KeyPath, str]]:
     """Each key path of a parameter with its place in the sweep file."""
     for index, key in enumerate(key_paths(name, parameter)):
-        place: tuple[str | int, ...] = ("parameters", name)
+        place: KeyPath = ("parameters", name)
         if parameter.key is not None:
             place = (*place, "key") if isinstance(parameter.key, str) else (*place, "key", index)
         yield place, key
@@ -153,7 +147,7 @@ def key_places(name: str, parameter: Parameter) -> Iterator[tuple[tuple[str | in
 def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
     """None twice, none left out, no part empty."""
     parts = design_parts(sweep)
-    open_parts = [part for part in parts if sweep.design and _names_given(sweep, part) is None]
+    open_parts = [part for part in parts if sweep.design and part.of is None]
     for part in open_parts[1:]:
         yield Finding(
             "sweep-parts",
@@ -165,7 +159,7 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
             yield Finding("sweep-parts", "has no parameters: the other parts name them all", *part.path)
     owners: dict[str, int] = {}
     for number, part in enumerate(parts):
-        for index, name in enumerate(_names_given(sweep, part) or ()):
+        for index, name in enumerate(part.of or ()):
             if name in owners:
                 where = "this part" if owners[name] == number else f"part {owners[name] + 1} of the design"
                 yield Finding("sweep-parts", f"{name} stands in {where} already", *part.path, "of", index)
@@ -181,42 +175,23 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
                 )
 
 
-def _names_given(sweep: SweepContent, part: Part) -> list[str] | None:
-    if sweep.design is None:
-        return None
-    names: list[str] | None = getattr(sweep.design[int(part.path[1])], part.kind).of
-    return names
-
-
 @rule(SweepContent)
 def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
     """Levels where values are combined one by one, distributions and whole ranges where they are sampled."""
     for part in design_parts(sweep):
         for name in dict.fromkeys(part.parameters):
-            parameter = sweep.parameters[name]
-            way = way_of(parameter)
-            path = ("parameters", name, way)
-            points = level_count(parameter)
-            if part.kind in SAMPLED:
-                if way in WITH_POINTS and points is not None:
-                    yield Finding(
-                        "sweep-ranges",
-                        f"has no meaning in a {part.kind} design, which has its own: leave it out",
-                        *path,
-                        "points",
-                    )
-            elif way in DISTRIBUTIONS:
-                yield Finding(
-                    "sweep-ranges",
-                    f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}",
-                    *path,
-                )
-            elif points is None:
-                yield Finding(
-                    "sweep-ranges",
-                    f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}",
-                    *path,
-                )
+            way, points = way_of(sweep.parameters[name]), level_count(sweep.parameters[name])
+            path: KeyPath = ("parameters", name, way)
+            message = ""
+            if part.kind in SAMPLED and way in WITH_POINTS and points is not None:
+                message = f"has no meaning in a {part.kind} design, which has its own: leave it out"
+                path = (*path, "points")
+            elif part.kind not in SAMPLED and way in DISTRIBUTIONS:
+                message = f"is a distribution, which a {part.kind} cannot take: put {name} into {_samples()}"
+            elif part.kind not in SAMPLED and points is None:
+                message = f"needs points, how many values it has, in a {part.kind}; or put {name} into {_samples()}"
+            if message:
+                yield Finding("sweep-ranges", message, *path)
 
 
 @rule(SweepContent)
@@ -302,15 +277,10 @@ def fragility(sweep: SweepContent) -> Iterator[Finding]:
     if sweep.fragility is None:
         return
     random = [part for part in design_parts(sweep) if is_random(part, sweep)]
+    message = ""
     if not random:
-        yield Finding(
-            "sweep-fragility",
-            f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}",
-            "fragility",
-        )
+        message = f"needs a random design: {_samples()} in which every parameter is {listed(RANDOM)}"
     elif len(random) > 1:
-        yield Finding(
-            "sweep-fragility",
-            "needs one random part of the design, not several: put their parameters into one",
-            "fragility",
-        )
+        message = "needs one random part of the design, not several: put their parameters into one"
+    if message:
+        yield Finding("sweep-fragility", message, "fragility")

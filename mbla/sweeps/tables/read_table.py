@@ -35,6 +35,9 @@ def read_sweep_table(path: Path) -> SweepTable:
         raise FileError("sweep-table-damaged", f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
     content: dict[str, bytes] = {}
     for name in (JSON, CSV):
+        if not (folder / name).is_file():
+            words = f"{folder / name}: there is none; mbla sweep writes {CSV} and {JSON} into one folder"
+            raise FileError("sweep-table-damaged", words)
         with file_errors(folder / name):
             content[name] = (folder / name).read_bytes()
     try:

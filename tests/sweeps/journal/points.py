@@ -9,13 +9,15 @@ from mbla.sweeps.journal import JournalHeader
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 
 HEADER = JournalHeader(
-    "0.1.0+abc",
-    "f00d",
+    {"base deck": "f00d", "load cases": "push", "mbla": "0.1.0+abc", "numpy": "2.3.0"},
     {"status": "text", "load_factor": "float", 'a,"b"#': "int", "verified": "bool"},
-    "Arch, #1",
-    ("push",),
-    {"numpy": "2.3.0"},
 )
+
+
+def other_header(**changes: str) -> JournalHeader:
+    """That of another sweep; low lines in names are spaces."""
+    return replace(HEADER, belongs={**HEADER.belongs, **{key.replace("_", " "): changes[key] for key in changes}})
+
 
 LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
 """of the texts of a point"""

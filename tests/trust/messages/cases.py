@@ -52,7 +52,7 @@ from tests.deck.decks import BLOCK, changed, write
 from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results
 from tests.solution.cone_solvers.test_highs_adapter import ignored, linear_program
-from tests.sweeps.journal.points import HEADER
+from tests.sweeps.journal.points import HEADER, other_header
 from tests.sweeps.pictures.hand_made import grid
 from tests.sweeps.small_plan import plan_over
 
@@ -344,7 +344,7 @@ def journal_of_something_else(folder: Path, patch: Patch) -> object:
 
 @brings("journal-of-another-sweep")
 def journal_of_another_deck(folder: Path, patch: Patch) -> object:
-    with open_journal(folder / "journal.csv", replace(HEADER, fingerprint="beef"), resume=False, force=False):
+    with open_journal(folder / "journal.csv", other_header(base_deck="beef"), resume=False, force=False):
         pass
     return journal(folder, resume=True).__enter__()
 
