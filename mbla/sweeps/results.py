@@ -7,7 +7,9 @@ none, and the status is that of the first position that leaves it unknown.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from mbla.deck.suggestions import did_you_mean, listed
@@ -121,7 +123,7 @@ def result_columns(results: Sequence[str], cases: Sequence[str], units: Units) -
     """
     columns = []
     for name, case, path in result_places(results, cases):
-        key = _key_at(path.split("."))
+        key = _key_at(path)
         assert key is not None, f"{path} was not checked"
         unit = "" if key.unit == "1" else unit_text(key.unit, units)
         words = key.words.replace("null", "empty")
@@ -133,16 +135,16 @@ def result_fault(path: str, cases: Sequence[str] = ()) -> str:
     """What is wrong with a path that cannot be a column, empty where it can; cases: names of the load cases."""
     if not path.strip():
         return "must not be empty: write a key path such as load_factor"
-    parts = tuple(path.split("."))
-    key = _key_at(parts)
-    if key is None:
-        if parts[0] in cases and _key_at(parts[1:]) is not None:
-            return f"stands without its load case, as {'.'.join(parts[1:])}: each load case gets a column of it"
-        hint = did_you_mean(path, [name for name, _ in _named_keys()])
-        return f"is no result{hint or '; results are the keys of `cases[]` in schemas/results.md'}"
-    if _kind(key) in KINDS:
+    key, (first, _, rest) = _key_at(path), path.partition(".")
+    if key is not None and _kind(key) in KINDS:
         return ""
-    inside = [name for name, _ in _named_keys() if name.startswith(f"{path}.")]
+    names = [name for name, _, own in _described() if _kind(own) in KINDS]
+    if key is None:
+        if first in cases and _key_at(rest) is not None:
+            return f"stands without its load case, as {rest}: each load case gets a column of it"
+        hint = did_you_mean(path, names)
+        return f"is no result{hint or '; results are the keys of `cases[]` in schemas/results.md'}"
+    inside = [name for name in names if name.startswith(f"{path}.")]
     inside = [name for name in inside if name.count(".") == path.count(".") + 1] or inside
     return f"is {'an object' if _kind(key) == 'object' else 'a list'}, no single value; take {listed(inside)}"
 
@@ -151,33 +153,23 @@ def _kind(key: Key) -> str:
     return key.kind.rstrip("?")
 
 
-def _key_at(path: Sequence[str]) -> Key | None:
+def _key_at(path: str) -> Key | None:
     """The description of what is at a path; a single value before an object where names with full stops allow both."""
-    found = [key for steps, key in _described() if _fits(path, steps)]
+    found = [key for _, pattern, key in _described() if pattern.fullmatch(path)]
     return next((key for key in found if _kind(key) in KINDS), found[0] if found else None)
 
 
-def _described() -> Iterator[tuple[tuple[str, ...], Key]]:
-    """Steps from the object of a load case, or of the run, and the key there; ``[]`` is a step of its own."""
+@cache
+def _described() -> tuple[tuple[str, re.Pattern[str], Key], ...]:
+    """Paths from the object of a load case, or of the run: as a sweep file may have them, and what all others match.
+
+    Item 0 of lists, NAME where the deck names keys, which may have full stops in them.
+    """
+    found = []
     for key in RUN_RECORD:
         owner = next((owner for owner in OWNERS if key.path.startswith(owner)), "")
         path = key.path.removeprefix(owner)
         if owner or path.partition(".")[0] in OF_RUN:
-            yield tuple(path.replace("[]", ".[]").split(".")), key
-
-
-def _named_keys() -> Iterator[tuple[str, Key]]:
-    """Paths as a sweep file may have them, of single values: item 0 of lists, NAME where the deck names keys."""
-    for steps, key in _described():
-        if _kind(key) in KINDS:
-            yield ".".join({"[]": "0", "*": "NAME"}.get(step, step) for step in steps), key
-
-
-def _fits(path: Sequence[str], steps: Sequence[str]) -> bool:
-    """Whether a path follows these steps; names that the deck gives may have full stops in them."""
-    if not steps or not path:
-        return not steps and not path
-    if steps[0] == "*":
-        return any(_fits(path[count:], steps[1:]) for count in range(1, len(path) + 1))
-    fits = path[0].isdecimal() if steps[0] == "[]" else path[0] == steps[0]
-    return fits and _fits(path[1:], steps[1:])
+            pattern = re.escape(path).replace(r"\[\]", r"\.[0-9]+").replace(r"\*", r".+")
+            found.append((path.replace("[]", ".0").replace("*", "NAME"), re.compile(pattern), key))
+    return tuple(found)

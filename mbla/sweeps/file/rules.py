@@ -10,7 +10,7 @@ from typing import Any
 
 from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
-from mbla.deck.section import exactly_one_of, rule
+from mbla.deck.section import one_of, rule
 from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath, shorten
 from mbla.errors import Finding
@@ -39,8 +39,10 @@ FARTHEST = 40
 """deviations: no sample lies so far from the mean in double precision"""
 
 
-exactly_one_of(*WAYS)(types.Parameter)
-exactly_one_of(*KINDS)(types.DesignPart)
+@rule(types.Parameter, types.DesignPart)
+def one_key(item: types.Parameter | types.DesignPart) -> Iterator[Finding]:
+    """One way of saying values, one kind of part."""
+    yield from one_of(item, WAYS if isinstance(item, types.Parameter) else KINDS)
 
 
 @rule(types.Parameter)

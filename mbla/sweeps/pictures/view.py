@@ -15,10 +15,8 @@ from mbla.errors import UsageError
 from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
-SAME_RATIO = 1e-6
-"""relative: how equal the ratios of neighbouring values are in a range of equal ratios; tables hold full precision"""
 WIDE = 30.0
-"""greatest by least value from which three values of equal ratios, which a list may have too, are a log range"""
+"""greatest by least value from which an axis of positive values is logarithmic"""
 DIRECTIONS = ("azimuth", "elevation")
 
 
@@ -28,7 +26,7 @@ class Axis:
 
     levels  : numbers ascending; texts in the order of the design
     place   : (n_points,) which of them each point has
-    log     : the values are a logarithmic range
+    log     : the values are far apart
     partners: parameters that change together with it
     """
 
@@ -96,7 +94,8 @@ def axis_of(table: SweepTable, column: SweepColumn) -> Axis:
         numbers = [found.setdefault(value, len(found)) for value in table[column.name].tolist()]
         return Axis(column, tuple(found), np.array(numbers, dtype=np.int64), partners=partners)
     levels, place = np.unique(numbers_of(column, table[column.name]), return_inverse=True)
-    return Axis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), _is_log(levels), partners)
+    wide = bool(0 < WIDE * levels[0] <= levels[-1])
+    return Axis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), wide, partners)
 
 
 def grid_axes(table: SweepTable) -> tuple[Axis, ...]:
@@ -114,14 +113,6 @@ def grid_axes(table: SweepTable) -> tuple[Axis, ...]:
         if len(axis.levels) > 1:
             axes.append(axis)
     return tuple(sorted(axes, key=lambda axis: (axis.categorical, -len(axis.levels))))
-
-
-def _is_log(levels: FloatArray) -> bool:
-    if len(levels) < 3 or levels[0] <= 0:
-        return False
-    ratios = levels[1:] / levels[:-1]
-    equal = np.ptp(ratios) <= SAME_RATIO * ratios[0]
-    return bool(equal and (len(levels) > 3 or levels[-1] >= WIDE * levels[0]))
 
 
 @dataclass(frozen=True)

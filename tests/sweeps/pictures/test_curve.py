@@ -40,7 +40,7 @@ def test_of_several_points_a_line_is_the_median_and_the_band_their_range(tmp_pat
     assert "line: median of up to 3 points of the other parameters band: least to greatest" in words(figures[0])
 
 
-def test_a_range_of_equal_ratios_has_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:
+def test_values_far_apart_have_a_log_axis(tmp_path: Path, figures: list[Any]) -> None:
     draw(grid({"k": [1e6, 1e7, 1e8]}, lambda k: k), tmp_path, "curve")
     (axes,) = figures[0].axes
     assert axes.get_xscale() == "log"
