@@ -51,7 +51,7 @@ def test_a_correction_without_a_solution_says_nothing_of_the_structure(
     result = solve_livesley(program, associative, SETTINGS, lambda record: None)
     assert result.status is status
     assert result.state is None
-    assert result.reason == f"the correction ended without a solution (clarabel: said {said_to_be})"
+    assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
 
 
 @pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])

@@ -32,6 +32,7 @@ from mbla.solution.nonassociative.law_state import (
     LawState,
     SequenceResult,
     as_asked,
+    broken_off,
     law_state,
     residual_with_closing,
 )
@@ -93,7 +94,7 @@ def solve_by_default(
     records = list(associative.programs)
     gravity = gravity_forces(program, settings, log, records, associative.stress_free)
     if isinstance(gravity, ConeSolution):
-        return _broken_off(gravity, records)
+        return broken_off(gravity, records)
     start = associative.state
     scheme = _Scheme(program, slope, settings, log, records, np.inf if start is None else start.load_factor)
     others = [gravity] if start is None else [start.forces, gravity]
@@ -320,11 +321,3 @@ class _Scheme:
 
 MISSED = Message("law-missed", "the iterations came no closer to the joint law than a residual of {:.2g}")
 NO_STATE = "no forces and no mechanism that fit the joint law were found"
-
-
-def _broken_off(solution: ConeSolution, records: list[ProgramRecord]) -> SequenceResult:
-    status = solution.status
-    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a program of the scheme, not of the structure
-        status = Status.NOT_VERIFIED
-    reason = f"program {len(records)} of the sequence ended without a solution ({solution.verdict})"
-    return SequenceResult(status, None, reason, tuple(records))

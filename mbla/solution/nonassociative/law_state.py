@@ -11,6 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
+from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathPoint, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
@@ -91,6 +92,19 @@ def not_at_rest(
         return SequenceResult(Status.SOLVED, best, "", programs, spread, (words,))
     status = Status.APPROXIMATE if best.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED
     return SequenceResult(status, best, words, programs, spread)
+
+
+def broken_off(
+    solution: ConeSolution, programs: Sequence[ProgramRecord], best: LawState | None = None, reason: str = ""
+) -> SequenceResult:
+    """What is left of a sequence whose last program, one of ``programs``, ended without a solution.
+
+    That a fictitious program has none is not said of the structure. ``reason`` replaces the common words.
+    """
+    of_program = solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
+    words = f"program {len(programs)} of the sequence ended without a solution ({solution.verdict})"
+    status = Status.NOT_VERIFIED if of_program else solution.status
+    return SequenceResult(status, best, reason or words, tuple(programs))
 
 
 def law_state(

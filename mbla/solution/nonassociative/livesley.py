@@ -27,7 +27,7 @@ from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult, broken_off, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
@@ -60,7 +60,7 @@ def solve_livesley(
     change = (solution.objective - before.load_factor) / max(abs(before.load_factor), 1e-300) if valued else np.nan
     records = (*associative.programs, _record(number, solution, live, change))
     if not valued:
-        return _broken_off(solution, records)
+        return broken_off(solution, records)
     velocities = form.velocities(solution.x)
     candidates = (
         law_state(program, 0.0, before.forces, velocities, before.load_factor),
@@ -105,10 +105,3 @@ def _remark(before: float, after: float, change: float, state: LawState) -> Mess
 def _record(number: int, solution: ConeSolution, live: float, change: float) -> ProgramRecord:
     value = solution.objective * live if np.isfinite(change) else np.nan
     return solution.record(number, "livesley", value, abs(change))
-
-
-def _broken_off(solution: ConeSolution, records: tuple[ProgramRecord, ...]) -> SequenceResult:
-    status = solution.status
-    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of the fixed limits of shear, not of the structure
-        status = Status.NOT_VERIFIED
-    return SequenceResult(status, None, f"the correction ended without a solution ({solution.verdict})", records)

@@ -33,7 +33,7 @@ from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult, broken_off, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
@@ -136,13 +136,11 @@ def _broken_off(
 ) -> SequenceResult:
     number = len(records) + 1
     records.append(_record(number, solution, np.nan, np.nan))
-    status = solution.status
-    reason = f"program {number} of the sequence ended without a solution ({solution.verdict})"
-    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a fictitious joint law, not of the structure
-        status = Status.NOT_VERIFIED
-        what = "carry the dead load" if solution.status is Status.NO_EQUILIBRIUM else "give way to the live load"
-        reason = (
-            f"in program {number} of the sequence the friction that belongs to the forces before does not {what}; "
-            "the structure may stand only by friction that something has locked in"
-        )
-    return SequenceResult(status, best, reason, tuple(records))
+    if solution.status not in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        return broken_off(solution, records, best)
+    what = "carry the dead load" if solution.status is Status.NO_EQUILIBRIUM else "give way to the live load"
+    reason = (
+        f"in program {number} of the sequence the friction that belongs to the forces before does not {what}; "
+        "the structure may stand only by friction that something has locked in"
+    )
+    return broken_off(solution, records, best, reason)

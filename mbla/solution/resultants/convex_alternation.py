@@ -28,7 +28,14 @@ from mbla.program.resultants.friction_limit import curve_support, friction_limit
 from mbla.program.resultants.static import ConvexStaticForm, given_friction_form
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult, as_asked, not_at_rest, spread_of
+from mbla.solution.nonassociative.law_state import (
+    LawState,
+    SequenceResult,
+    as_asked,
+    broken_off,
+    not_at_rest,
+    spread_of,
+)
 from mbla.solution.resultants.convex_associative import KKT_REGULARIZATION, ConvexAssociative
 from mbla.solution.resultants.convex_state import state_without_dilatancy
 from mbla.solution.settings import SolverSettings
@@ -136,22 +143,26 @@ def solve_by_alternation(
     found: FloatArray | ConeSolution
     found = least_forces(convex.points, own, log, records) if associative.state is None else associative.state.forces
     if isinstance(found, ConeSolution):
-        return _broken_off([], found, tuple(records))
+        return broken_off(found, records)
     convex, forces = convex.in_unit_of_force(unit), found / unit
     pair = _Pair.of(convex, own, log, records)
     for count in range(TILTED_PAIRS + MOST_PAIRS):
         motion = pair.motion_for(forces)
         if isinstance(motion, ConeSolution):
-            return _broken_off(states, motion, tuple(records))
+            return broken_off(motion, records, _best(states))
         after = pair.forces_for(forces, *motion, tilt=TILT if count < TILTED_PAIRS else 0.0)
         if isinstance(after, ConeSolution):
-            return _broken_off(states, after, tuple(records))
+            return broken_off(after, records, _best(states))
         forces, factor = after
         if count >= TILTED_PAIRS:
             states.append(state_without_dilatancy(convex, forces, *motion, factor))
             if _at_rest(states, settings) or _is_stuck(states):
                 break
     return _finished(states, settings, tuple(records))
+
+
+def _best(states: list[LawState]) -> LawState | None:
+    return min(states, key=lambda state: state.residual, default=None)
 
 
 def _usable(solution: ConeSolution) -> bool:
@@ -179,19 +190,11 @@ def _is_stuck(states: list[LawState]) -> bool:
 
 
 def _finished(states: list[LawState], settings: SolverSettings, records: tuple[ProgramRecord, ...]) -> SequenceResult:
-    best = min(states, key=lambda state: state.residual)
+    best = _best(states)
+    assert best is not None  # the tilted pairs are fewer than all
     if best.residual <= EXACT_RESIDUAL:
         return SequenceResult(Status.SOLVED, best, "", records)
     if best.residual <= _asked(settings):
         return as_asked(best, best.residual, settings.residual, records)
     words = f"did not converge in {len(states)} iterations: residual of the joint law {best.residual:.2g}"
     return not_at_rest(best, Message("law-missed", words), records, spread_of(best, states))
-
-
-def _broken_off(states: list[LawState], solution: ConeSolution, records: tuple[ProgramRecord, ...]) -> SequenceResult:
-    status = solution.status
-    if status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):  # said of a program of the scheme, not of the structure
-        status = Status.NOT_VERIFIED
-    reason = f"program {len(records)} of the sequence ended without a solution ({solution.verdict})"
-    best = min(states, key=lambda state: state.residual, default=None)
-    return SequenceResult(status, best, reason, records)
