@@ -29,9 +29,9 @@ from mbla.sweeps.tables.sweep_json import VERSION, counts
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 FILETYPE = "mbla sweep"
-NO_NUMBER = int(np.iinfo(np.int64).min)
-NO_TRUTH = -1
-"""``_FillValue`` of whole numbers, and of truth values, which are 0 and 1"""
+TYPES = {"float": np.float64, "int": np.int64, "bool": np.int8, "text": object}
+NONE = {"float": np.nan, "int": int(np.iinfo(np.int64).min), "bool": -1, "text": ""}
+"""what stands for no value; of whole numbers and truth values, which are 0 and 1, it is the ``_FillValue``"""
 OF_DESIGN = ("parameter", "azimuth", "elevation")
 """roles of columns that lie along one dimension"""
 
@@ -74,46 +74,31 @@ def _scale(table: SweepTable, axis: int) -> Labelled:
 
 def _along_one(table: SweepTable, column: SweepColumn) -> Labelled:
     """A parameter along its dimension."""
-    return _labelled(column, *_plain(column, table.levels[column.name]), (column.dimension,))
+    return _labelled(column, _plain(column, table.levels[column.name]), (column.dimension,))
 
 
 def _along_all(table: SweepTable, column: SweepColumn, values: Values, coordinates: str) -> Labelled:
     shape = tuple(dimension.size for dimension in table.dimensions)
-    spread = _empty(column, shape)
-    spread[tuple(table.position.T)] = values
+    spread = np.full(shape, NONE[column.kind], dtype=TYPES[column.kind])
+    spread[tuple(table.position.T)] = _plain(column, values)
     names = tuple(dimension.name for dimension in table.dimensions)
-    return _labelled(column, *_plain(column, spread), names, {"coordinates": coordinates} if coordinates else {})
+    return _labelled(column, spread, names, {"coordinates": coordinates} if coordinates else {})
 
 
-def _empty(column: SweepColumn, shape: tuple[int, ...]) -> Values:
-    """An array without any value."""
-    if column.kind == "float":
-        return np.full(shape, np.nan)
+def _plain(column: SweepColumn, values: Values) -> Values:
+    """Values (n,) as the file holds them."""
     if column.kind == "text":
-        return np.full(shape, None, dtype=object)
-    kind = np.int64 if column.kind == "int" else np.bool_
-    return np.ma.masked_array(np.zeros(shape, dtype=kind), np.ones(shape, dtype=bool))
-
-
-def _plain(column: SweepColumn, values: Values) -> tuple[Values, int | None]:
-    """Values as the file holds them, and what stands for none."""
-    if column.kind == "text":
-        texts = np.empty(values.shape, dtype=object)
-        texts[...] = np.where(values == None, "", values)  # noqa: E711 elementwise
-        return texts, None
-    if column.kind == "int":
-        return np.ma.filled(values, NO_NUMBER), NO_NUMBER if np.ma.is_masked(values) else None
-    if column.kind == "bool":
-        return np.ma.filled(values.astype(np.int8), NO_TRUTH), NO_TRUTH if np.ma.is_masked(values) else None
-    return values, None
+        return np.array([value or "" for value in values], dtype=object)
+    return np.asarray(np.ma.filled(values.astype(TYPES[column.kind]), NONE[column.kind]))
 
 
 def _labelled(
-    column: SweepColumn, values: Values, missing: int | None, dimensions: tuple[str, ...], more: Any = None
+    column: SweepColumn, values: Values, dimensions: tuple[str, ...], more: Mapping[str, str] | None = None
 ) -> Labelled:
     words = {"units": column.unit or "1", "long_name": column.words, "column": column.name, "role": column.role}
-    words |= {"case": column.case} if column.case else {}
-    return Labelled(values, dimensions, words | (more or {}), missing)
+    words |= ({"case": column.case} if column.case else {}) | dict(more or {})
+    none = NONE[column.kind]
+    return Labelled(values, dimensions, words, none if isinstance(none, int) and (values == none).any() else None)
 
 
 def sweep_parquet(record: Mapping[str, Any], table: SweepTable) -> bytes:

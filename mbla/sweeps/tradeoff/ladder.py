@@ -151,7 +151,7 @@ def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
 
 
 def _choice(text: str) -> list[tuple[str, Plain]]:
-    """Key path and value for each value."""
+    """Key path and value for each value, as YAML has it."""
     key, equals, listed = text.partition("=")
     document = read_yaml(SourceText("--knob", f"values: [{listed}]", line=1), 0)
     values: list[Plain] = [] if document.faults else document.data["values"]
@@ -173,14 +173,4 @@ def _named(text: str) -> Rung:
             "tradeoff-option",
             f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",
         )
-    return Rung(" ".join(name.split()), dict(map(_setting, texts)))
-
-
-def _setting(text: str) -> tuple[str, Plain]:
-    """Key path and value of a ``key.path=value`` text, the value as YAML has it."""
-    key, _, value = text.partition("=")
-    document = read_yaml(SourceText("--set", value, line=1), 0)
-    if document.faults or document.data is None:
-        raise UsageError("tradeoff-option", f"{text}: {value} is no value of a deck")
-    data: Plain = document.data
-    return key.strip(), data
+    return Rung(" ".join(name.split()), dict(_choice(each)[0] for each in texts))
