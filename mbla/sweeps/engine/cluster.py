@@ -174,8 +174,7 @@ class Connection:
     def _connected(self) -> Any:
         options = self._options
         address = options.scheduler or self._address_in_file()
-        security = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_client_key": "--tls-key"}
-        files = {key: str(options.tls_files[name]) for key, name in security.items() if name in options.tls_files}
+        files = {key: str(path) for key, path in options.tls.items()}
         try:
             client = dask.Client(
                 address,

@@ -6,8 +6,8 @@ import importlib.util
 import queue
 import threading
 import time
-from collections.abc import Generator, Sequence
-from dataclasses import dataclass
+from collections.abc import Generator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mbla.errors import LimitError, UsageError
@@ -20,6 +20,10 @@ PATIENCE = 60.0
 """seconds to wait for a scheduler and its first worker"""
 
 
+TLS = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_client_key": "--tls-key"}
+"""certificate of the authority, certificate and private key of this client: as Dask calls them, and the options"""
+
+
 @dataclass(frozen=True)
 class EngineOptions:
     """What engine is wanted.
@@ -27,9 +31,7 @@ class EngineOptions:
     workers        : processes on this machine
     scheduler      : address of a Dask scheduler, ``tcp://host:port`` or ``tls://host:port``; empty for none
     scheduler_file : file in which a scheduler wrote its address
-    tls_ca_file    : certificate of the authority; Dask's own configuration where these three are None
-    tls_cert       : certificate of this client
-    tls_key        : its private key
+    tls            : files by their keys in ``TLS``; those of Dask's own configuration where there are none
     patience       : seconds to wait for the scheduler and its first worker, and for another where all are gone
     until          : time.monotonic() at which the points under way are stopped and no further one is begun
     threads        : of each process of this machine
@@ -38,9 +40,7 @@ class EngineOptions:
     workers: int = 1
     scheduler: str = ""
     scheduler_file: Path | None = None
-    tls_ca_file: Path | None = None
-    tls_cert: Path | None = None
-    tls_key: Path | None = None
+    tls: Mapping[str, Path] = field(default_factory=dict)
     patience: float = PATIENCE
     until: float | None = None
     threads: int = 1
@@ -49,12 +49,6 @@ class EngineOptions:
     def cluster(self) -> bool:
         """Whether a scheduler is named."""
         return bool(self.scheduler) or self.scheduler_file is not None
-
-    @property
-    def tls_files(self) -> dict[str, Path]:
-        """Files that were named, by their option."""
-        files = {"--tls-ca-file": self.tls_ca_file, "--tls-cert": self.tls_cert, "--tls-key": self.tls_key}
-        return {option: path for option, path in files.items() if path is not None}
 
 
 MISSING = "a cluster needs an extra that is not installed: pip install 'mbla[dask]'"
@@ -71,7 +65,7 @@ def check_options(options: EngineOptions) -> None:
         wrong.append("--scheduler and --scheduler-file: one of them says where the scheduler is")
     if options.scheduler and not options.scheduler.startswith(("tcp://", "tls://")):
         wrong.append(f"--scheduler {options.scheduler}: an address is tcp://HOST:PORT or tls://HOST:PORT")
-    files = options.tls_files
+    files = {TLS[key]: path for key, path in options.tls.items()}
     if files and (options.scheduler.startswith("tcp://") or not options.cluster):
         wrong.append(f"{', '.join(files)}: only for a scheduler at a tls:// address")
     if ("--tls-cert" in files) != ("--tls-key" in files):

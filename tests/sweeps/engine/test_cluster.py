@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -64,16 +64,20 @@ def test_over_tcp(tmp_path: Path) -> None:
         check_answers(outcomes_of(EngineOptions(scheduler_file=cluster.file), plan_over(tmp_path), tasks), tasks)
 
 
+def tls(files: Mapping[str, Path]) -> dict[str, Path]:
+    return {"tls_ca_file": files["ca"], "tls_client_cert": files["cert"], "tls_client_key": files["key"]}
+
+
 def test_over_tls(tmp_path: Path) -> None:
     tasks, files = frictions(20), write_certificates(tmp_path / "tls")
     options = [f"--tls-{name}={files[kind]}" for name, kind in (("ca-file", "ca"), ("cert", "cert"), ("key", "key"))]
     with real_cluster(tmp_path, options=options) as cluster:
         assert cluster.address.startswith("tls://")
         plain = EngineOptions(scheduler=cluster.address, patience=3.0)
-        fit = replace(plain, tls_ca_file=files["ca"], tls_cert=files["cert"], tls_key=files["key"])
+        fit = replace(plain, tls=tls(files))
         check_answers(outcomes_of(fit, plan_over(tmp_path), tasks), tasks)
         other = write_certificates(tmp_path / "other", "another authority")
-        strange = replace(plain, tls_ca_file=other["ca"], tls_cert=other["cert"], tls_key=other["key"])
+        strange = replace(plain, tls=tls(other))
         for wrong in (strange, plain):
             with pytest.raises(UsageError, match=r"no connection to the scheduler tls://.*--tls-ca-file"):
                 next(outcomes_of(wrong, plan_over(tmp_path), tasks))

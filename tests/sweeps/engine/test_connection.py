@@ -41,8 +41,8 @@ def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_certificates_are_handed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     files, script = write_certificates(tmp_path), Script()
-    options = {"tls_ca_file": files["ca"], "tls_cert": files["cert"], "tls_key": files["key"]}
-    with scripted(monkeypatch, script, scheduler="tls://host:8786", **options):
+    tls = {"tls_ca_file": files["ca"], "tls_client_cert": files["cert"], "tls_client_key": files["key"]}
+    with scripted(monkeypatch, script, scheduler="tls://host:8786", tls=tls):
         security = script.options["security"]
     assert script.options["address"] == "tls://host:8786"
     assert security.require_encryption
