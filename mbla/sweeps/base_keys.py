@@ -52,14 +52,11 @@ def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
         else:
             below = below[step] if isinstance(below, list) and isinstance(step, int) else None
         path = (*path, step)
-    if sections_at(DeckContent, path) and (keys := allowed_keys(DeckContent, path)):
-        if not _takes_plain_values(path):
-            raise RefusedError(
-                "sweep-key", f"{key_text(path)} is a section of the deck: name one of its keys, {listed(keys)}"
-            )
-    elif takes_names(DeckContent, path):
-        names = listed(below) if below else "a name"
-        raise RefusedError("sweep-key", f"{key_text(path)} is a section of the deck: name what is in it, {names}")
+    by_name = takes_names(DeckContent, path)
+    keys = allowed_keys(DeckContent, path) if sections_at(DeckContent, path) else ()
+    if by_name or (keys and not _takes_plain_values(path)):
+        names = listed(keys or below or ["a name"])
+        raise RefusedError("sweep-key", f"{key_text(path)} is a section of the deck: name one of its keys, {names}")
     return path
 
 
@@ -67,19 +64,14 @@ def _step(data: Any, path: KeyPath, word: str) -> str | int:
     """The next key or number of an item below a path."""
     if isinstance(data, list):
         return item_index(data, word)
-    if isinstance(data, dict) and word in data:
+    below = isinstance(data, dict | None)
+    names = list(data or ()) if below and takes_names(DeckContent, path) else allowed_keys(DeckContent, path)
+    if below and word in {*(data or ()), *names}:
         return word
-    if takes_names(DeckContent, path):
-        raise RefusedError("sweep-key", unknown(f"name {shorten(word)} in {key_text(path)}", word, data or (), "known"))
-    keys = allowed_keys(DeckContent, path)
-    if data is None and not keys:
-        raise RefusedError("sweep-key", f"the deck has nothing at {key_text(path)}")
-    if not keys or not isinstance(data, dict | None):
-        raise RefusedError("sweep-key", f"the deck has a single value at {key_text(path)}, with nothing below it")
-    if word not in keys:
-        where = f"key {shorten(word)} in {key_text(path)}" if path else f"section {shorten(word)}"
-        raise RefusedError("sweep-key", unknown(where, word, keys))
-    return word
+    if not below or not names:
+        raise RefusedError("sweep-key", f"the deck has nothing below {key_text(path)}")
+    where = f"key {shorten(word)} in {key_text(path)}" if path else f"section {shorten(word)}"
+    raise RefusedError("sweep-key", unknown(where, word, names))
 
 
 def _takes_plain_values(path: KeyPath) -> bool:

@@ -30,7 +30,7 @@ from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 FILETYPE = "mbla sweep"
 TYPES = {"float": np.float64, "int": np.int64, "bool": np.int8, "text": object}
-NONE = {"float": np.nan, "int": int(np.iinfo(np.int64).min), "bool": -1, "text": ""}
+NONE: dict[str, Any] = {"float": np.nan, "int": int(np.iinfo(np.int64).min), "bool": -1, "text": ""}
 """what stands for no value; of whole numbers and truth values, which are 0 and 1, it is the ``_FillValue``"""
 OF_DESIGN = ("parameter", "azimuth", "elevation")
 """roles of columns that lie along one dimension"""
