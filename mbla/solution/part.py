@@ -2,30 +2,29 @@
 
 Associative first; where another flow rule is asked for, the scheme that the deck names; then what is found beside the
 load factor, a peak of the load path, the range for the mechanism found and the standing, none of which changes it but
-the path. Schemes are imported where one is asked for: a run needs one of them.
+the path.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Message
-from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.certificate import cleaned_certificate
 from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import no_mechanism
-from mbla.solution.nonassociative.default_scheme import looks_lower, solve_by_default
+from mbla.solution.nonassociative.default_scheme import looks_lower
 from mbla.solution.nonassociative.factor_range import FactorRange, factor_range
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, locks_at_dilatancy, non_associative_bounded
 from mbla.solution.nonassociative.refine_equilibrium import misfit, sharpened
+from mbla.solution.nonassociative.schemes import solve_nonassociative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, StandingResult, Status
 from mbla.solution.standing.standing import (
@@ -66,14 +65,6 @@ NO_PEAK = Message(
     "peak-not-examined",
     "the load factor lies far below the associative one, and whether the structure carries more on the way was not "
     "examined",
-)
-NOT_REACHED = Message(
-    "law-missed", "forces and velocities violate the joint law: residual {:.2g}; the requested {:g} was not reached"
-)
-NOT_PUBLISHED = Message(
-    "default-for-published",
-    "the published procedure starts from associative forces, of which there are none here: the default scheme was "
-    "used instead",
 )
 NO_RANGE = Message(
     "range-not-computed",
@@ -320,56 +311,3 @@ def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
     state = assess_dead_load(program, settings, True if decided else None, associative.stress_free)
     return replace(result, standing=standing_on_model(program, state))
-
-
-Scheme = Callable[[Program, AssociativeResult, SolverSettings, Log], SequenceResult]
-
-
-def solve_nonassociative(
-    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log
-) -> SequenceResult:
-    """The sequence that the flow rule and the scheme of the analysis ask for."""
-    analysis = settings.analysis
-    by_rule: Mapping[str, Scheme] = {"livesley": _livesley, "dilatancy": _dilatancy}
-    sequence = by_rule.get(analysis.flow_rule, SCHEMES[analysis.scheme])(program, associative, settings, log)
-    if analysis.flow_rule == "livesley" or (analysis.flow_rule == "non_associative" and analysis.scheme == "published"):
-        return sequence
-    if settings.residual <= EXACT_RESIDUAL:  # with a state that light blocks fit too, unless a rough one was asked for
-        slope = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else 0.0
-        sequence = sharpened(program, associative, slope, sequence)
-    state, wanted = sequence.state, settings.residual
-    if state is None or sequence.status is not Status.SOLVED or state.residual <= wanted:
-        return sequence
-    return replace(sequence, remarks=(*sequence.remarks, NOT_REACHED.format(state.residual, wanted)))
-
-
-def _default(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    return solve_by_default(program, associative, np.zeros(program.n_points), settings, log)
-
-
-def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    """The published procedure starts from associative forces; where there are none the default scheme has to do."""
-    from mbla.solution.nonassociative.published import solve_published
-
-    if associative.state is None:
-        sequence = _default(program, associative, settings, log)
-        return replace(sequence, remarks=(*sequence.remarks, NOT_PUBLISHED))
-    none = np.zeros(program.n_points)
-    return solve_published(program, associative, settings.analysis.published, none, settings, log)
-
-
-def _dilatancy(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    return solve_by_default(program, associative, program.limits.dilatancy, settings, log)
-
-
-def _livesley(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
-    from mbla.solution.nonassociative.livesley import solve_livesley
-
-    facets: FloatArray | None = None
-    if settings.analysis.friction_cone == "polyhedral" and program.components == 3:
-        facets = friction_polygon(settings.analysis.sides, circumscribed=False)
-    return solve_livesley(program, associative, settings, log, facets=facets)
-
-
-SCHEMES: Mapping[str, Scheme] = {"auto": _default, "published": _published}
-"""By the deck's word."""

@@ -12,15 +12,11 @@ import pytest
 from mbla.errors import Message
 from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.nonassociative import schemes
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
-from mbla.solution.part import (
-    NOT_PUBLISHED,
-    NOT_REACHED,
-    PartResult,
-    solve_nonassociative,
-    solve_part,
-)
+from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, NOT_REACHED, solve_nonassociative
+from mbla.solution.part import PartResult, solve_part
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, line_of_file
@@ -153,8 +149,8 @@ def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypat
     line = line_of(BLOCK, "analysis.flow_rule=non_associative", "analysis.residual=1e-9")
     state = LawState(np.zeros((0, 3)), np.zeros(0), 0.5, 4e-8)
     found = SequenceResult(Status.SOLVED, state, "", ())
-    monkeypatch.setattr(part, "solve_by_default", lambda *arguments: found)
-    monkeypatch.setattr(part, "sharpened", lambda *arguments: arguments[-1])  # the state has no forces to look at
+    monkeypatch.setattr(schemes, "solve_by_default", lambda *arguments: found)
+    monkeypatch.setattr(schemes, "sharpened", lambda *arguments: arguments[-1])  # the state has no forces to look at
     nothing = AssociativeResult(Status.SOLVED, None, None, "", ())
     settings = replace(solver_settings(line.deck.analysis), tolerance=1e-10, residual=1e-9)
     result = solve_nonassociative(line.program, nothing, settings, lambda record: None)
