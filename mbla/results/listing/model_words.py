@@ -193,11 +193,11 @@ def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:
     return lines
 
 
-def notice_lines(notices: Sequence[Notice], title: str = "Remarks") -> list[str]:
+def notice_lines(notices: Sequence[Notice]) -> list[str]:
     """Every notice and warning with its identifier; nothing where there is none."""
     if not notices:
         return []
-    return heading(title) + [line for notice in notices for line in sentence(str(notice))]
+    return heading("Remarks") + [line for notice in notices for line in sentence(str(notice))]
 
 
 def spaced(lines: list[str]) -> list[str]:
