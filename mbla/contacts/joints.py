@@ -25,9 +25,8 @@ from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.model.selectors import Roster, bodies_selected, selector_words
+from mbla.model.selectors import Roster, bodies_selected
 from mbla.model.solids.plane import unit
-from mbla.model.wording import vector
 
 BED = math.cos(math.radians(45))
 ROUNDING = 1e-9
@@ -87,11 +86,11 @@ def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -
         rows[settled] = [names.index(name) for name in sites.prescribed if name]
     roster = Roster(model.blocks)
     notices = []
-    for override in section.overrides:
+    for number, override in enumerate(section.overrides):
         fits = _fits(model, roster, sites, override) & ~settled
         rows[fits] = names.index(override.joint)
         if not fits.any():
-            text = f"no contact {override_words(override)}: the override with joint {override.joint} has no effect"
+            text = f"contacts.overrides[{number}], with joint {override.joint}, fits no contact and has no effect"
             notices.append(Notice("warning", "override-without-contact", text))
     return Laws(rows, names), notices
 
@@ -122,18 +121,3 @@ def _oriented(normals: FloatArray, override: ContactOverride) -> BoolArray:
         return np.asarray(np.abs(normals @ direction) >= least - ROUNDING)
     bed = np.abs(normals[:, 2]) > BED + ROUNDING
     return np.asarray(bed if override.orientation == "bed" else ~bed)
-
-
-def override_words(override: ContactOverride) -> str:
-    """The conditions of an override: ``between piers and ground with bed orientation``."""
-    words = []
-    if override.between is not None:
-        words.append("between {} and {}".format(*map(selector_words, override.between)))
-    if isinstance(override.orientation, AboutNormal):
-        normal, within = override.orientation.normal, override.orientation.within
-        words.append(f"with a normal within {within:g} degrees of {vector(normal)}")
-    elif override.orientation is not None:
-        words.append(f"with {override.orientation} orientation")
-    if override.box is not None:
-        words.append(f"with its centroid between {vector(override.box[0])} and {vector(override.box[1])}")
-    return " ".join(words)

@@ -12,11 +12,12 @@ from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.outlines.corners import Corners
 from mbla.contacts.outlines.polygons import areas
-from mbla.contacts.report import WIDEST, Findings, held_blocks, joining_gap
+from mbla.contacts.report import WIDEST, Findings
 from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.model.wording import counted, named
 
 # So many are named in a notice; the arrays of the report have all.
 _NAMED = 3
@@ -27,10 +28,9 @@ def report_notices(
 ) -> tuple[Notice, ...]:
     """What the report and the findings it was made of have to say."""
     bodies = findings.contacts.overlays.bodies
-    joined = _joined(model, report, bodies)
     return (
-        *_isolated(model, section, report, joined),
-        *_unsupported(model, report, "" if len(report.isolated) else joined),
+        *_isolated(model, section, report),
+        *_unsupported(model, report),
         *_overlaps(model, report),
         *_near_misses(model, section, report),
         *_slivers(model, section, report),
@@ -45,10 +45,10 @@ def _glue(report: ContactReport, glue: Glue) -> list[Notice]:
     """What open and glued joints left out, and what glue made of the blocks."""
     found = []
     if report.open_interfaces:
-        text = f"{_count(report.open_interfaces, 'interface')} with open joints left out: no contact"
+        text = f"{counted(report.open_interfaces, 'interface')} with open joints left out: no contact"
         found.append(Notice("notice", "open-interfaces-left-out", text))
     if len(report.glued):
-        text = f"{_count(len(report.glued), 'internal interface')} (glued) left out: {glue_words(report, glue.sizes)}"
+        text = f"{counted(len(report.glued), 'internal interface')} (glued) left out: {glue_words(report, glue.sizes)}"
         found.append(Notice("notice", "blocks-glued", text))
     return found
 
@@ -62,7 +62,7 @@ def _separated_pairs(model: Model, held: SeparatedPairs) -> list[Notice]:
     row = int(np.argmax(gaps * overlays.sizes))
     pair = overlays.bodies[row]
     text = (
-        f"{_count(len(held), 'common surface')} within the tolerance left out, because a thin block lies between: "
+        f"{counted(len(held), 'common surface')} within the tolerance left out, because a thin block lies between: "
         f"{_pair(model, pair)} stand {_length(model, pair.tolist(), float(gaps[row]))} apart on "
         f"{model.body_name(int(held.between[row]))}{', and others' if len(held) > 1 else ''}"
     )
@@ -73,10 +73,10 @@ def glue_words(report: ContactReport, sizes: IntArray) -> str:
     """What glue made of the blocks; sizes (n,) of the solids of several blocks."""
     parts = []
     if len(sizes):
-        parts.append(f"{_count(int(sizes.sum()), 'block')} make {_count(len(sizes), 'rigid body', 'rigid bodies')}")
+        parts.append(f"{counted(int(sizes.sum()), 'block')} make {counted(len(sizes), 'rigid body')}")
     if len(report.held):
         one = len(report.held) == 1
-        held = f"{_count(len(report.held), 'block')} glued to a support {'does' if one else 'do'} not move"
+        held = f"{counted(len(report.held), 'block')} glued to a support {'does' if one else 'do'} not move"
         parts.append(held)
     return ", ".join(parts) or "none of the blocks moved without"
 
@@ -94,7 +94,7 @@ def _overlaps(model: Model, report: ContactReport) -> list[Notice]:
     found = [Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)]
     if len(report.unchecked):
         text = (
-            f"{_count(len(report.unchecked), 'pair')} of blocks not checked for overlap, because the faces of one do "
+            f"{counted(len(report.unchecked), 'pair')} of blocks not checked for overlap, because the faces of one do "
             f"not form a closed solid: {_pairs(model, report.unchecked)}"
         )
         found.append(Notice("warning", "overlap-not-checked", text))
@@ -111,7 +111,7 @@ def _near_misses(model: Model, section: ContactsSection, report: ContactReport) 
         for row in order[:_NAMED]
     )
     text = (
-        f"{_count(len(gaps), 'near miss', 'near misses')}, opposite faces that miss each other by more than the "
+        f"{counted(len(gaps), 'near miss')}, opposite faces that miss each other by more than the "
         f"tolerance of {section.tolerance:g}: {named}{_more(len(gaps))}; they are no contacts"
         f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
     )
@@ -124,41 +124,31 @@ def _slivers(model: Model, section: ContactsSection, report: ContactReport) -> l
     widest = int(np.argmax(report.sliver_widths))
     pair, width = report.slivers[widest], float(report.sliver_widths[widest])
     text = (
-        f"{_count(len(report.slivers), 'common surface')} narrower than the tolerance of {section.tolerance:g} "
+        f"{counted(len(report.slivers), 'common surface')} narrower than the tolerance of {section.tolerance:g} "
         f"dropped; the widest, between {_pair(model, pair)}, measures {_length(model, pair.tolist(), width)}"
     )
     return [Notice("notice", "slivers-dropped", text)]
 
 
-def _joined(model: Model, report: ContactReport, bodies: IntArray) -> str:
-    """The tolerances that close every near miss, and enough of them, where there are blocks that reach no support."""
-    gaps = np.abs(report.near_miss_gaps)
-    enough = joining_gap(held_blocks(model), bodies, report.near_misses, gaps) if report.unsupported else None
-    if enough is None:
-        return ""
-    every = _by_tolerance(float(gaps.max()), "; with contacts.tolerance {:.2g} all near misses are contacts")
-    return every + _by_tolerance(enough, ", from {:.2g} on every block reaches a support")
-
-
-def _isolated(model: Model, section: ContactsSection, report: ContactReport, joined: str) -> list[Notice]:
+def _isolated(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
     number = len(report.isolated)
     if not number:
         return []
     verb = "touches nothing" if number == 1 else "touch nothing"
-    text = f"{number} of {_count(len(model.blocks), 'block')} {verb}: {_names(model, report.isolated)}"
+    text = f"{number} of {counted(len(model.blocks), 'block')} {verb}: {named(report.isolated, model.blocks.name)}"
     if section.isolated == "allow":
-        return [Notice("notice", "isolated-blocks", text + joined)]
-    return [Notice("warning", "isolated-blocks", f"{text}{joined}; exit status 4, unless contacts.isolated is allow")]
+        return [Notice("notice", "isolated-blocks", text)]
+    return [Notice("warning", "isolated-blocks", f"{text}; exit status 4, unless contacts.isolated is allow")]
 
 
-def _unsupported(model: Model, report: ContactReport, joined: str) -> list[Notice]:
+def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
     parts = [part for part in report.unsupported if len(part) > 1]  # one alone is an isolated block
     if not parts:
         return []
     text = (
-        f"{_count(len(parts), 'part')} of the structure not connected to a support; the "
+        f"{counted(len(parts), 'part')} of the structure not connected to a support; the "
         f"{'largest' if len(parts) > 1 else 'part'} has "
-        f"{_count(max(len(part) for part in parts), 'block')}: {_names(model, max(parts, key=len))}{joined}"
+        f"{counted(max(len(part) for part in parts), 'block')}: {named(max(parts, key=len), model.blocks.name)}"
     )
     return [Notice("warning", "unsupported-parts", text)]
 
@@ -179,7 +169,8 @@ def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> list[N
         limit = section.tolerance * blocks.sizes
         crossing = np.flatnonzero((low < -limit) & (high > limit))
         if len(crossing):
-            text = f"{_count(len(crossing), 'block')} on both sides of {ground.label}: {_names(model, crossing)}"
+            which = named(crossing, model.blocks.name)
+            text = f"{counted(len(crossing), 'block')} on both sides of {ground.label}: {which}"
             found.append(Notice("warning", "block-crosses-ground", text))
     return found
 
@@ -187,20 +178,12 @@ def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> list[N
 def _fixed_contacts(report: ContactReport) -> list[Notice]:
     if not report.fixed_contacts:
         return []
-    text = f"{_count(report.fixed_contacts, 'contact')} between bodies that are both fixed left out"
+    text = f"{counted(report.fixed_contacts, 'contact')} between bodies that are both fixed left out"
     return [Notice("notice", "fixed-contacts-left-out", text)]
-
-
-def _count(number: int, noun: str, several: str = "") -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {several or noun + 's'}"
 
 
 def _more(number: int) -> str:
     return f" and {number - _NAMED} more" if number > _NAMED else ""
-
-
-def _names(model: Model, blocks: Sequence[int] | IntArray) -> str:
-    return ", ".join(model.blocks.name(int(block)) for block in blocks[:_NAMED]) + _more(len(blocks))
 
 
 def _pair(model: Model, pair: IntArray) -> str:

@@ -161,23 +161,3 @@ def misses_within(model: Model, facets: Facets, tolerance: float) -> Patches | N
     found = judge(patches, tolerance, WIDEST).near_misses
     # what is narrower than its gap would be no contact if the gap were none
     return found.take((found.widths >= np.abs(found.gaps)) & (np.abs(found.gaps) <= WIDEST))
-
-
-def joining_gap(fixed: BoolArray, bodies: IntArray, near: IntArray, gaps: FloatArray) -> float | None:
-    """The least gap g such that every free block reaches a support if near misses up to g were contacts; None for none.
-
-    fixed  : (n_blocks,)
-    bodies : (n, 2) bodies in contact
-    near   : (m, 2) bodies of near misses
-    gaps   : (m,) of them
-    """
-    sizes = np.unique(np.abs(gaps))
-    low, high = 0, len(sizes)
-    while low < high:
-        middle = (low + high) // 2
-        closed = near[np.abs(gaps) <= sizes[middle]]
-        if unsupported_parts(fixed, np.concatenate([bodies, closed])):
-            low = middle + 1
-        else:
-            high = middle
-    return float(sizes[low]) if low < len(sizes) else None

@@ -140,26 +140,6 @@ def _registry() -> Any:
     return pint.UnitRegistry(cache_folder=None)
 
 
-def _measured(registry: Any, unit: Any, is_angle: bool) -> str:
-    """What a unit measures, in the words of DIMENSIONS where they have it."""
-    if is_angle:
-        return "an angle"
-    for name, dimension in DIMENSIONS.items():
-        if dimension.si and unit.dimensionality == registry.parse_units(dimension.si).dimensionality != {}:
-            return f"{_article(name)} {name.replace('_', ' ')}"
-    return (
-        str(unit.dimensionality)
-        .replace(" ** ", "^")
-        .replace(" / ", "/")
-        .replace(" * ", " ")
-        .replace("dimensionless", "a ratio")
-    )
-
-
-def _article(name: str) -> str:
-    return "an" if name[0] in "ae" else "a"
-
-
 def _si_factor(unit: str, dimension: str) -> float:
     """Factor from a unit to the SI unit of a dimension (angles: degree)."""
     decimal = DECIMAL[dimension].get(unit)
@@ -187,8 +167,7 @@ def _factor_by_pint(unit: str, dimension: str) -> float | str:
         is_angle = "radian" in str(root.units)
         fits = parsed.dimensionality == registry.parse_units(wanted.si).dimensionality
         if not fits or is_angle != (dimension == "angle"):
-            found = _measured(registry, parsed, is_angle)
-            return f'is not {_article(shown)} {shown} but {found}: write for example "{wanted.example}"'
+            return f'"{unit}" does not measure {shown}: write for example "{wanted.example}"'
         factor = float(registry.Quantity(1.0, parsed).to(wanted.si).magnitude)
     except (pint.errors.PintError, ArithmeticError):  # a logarithm in a product, a power beyond what a double holds
         factor = 0.0

@@ -82,7 +82,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             copies = repetitions(item.repeat)
             made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
             if made > amounts.MOST:
-                raise ItemRefused(Finding("too-many-units", amounts.too_many(made)))
+                raise ItemRefused(Finding("too-many-units", f"makes {amounts.too_many(made)}"))
         except ItemRefused as refused:
             faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
             partial |= {group, f"{group}_springers"}
@@ -150,11 +150,13 @@ def _refuse_amounts(deck: Deck) -> None:
             units = amount.units * min(amounts.copies_of(item), 10 * amounts.MOST)
         if units > amounts.MOST:
             path: KeyPath = ("blocks", number, kind, amount.key) if amount.key else ("blocks", number, kind)
-            faults.append(deck.fault_at(path, Message("too-many-units", amounts.too_many(units))))
+            faults.append(deck.fault_at(path, Message("too-many-units", f"makes {amounts.too_many(units)}")))
         else:
             together += units
     if together > amounts.MOST:
-        faults.append(deck.fault_at(("blocks",), Message("too-many-units", amounts.too_many(together))))
+        faults.append(
+            deck.fault_at(("blocks",), Message("too-many-units", f"the items make {amounts.too_many(together)}"))
+        )
     if faults:
         raise DeckError(faults)
 

@@ -171,22 +171,6 @@ def bodies_selected(selector: Selector, roster: Roster, n_grounds: int) -> BoolA
     return chosen
 
 
-def selector_words(selector: Selector) -> str:
-    """A selector as a message names it: ``base``, ``{group: base, index: 2}``, ``base or ground``."""
-    if isinstance(selector, list):
-        return " or ".join(selector_words(term) for term in selector)
-    if isinstance(selector, str):
-        return selector
-    keys = selector.model_dump(exclude_none=True, by_alias=True)
-    return "{" + ", ".join(f"{key}: {_plain(value)}" for key, value in keys.items()) + "}"
-
-
-def _plain(value: object) -> str:
-    if isinstance(value, (tuple, list)):
-        return "[" + ", ".join(_plain(item) for item in value) + "]"
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
 def _blocks_in(selector: Selector) -> Iterator[tuple[KeyPath, str | SelectorTerm]]:
     """The terms of a selector that mean blocks, with their place below it.
 

@@ -10,14 +10,16 @@ NAMED = 5
 """blocks that a message names before it only counts them"""
 
 
+PLURALS = {"vertex": "vertices", "near miss": "near misses", "rigid body": "rigid bodies"}
+
+
 def counted(count: int, noun: str) -> str:
     """``1 face``, ``3 faces``.
 
     >>> counted(1, "face"), counted(3, "vertex")
     ('1 face', '3 vertices')
     """
-    plural = "vertices" if noun == "vertex" else f"{noun}s"
-    return f"{count} {noun if count == 1 else plural}"
+    return f"{count} {noun if count == 1 else PLURALS.get(noun, f'{noun}s')}"
 
 
 def was(count: int) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from mbla.contacts import ContactReport, find_contacts
-from mbla.contacts.report import joining_gap, unsupported_parts
+from mbla.contacts.report import unsupported_parts
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import (
     any_rotation,
@@ -157,22 +157,11 @@ def told(report: ContactReport, identifier: str) -> str:
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-3, 3e-3, 1e-2])
 def test_the_tolerance_that_closes_all_gaps_is_told_whatever_the_present_one_is(tolerance: float) -> None:
     report = report_of(tolerance)
-    loose = told(report, "isolated-blocks") or told(report, "unsupported-parts")
-    words = re.search(r"contacts.tolerance ([0-9.]+) all near misses are contacts, from ([0-9.]+) on every", loose)
+    words = re.search(r"with contacts.tolerance above ([0-9.]+) all of them are", told(report, "near-misses"))
     assert words is not None
-    every, enough = (float(figure) for figure in words.groups())
-    assert (every, enough) == (0.053, 0.013)
-    assert f"with contacts.tolerance above {every:.2g} all of them are" in told(report, "near-misses")
-    assert report_of(enough).unsupported == ()
+    every = float(words[1])
+    assert every == 0.053
     assert len(report_of(every).near_misses) == 0
-
-
-def test_the_least_gap_that_joins_every_block_to_a_support() -> None:
-    fixed = np.array([True, False, False, False])
-    near, gaps = np.array([[0, 1], [1, 2], [0, 2], [2, 3]]), np.array([0.02, -0.03, 0.05, 0.01])
-    assert joining_gap(fixed, np.zeros((0, 2), dtype=np.int64), near, gaps) == 0.03
-    assert joining_gap(fixed, np.array([[0, 2]]), near, gaps) == 0.02
-    assert joining_gap(fixed, np.zeros((0, 2), dtype=np.int64), near[:3], gaps[:3]) is None
 
 
 def parts(fixed: list[bool], bodies: list[tuple[int, int]]) -> list[list[int]]:

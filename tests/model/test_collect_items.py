@@ -56,7 +56,9 @@ def test_an_item_of_too_many_units(tmp_path: Path, item: str, key: str) -> None:
 def test_items_are_counted_together_before_any_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.model.items.generator_of", lambda kind: pytest.fail(f"a {kind} is made"))
     wall = "  - wall: {material: stone, unit: [0.4, 0.2, 0.1], length: 360, courses: 1000}\n"
-    assert faults(tmp_path, 3 * wall) == ["10:3 blocks: makes about 3e+06 units; at most 2,000,000 can be handled"]
+    assert faults(tmp_path, 3 * wall) == [
+        "10:3 blocks: the items make about 3e+06 units; at most 2,000,000 can be handled"
+    ]
 
 
 def test_what_fits_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -134,7 +134,7 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
         shapes = SHAPES_WITH[key]
         if shape in shapes:
             if key == "rise" and shape == "segmental":
-                yield from one_of(section, ("rise", "embrace"), " for a segmental arch")
+                yield from one_of(section, ("rise", "embrace"), " for shape: segmental")
             elif key not in OPTIONAL and key != "embrace" and not given(section, (key,)):
                 yield Finding("missing-key", f"needs {key} for shape: {shape}")
         elif given(section, (key,)):
@@ -145,20 +145,20 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
 def range_of_rise(
     shape: str, span: float, rise: float, side_angle: float | None, path: tuple[str | int, ...]
 ) -> Iterator[Finding]:
-    """A pointed arch is more than a semicircle high, a basket arch less, and high enough for its side arcs.
+    """A pointed curve is more than a semicircle high, a basket less, and high enough for its side arcs.
 
-    No arch is so flat that its rise over its span is none.
+    None is so flat that its rise over its span is none.
     """
     if not rise / span:
         yield Finding("out-of-bounds", f"is lost beside the span, {span:g}: make it larger", *path)
         return
     if shape == "pointed" and rise <= span / 2 * (1 + ROUNDING):
-        yield Finding("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed arch", *path)
+        yield Finding("out-of-bounds", f"must be > {span / 2:g}, half the span, for shape: pointed", *path)
     if shape == "basket":
         angle = math.radians(SIDE_ANGLE if side_angle is None else side_angle)
         least = span / 2 * (1 - math.sin(angle)) / math.cos(angle)
         if rise > span / 2 * (1 + ROUNDING):
-            yield Finding("out-of-bounds", f"must be <= {span / 2:g}, half the span, for a basket arch", *path)
+            yield Finding("out-of-bounds", f"must be <= {span / 2:g}, half the span, for shape: basket", *path)
         elif rise <= least * (1 + ROUNDING):
             degrees = math.degrees(angle)
             words = f"must be > {least:g} for side arcs of {degrees:g} degrees: a larger side_angle allows a lower one"

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.items.arch import CurveShape, range_of_rise
+from mbla.deck.items.arch import CurveShape, range_of_rise, shape_keys
 from mbla.deck.items.item import Item
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
 from mbla.deck.section import ROUNDING, Section, given, rule
@@ -119,9 +119,7 @@ def bridge_arches(bridge: BridgeItem) -> Iterator[Finding]:
             if bridge.shape == "segmental" and rise > span / 2 * (1 + ROUNDING):
                 words = f"must be <= {span / 2:g}, half the span: the extrados may not lean back over the piers"
                 yield Finding("out-of-bounds", words, *path)
-    if bridge.side_angle is not None and bridge.shape != "basket":
-        words = f"applies to shape: basket only: leave it out, or change shape ({bridge.shape} given)"
-        yield Finding("key-of-another-choice", words, "side_angle")
+    yield from shape_keys(bridge, bridge.shape, ("side_angle",))
 
 
 @rule(BridgeItem)

@@ -7,9 +7,10 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
+from mbla.deck.items.arch import range_of_rise, shape_keys
 from mbla.deck.items.item import Item
 from mbla.deck.quantities import EmbraceAngle, Integer, Name, PositiveLength
-from mbla.deck.section import ROUNDING, one_of, rule
+from mbla.deck.section import ROUNDING, rule
 from mbla.errors import Finding
 
 VaultShape: TypeAlias = Literal["semicircular", "segmental", "pointed", "elliptic", "catenary"]
@@ -91,30 +92,13 @@ LEVEL = ("semicircular", "pointed", "elliptic")
 
 @rule(VaultItem)
 def vault_curve(vault: VaultItem) -> Iterator[Finding]:
-    """A semicircle is given by its span alone; a segment needs its rise or its angle, other shapes their rise."""
-    if vault.shape == "segmental":
-        yield from one_of(vault, ("rise", "embrace"), " for a segmental vault")
-        return
-    if vault.embrace is not None:
-        words = f"applies to shape: segmental only: leave it out, or change shape ({vault.shape} given)"
-        yield Finding("key-of-another-choice", words, "embrace")
-    if vault.shape == "semicircular" and vault.rise is not None:
-        yield Finding(
-            "key-of-another-choice", "does not apply to shape: semicircular: leave it out, or change shape", "rise"
-        )
-    if vault.shape != "semicircular" and vault.rise is None:
-        yield Finding("missing-key", f"needs rise for shape: {vault.shape}")
-
-
-@rule(VaultItem)
-def vault_apex(vault: VaultItem) -> Iterator[Finding]:
-    """A pointed vault is more than a semicircle high, with a joint at its apex."""
+    """A semicircle is given by its span alone, other shapes by what they need; the apex of a pointed one is a joint."""
+    yield from shape_keys(vault, vault.shape, ("rise", "embrace"))
     span = vault.span if isinstance(vault, BarrelVaultItem) else vault.bay[0]  # type: ignore[attr-defined]
-    if vault.shape == "pointed":
-        if vault.rise is not None and vault.rise <= span / 2 * (1 + ROUNDING):
-            yield Finding("out-of-bounds", f"must be > {span / 2:g}, half the span, for a pointed vault", "rise")
-        if vault.courses % 2 and not isinstance(vault, PavilionVaultItem):
-            yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
+    if vault.rise is not None:
+        yield from range_of_rise(vault.shape, span, vault.rise, None, ("rise",))
+    if vault.shape == "pointed" and vault.courses % 2 and not isinstance(vault, PavilionVaultItem):
+        yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
 
 
 @rule(VaultItem)

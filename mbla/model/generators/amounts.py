@@ -8,16 +8,14 @@ from dataclasses import dataclass
 from mbla.deck.items.item import Item, Repetition
 
 MOST = 2_000_000
-"""units that all items together may make: some GB of memory"""
-FACETS_OF_A_UNIT = 6
-"""a unit with more takes as much memory as several"""
+"""units, or facets of round blocks, that all items together may make: some GB of memory"""
 
 
 @dataclass(frozen=True)
 class Amount:
     """About how much one copy of an item makes, known before it is made.
 
-    units : of usual size
+    units : of usual size; where blocks have many facets each of these counts
     key   : of the item, that has most to do with it; empty for the item itself
     """
 
@@ -32,5 +30,5 @@ def copies_of(item: Item) -> int:
 
 
 def too_many(units: float) -> str:
-    """What is said of items that make more than can be handled."""
-    return f"makes about {min(units, 1e300):.0e} units; at most {MOST:,} can be handled"
+    """What is said after an item, or all of them, that makes more than can be handled."""
+    return f"about {min(units, 1e300):.0e} units; at most {MOST:,} can be handled"

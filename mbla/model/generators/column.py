@@ -20,7 +20,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.column import ColumnEnd, ColumnItem
-from mbla.model.generators.amounts import FACETS_OF_A_UNIT, Amount
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import chains
 
@@ -52,7 +52,7 @@ _SQUARE = regular_polygon(4) * np.sqrt(0.5)
 def amount_column(item: ColumnItem) -> Amount:
     """About how many units such an item has."""
     drums = float(len(item.drum_heights or ()) + (item.drums or 0))
-    return Amount(drums * item.sides / FACETS_OF_A_UNIT, "sides")
+    return Amount(drums * item.sides, "sides")
 
 
 def generate_column(item: ColumnItem, site: Site) -> Generated:

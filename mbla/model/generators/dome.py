@@ -29,7 +29,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import FACETS_OF_A_UNIT, Amount
+from mbla.model.generators.amounts import Amount
 from mbla.model.generators.curves import Symmetric, named_curve, radius_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
@@ -61,7 +61,7 @@ class _Dome:
 def amount_dome(item: DomeItem) -> Amount:
     """About how many units such an item has."""
     courses = item.drum.courses if item.drum else 0
-    return Amount(float(item.rings + courses) * item.segments * _facets(item) / FACETS_OF_A_UNIT, "segments")
+    return Amount(float(item.rings + courses) * item.segments * _facets(item), "segments")
 
 
 def _facets(item: DomeItem) -> int:

@@ -79,7 +79,7 @@ def lines_of(item: WallsItem) -> list[Line]:
     """Walls of the main line, then the cross walls, ends still free where they meet other walls."""
     thickness = item.leaves * item.unit[1]
     middle = {"left": 0.5, "centre": 0.0, "right": -0.5}[item.side] * thickness
-    every = [_line(np.array(start), np.array(end), middle, thickness, key) for key, start, end in plan_lines(item)]
+    every = [_line(np.array(start), np.array(end), middle, thickness, key[:2]) for key, start, end in plan_lines(item)]
     n_lines = len(every) - len(item.cross_walls)
     lines = every[:n_lines]
     for n in range(n_lines if item.closed else n_lines - 1):
