@@ -12,7 +12,7 @@ from mbla.sweeps.command import SweepOptions, prepare, run_sweep
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.file.read import read_sweep as read_file
 from mbla.sweeps.plan import Outcome, Task
-from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.sweep_json import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.words import Progress
 

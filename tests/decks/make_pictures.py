@@ -36,7 +36,7 @@ from mbla.results.pictures.page import (
     rgb,
 )
 from mbla.results.series import series_of
-from mbla.sweeps.tables.read_table import read_sweep_table
+from mbla.sweeps.tables.sweep_json import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.analytic.frictional_arch import least_friction, least_thickness, rotational_friction
 from tests.decks.folder import DECKS

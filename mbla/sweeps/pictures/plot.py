@@ -15,7 +15,7 @@ from mbla.results.pictures.options import PictureOptions, format_of, is_single, 
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
-from mbla.sweeps.tables.read_table import JSON, read_sweep_table
+from mbla.sweeps.tables.sweep_json import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 
 

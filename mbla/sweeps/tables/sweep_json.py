@@ -1,24 +1,36 @@
-"""A sweep as one JSON object: what ``--json`` prints and ``sweep.json`` holds; the values are in sweep.csv."""
+"""A sweep as one JSON object: what ``--json`` prints and ``sweep.json`` holds; the values are in sweep.csv.
+
+Both files are read back here, for pictures.
+"""
 
 from __future__ import annotations
 
+import csv
+import io
+import json
+import math
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mbla import __version__
 from mbla.arrays import IntArray
-from mbla.errors import Notice
+from mbla.errors import FileError, Notice
+from mbla.results.disk import file_errors
 from mbla.results.record.json_record import notice_json
 from mbla.results.record.json_values import number
 from mbla.results.record.keys import Key
+from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import Dimension
 from mbla.sweeps.fragility import fragility_keys
-from mbla.sweeps.plan import DONE, FAILED
-from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.plan import DONE, FAILED, Plain
+from mbla.sweeps.results import OWN_COLUMNS
+from mbla.sweeps.tables.sweep_table import READ_CELL, SweepColumn, SweepTable, column_values
 
+CSV, JSON = "sweep.csv", "sweep.json"
 VERSION = 1
 """of this record and of the layout of sweep.h5; raised by one with every change that an older reader would misread"""
 
@@ -83,6 +95,74 @@ def positions_at(places: Sequence[int] | None, dimensions: Sequence[Dimension]) 
     shape = tuple(dimension.size for dimension in dimensions)
     where = np.arange(np.prod(shape, dtype=np.int64)) if places is None else np.array(places, dtype=np.int64)
     return np.stack(np.unravel_index(where, shape), axis=1) if shape else np.zeros((len(where), 0), dtype=np.int64)
+
+
+def read_sweep_table(path: Path) -> SweepTable:
+    """The table of a sweep from its folder, its sweep.csv or its sweep.json.
+
+    Raises
+    ------
+    FileError
+        there is none, it cannot be read, it is no table of a sweep, or the two files do not belong together
+    """
+    folder = path if path.is_dir() else path.parent
+    if path != folder and path.name not in (CSV, JSON):
+        raise FileError("sweep-table-damaged", f"{path}: is no table of a sweep; name its folder, {CSV} or {JSON}")
+    content: dict[str, bytes] = {}
+    for name in (JSON, CSV):
+        if not (folder / name).is_file():
+            words = f"{folder / name}: there is none; mbla sweep writes {CSV} and {JSON} into one folder"
+            raise FileError("sweep-table-damaged", words)
+        with file_errors(folder / name):
+            content[name] = (folder / name).read_bytes()
+    try:
+        record = json.loads(content[JSON].decode("utf-8"))
+        if record["version"] != VERSION:
+            raise ValueError(f"{JSON} is of version {record['version']}, this mbla reads version {VERSION}")
+        text = io.StringIO(content[CSV].decode("utf-8"), newline="")
+        return _table(record, list(csv.reader(text, strict=True)))
+    except (KeyError, TypeError, ValueError, IndexError, RecursionError, csv.Error) as error:
+        what = " ".join(str(error.args[0]).split()) if error.args else type(error).__name__
+        words = f"{folder}: {JSON} and {CSV} are no table of a sweep: {what}"
+        raise FileError("sweep-table-damaged", words) from error
+
+
+def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
+    columns = tuple(SweepColumn(**column) for column in record["columns"])
+    design = record["design"]
+    dimensions = tuple(Dimension(**dimension) for dimension in design["dimensions"])
+    if not rows or list(rows[0]) != [column.header for column in columns]:
+        raise ValueError("its columns differ")
+    places = design["places"]
+    points = math.prod(dimension.size for dimension in dimensions) if places is None else len(places)
+    if len(rows) - 1 != points:
+        raise ValueError(f"{len(rows) - 1} rows, {points} points")
+    position = positions_at(places, dimensions)
+    if not set(OWN_COLUMNS) <= {column.name for column in columns}:
+        raise ValueError("columns are missing")
+    if any(len(row) != len(columns) for row in rows):
+        raise ValueError("its rows are not as long as each other")
+    cells = list(zip(*rows[1:], strict=True)) or [()] * len(columns)
+    return SweepTable(
+        title=str(record["title"]),
+        columns=columns,
+        values=tuple(_values(column, own) for column, own in zip(columns, cells, strict=True)),
+        dimensions=dimensions,
+        position=position,
+        samples=design["samples"] or "",
+        sampling=design["sampling"] or "",
+    )
+
+
+def _values(column: SweepColumn, cells: Sequence[str]) -> Values:
+    read = READ_CELL[column.kind]
+    values: list[Plain] = []
+    for row, cell in enumerate(cells, 2):
+        try:
+            values.append(read(cell) if cell else None)
+        except (KeyError, ValueError) as error:
+            raise ValueError(f"row {row}: {column.name} = {cell[:40]!r}") from error
+    return column_values(column.kind, values)
 
 
 SWEEP_RECORD: tuple[Key, ...] = (

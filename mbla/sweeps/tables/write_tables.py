@@ -24,8 +24,7 @@ from mbla.results.hdf5.result_file import Labelled, LabelledFile, write_labelled
 from mbla.results.pictures.page import matplotlib_parts
 from mbla.results.record.scene import Values
 from mbla.results.tables.formats import ParquetColumn, csv_text, parquet_bytes, require_parquet
-from mbla.sweeps.tables.read_table import CSV, JSON
-from mbla.sweeps.tables.sweep_json import VERSION, counts
+from mbla.sweeps.tables.sweep_json import CSV, JSON, VERSION, counts
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 FILETYPE = "mbla sweep"

@@ -18,8 +18,7 @@ from mbla.errors import FileError, Notice, UsageError
 from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Values
 from mbla.sweeps.fragility import fragility_csv, fragility_of
-from mbla.sweeps.tables.read_table import read_sweep_table
-from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, sweep_json
+from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, read_sweep_table, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
 from tests.sweeps.tables.synthetic import (
