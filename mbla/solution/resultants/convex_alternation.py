@@ -8,7 +8,8 @@ interface that slips by ‖η‖ and twists by ω dissipates V ‖η‖ + R (h �
 
 V is linear in the forces. R = min over edges e of R_e is concave: the R_e that is least at the last forces stands for
 it, which is never less, so that what the law leaves unexplained falls with every program. Crushing is associative and
-stands in both programs as it is. The first pairs are tilted towards lower load factors.
+stands in both programs as it is. Pairs may come to rest off the law: each of the best for the other. Several starts,
+tilted at first towards lower load factors, follow each other until one comes to the law.
 
 On walls of ten courses, a corner and a gable the pair came to 1e-6 or less in one to twenty pairs, within a tenth of
 the time of proximal steps with Newton's method on the law, which had ended at 0.16 on two of them.
@@ -16,6 +17,7 @@ the time of proximal steps with Newton's method on the law, which had ended at 0
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,16 +43,21 @@ from mbla.solution.resultants.convex_state import state_without_dilatancy
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import least_forces
-from mbla.solution.thresholds import EXACT_RESIDUAL
+from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 
-TILT, TILTED_PAIRS = 0.1, 3
-"""τ of the first pairs: a corner of walls carried 0.2081 instead of 0.2281 afterwards, and was nearer to the law."""
+TILTS = (0.5, 0.4, 0.3, 0.2, 0.1, 0.05)
+"""τ of the first pairs of a start: where pairs come to rest off the law, others that begin so come to the law, and to
+lower load factors. Of thirteen random assemblies that crush and stayed above 1e-4 with three pairs of 0.1 from the
+associative forces, three came to it so, and six more from the forces of the dead load with these tilts or none."""
+
+SEEDS = 3
+"""Starts from forces under the dead load that are made uneven, where the others leave more than ``SOLVED_RESIDUAL``."""
 
 MOST_PAIRS = 40
-"""Pairs before the scheme is given up."""
+"""Pairs of a start behind the tilted ones before it is given up."""
 
-PATIENCE = 8
-"""Pairs in which the least residual must fall to half of what it was, or the scheme is given up."""
+PATIENCE, LESS = 4, 0.7
+"""Pairs in which the least residual of a start must fall to this share, or the start is given up."""
 
 EXACT = 1e-7
 """Residual, and change of the load factor by one pair, at which no better state is looked for. The residual is a power,
@@ -134,31 +141,57 @@ class _Pair:
 def solve_by_alternation(
     convex: ConvexProgram, associative: ConvexAssociative, settings: SolverSettings, log: Log, unit: float = 1.0
 ) -> SequenceResult:
-    """Run the scheme from the associative forces, or where these lock from the least that carry the dead load.
+    """Run the scheme from the associative forces, and from those that carry the dead load, until a state fits the law.
 
     unit : of force, in that of the program, in which states are given; of the loads at collapse if it is not 1
     """
     records, states = list(associative.programs), list[LawState]()
     own = replace(settings, tolerance=min(settings.tolerance, TOLERANCE), regularization=KKT_REGULARIZATION)
-    found: FloatArray | ConeSolution
-    found = least_forces(convex.points, own, log, records) if associative.state is None else associative.state.forces
-    if isinstance(found, ConeSolution):
-        return broken_off(found, records)
-    convex, forces = convex.in_unit_of_force(unit), found / unit
+    gravity = least_forces(convex.points, own, log, records)
+    if isinstance(gravity, ConeSolution):
+        return broken_off(gravity, records)
+    convex = convex.in_unit_of_force(unit)
     pair = _Pair.of(convex, own, log, records)
-    for count in range(TILTED_PAIRS + MOST_PAIRS):
+    starts = [(gravity, ()), (gravity, TILTS), *((uneven, TILTS) for uneven in _uneven(gravity))]
+    if associative.state is not None:
+        starts.insert(0, (associative.state.forces, TILTS))
+    ended: ConeSolution | None = None
+    for forces, tilts in starts:
+        found, ended = _run(pair, forces / unit, tilts, settings)
+        states += found
+        if ended is not None and ended.status is Status.TIME_LIMIT:
+            break
+        least = min((state.residual for state in states), default=np.inf)
+        if least <= max(EXACT_RESIDUAL, _asked(settings)) or (tilts and least <= SOLVED_RESIDUAL):
+            return _finished(states, settings, tuple(records))
+    if ended is not None:
+        return broken_off(ended, records, _best(states))
+    return _finished(states, settings, tuple(records))
+
+
+def _uneven(gravity: FloatArray) -> Iterator[FloatArray]:
+    for seed in range(SEEDS):
+        yield gravity * np.exp(np.random.default_rng(seed).standard_normal((len(gravity), 1)))
+
+
+def _run(
+    pair: _Pair, forces: FloatArray, tilts: Sequence[float], settings: SolverSettings
+) -> tuple[list[LawState], ConeSolution | None]:
+    """States of pairs from forces, (n_points, 3), behind the tilted ones, and the program that ended them early."""
+    states = list[LawState]()
+    for tilt in (*tilts, *[0.0] * MOST_PAIRS):
         motion = pair.motion_for(forces)
         if isinstance(motion, ConeSolution):
-            return broken_off(motion, records, _best(states))
-        after = pair.forces_for(forces, *motion, tilt=TILT if count < TILTED_PAIRS else 0.0)
+            return states, motion
+        after = pair.forces_for(forces, *motion, tilt=tilt)
         if isinstance(after, ConeSolution):
-            return broken_off(after, records, _best(states))
+            return states, after
         forces, factor = after
-        if count >= TILTED_PAIRS:
-            states.append(state_without_dilatancy(convex, forces, *motion, factor))
+        if tilt == 0.0:
+            states.append(state_without_dilatancy(pair.convex, forces, *motion, factor))
             if _at_rest(states, settings) or _is_stuck(states):
                 break
-    return _finished(states, settings, tuple(records))
+    return states, None
 
 
 def _best(states: list[LawState]) -> LawState | None:
@@ -183,15 +216,15 @@ def _at_rest(states: list[LawState], settings: SolverSettings) -> bool:
 
 
 def _is_stuck(states: list[LawState]) -> bool:
-    """Whether the last pairs have not halved the least residual of states that miss the law."""
+    """Whether the last pairs have not lessened the residual of states that miss the law."""
     residuals = [state.residual for state in states]
     last = min(residuals[-PATIENCE:])
-    return len(residuals) > PATIENCE and last > EXACT and last > 0.5 * min(residuals[:-PATIENCE])
+    return len(residuals) > PATIENCE and last > EXACT and last > LESS * min(residuals[:-PATIENCE])
 
 
 def _finished(states: list[LawState], settings: SolverSettings, records: tuple[ProgramRecord, ...]) -> SequenceResult:
     best = _best(states)
-    assert best is not None  # the tilted pairs are fewer than all
+    assert best is not None  # every start ends with a state, or early
     if best.residual <= EXACT_RESIDUAL:
         return SequenceResult(Status.SOLVED, best, "", records)
     if best.residual <= _asked(settings):

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.resultants import convex_alternation
 from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
@@ -31,30 +30,32 @@ def wall() -> Wall:
     return convex, replace(solve_convex_associative(convex, SETTINGS, lambda record: None), programs=())
 
 
-def sequence(wall: Wall) -> SequenceResult:
-    return solve_by_alternation(*wall, SETTINGS, lambda record: None)
-
-
-@pytest.mark.parametrize("after", [0, 1, 9])
 @pytest.mark.parametrize(
-    ("said_to_be", "status"),
+    ("said_to_be", "status", "after"),
     [
-        (Status.UNBOUNDED, Status.NOT_VERIFIED),
-        (Status.NO_EQUILIBRIUM, Status.NOT_VERIFIED),
-        (Status.TIME_LIMIT, Status.TIME_LIMIT),
+        (Status.UNBOUNDED, Status.NOT_VERIFIED, 0),
+        (Status.NO_EQUILIBRIUM, Status.NOT_VERIFIED, 1),
+        (Status.TIME_LIMIT, Status.TIME_LIMIT, 0),
+        (Status.TIME_LIMIT, Status.TIME_LIMIT, 15),
     ],
 )
 def test_a_program_without_a_solution_ends_the_scheme(
     after: int, said_to_be: Status, status: Status, wall: Wall, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What is said of a program is not said of the structure; a state of an earlier pair is kept."""
+    """What is said of a program is not said of the structure; a state of an earlier pair is kept.
+
+    A start that ends early is followed by the next, but where time is up.
+    """
     monkeypatch.setattr(convex_alternation, "EXACT", 0.0)
+    monkeypatch.setattr(convex_alternation, "EXACT_RESIDUAL", 0.0)
     monkeypatch.setattr(convex_alternation, "interior_point_solver", said(said_to_be, after))
-    result = sequence(wall)
+    result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
     assert result.status is status
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
-    assert (result.state is None) is (after < 2 * (convex_alternation.TILTED_PAIRS + 1))
-    assert len(result.programs) == after + 1
+    assert (result.state is None) is (after < 2 * (len(convex_alternation.TILTS) + 1))
+    starts = 1 if status is Status.TIME_LIMIT or result.state else 3 + convex_alternation.SEEDS
+    assert [record.kind for record in result.programs].count("gravity") == 1
+    assert len(result.programs) == 1 + after + starts
 
 
 def test_pairs_that_may_not_go_on_say_how_far_they_came(wall: Wall, monkeypatch: pytest.MonkeyPatch) -> None:
