@@ -163,7 +163,7 @@ def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResu
     if certificate is not None:  # of what does not stand, only that moves
         clean = cleaned_certificate(program, certificate, settings, log)
         result = replace(result, associative=replace(result.associative, certificate=clean))
-    if settings.range:
+    if settings.range or looks_lower(program, settings):
         result = _with_range(result, settings, log)
     return _with_standing(result, settings) if settings.standing else result
 
@@ -276,19 +276,23 @@ def _falls_before(result: PartResult, state: LawState, most: float, settings: So
 
 
 def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
-    """Only of a state that fits the law: the mechanism of another one belongs to nothing."""
+    """The range where it is asked for; where lower states are looked for its lower end is the answer, asked for or not.
+
+    Only of a state that fits the law: the mechanism of another one belongs to nothing.
+    """
     state = None if result.sequence is None else result.sequence.state
     if state is None:
         return result
     if state.residual > RANGE_RESIDUAL:
-        return result.with_remark(NO_RANGE.format(state.residual))
+        return result.with_remark(NO_RANGE.format(state.residual)) if settings.range else result
     slope = result.program.limits.dilatancy if settings.analysis.flow_rule == "dilatancy" else 0.0
     try:
         found = factor_range(result.program, state, settings, log, len(result.programs) + 1, slope)
     except np.linalg.LinAlgError as error:
         return result.with_remark(RANGE_BROKE_DOWN.format(str(error).lower()))
     lowers = looks_lower(result.program, settings)
-    return replace(_at_lower_end(result, found.lower, slope) if lowers else result, range=found)
+    result = _at_lower_end(result, found.lower, slope) if lowers else result
+    return replace(result, range=found) if settings.range else replace(result, more=(*result.more, *found.programs))
 
 
 def _at_lower_end(result: PartResult, lower: LawState | None, slope: FloatArray | float) -> PartResult:

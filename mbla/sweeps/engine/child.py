@@ -126,7 +126,7 @@ def requested_only(deck: Deck, plan: Plan) -> Deck:
     """The deck of a point, without range and peak where no column and no file shows them.
 
     They are further results on the state that was found (``mbla.solution.part``), change no other value, and may take
-    longer than the state itself.
+    longer than the state itself. The range is worked out all the same where its lower end is the load factor.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck
