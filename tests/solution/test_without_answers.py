@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution import part
 from mbla.solution.associative import repair
 from mbla.solution.associative.polyhedral import _claim
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative import livesley, locking
+from mbla.solution.nonassociative import livesley, locking, schemes
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
 from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import SequenceResult
@@ -122,7 +121,7 @@ def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypa
 
 def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     late = SequenceResult(Status.TIME_LIMIT, None, "the time limit was reached", ())
-    monkeypatch.setattr(part, "solve_by_default", lambda *arguments: late)
+    monkeypatch.setattr(schemes, "solve_by_default", lambda *arguments: late)
     solution = solution_of(line_of(BLOCK, "analysis.flow_rule=non_associative"))
     assert solution.status is Status.TIME_LIMIT
     assert solution.reason == "the time limit was reached"

@@ -38,7 +38,7 @@ from mbla.solution.nonassociative.law_state import (
     not_at_rest,
     spread_of,
 )
-from mbla.solution.resultants.convex_associative import KKT_REGULARIZATION, ConvexAssociative
+from mbla.solution.resultants.convex_associative import KKT_REGULARIZATION, ConvexAssociative, unbalanced
 from mbla.solution.resultants.convex_state import state_without_dilatancy
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
@@ -151,6 +151,9 @@ def solve_by_alternation(
     if isinstance(gravity, ConeSolution):
         return broken_off(gravity, records)
     convex = convex.in_unit_of_force(unit)
+    with_dilatancy = _associative(convex, associative, unit)
+    if with_dilatancy is not None and with_dilatancy.residual <= EXACT:  # nothing slides, or it opens nothing
+        return SequenceResult(Status.SOLVED, with_dilatancy, "", tuple(records))
     pair = _Pair.of(convex, own, log, records)
     starts = [(gravity, ()), (gravity, TILTS), *((uneven, TILTS) for uneven in _uneven(gravity))]
     if associative.state is not None:
@@ -167,6 +170,18 @@ def solve_by_alternation(
     if ended is not None:
         return broken_off(ended, records, _best(states))
     return _finished(states, settings, tuple(records))
+
+
+def _associative(convex: ConvexProgram, associative: ConvexAssociative, unit: float) -> LawState | None:
+    """The associative state, judged by the law without dilatancy."""
+    state = associative.state
+    if state is None or state.motions is None:
+        return None
+    power = float(convex.points.live_load @ state.velocities)
+    if not power > 0.0:
+        return None
+    velocities, motions = state.velocities / power, state.motions / power
+    return state_without_dilatancy(convex, state.forces / unit, velocities, motions, state.load_factor / unit)
 
 
 def _uneven(gravity: FloatArray) -> Iterator[FloatArray]:
@@ -188,7 +203,8 @@ def _run(
             return states, after
         forces, factor = after
         if tilt == 0.0:
-            states.append(state_without_dilatancy(pair.convex, forces, *motion, factor))
+            state = state_without_dilatancy(pair.convex, forces, *motion, factor)
+            states.append(replace(state, residual=max(state.residual, unbalanced(pair.convex, state))))
             if _at_rest(states, settings) or _is_stuck(states):
                 break
     return states, None

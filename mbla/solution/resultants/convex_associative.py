@@ -171,10 +171,10 @@ def _repaired(convex: ConvexProgram, state: LawState) -> LawState:
     if found is None or abs(found[1] - state.load_factor) > MOVED * abs(state.load_factor):
         return state
     repaired = replace(state, forces=found[0], load_factor=found[1])
-    return min(repaired, state, key=lambda one: _unbalanced(convex, one))
+    return min(repaired, state, key=lambda one: unbalanced(convex, one))
 
 
-def _unbalanced(convex: ConvexProgram, state: LawState) -> float:
+def unbalanced(convex: ConvexProgram, state: LawState) -> float:
     """Largest force or moment that is out of balance, in mean block loads."""
     program = convex.points
     loads = program.dead_load + state.load_factor * program.live_load
