@@ -72,7 +72,7 @@ FACTORS = {
     ("block", "associative"): (BLOCK, 0.5, 1e-7),
     ("block", "non_associative"): (BLOCK, 0.5, 1e-6),
     ("wall", "associative"): (WALL, 0.6222993027, 1e-7),
-    ("wall", "non_associative"): (WALL, 0.6158882193, 1e-4),
+    ("wall", "non_associative"): (WALL, 0.6110149643, 1e-4),
     ("arch", "associative"): (ARCH, 0.3854019171, 1e-7),
     ("arch", "non_associative"): (ARCH, 0.3854019171, 1e-6),
 }

@@ -29,6 +29,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.linear_algebra.stiffness import stiffness_of
 from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.law_state import (
+    NEAR_ZERO,
     LawState,
     SequenceResult,
     as_asked,
@@ -286,11 +287,13 @@ class _Scheme:
         self.limit = self.work + max(self.settings.search * self.work, always)
         if self.answer is not None:  # the lower end of its mechanism first: work may not be left for more
             self.descend(self.answer.forces[:, 0], TILTS[-1:])
-        here, before = self.answer, np.inf
-        while here is not None and here.load_factor < (1.0 - NOTABLE) * before and self.has_work_left:
+        here, falls = self.answer, True
+        while here is not None and falls and self.has_work_left:
             before = here.load_factor
             self.descend(here.forces[:, 0])
             here = self.answer
+            size = max(abs(before), NEAR_ZERO * self.program.dead_over_live)  # next to zero it may have either sign
+            falls = here is not None and here.load_factor < before - NOTABLE * size
         for normal in normals:
             if self.has_work_left:
                 self.descend(normal)

@@ -19,7 +19,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.standing import standing
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
-from tests.line import BLOCK, HEAD, WALL, line_of, verified
+from tests.line import BLOCK, HEAD, WALL, line_of, load_factor, verified
 from tests.solution.failing_solver import said
 from tests.solution.nonassociative.structures import FERRIS_3, LEAST, SETTINGS, sequence_of, solved
 from tests.solution.planar import planar_program
@@ -403,3 +403,9 @@ def test_a_state_near_another_one_is_found_from_it() -> None:
     assert found is not None
     assert found.residual < 1e-6
     assert program.scaling.load_factor(found.load_factor) == pytest.approx(0.5, rel=1e-6)
+
+
+def test_a_search_for_lower_factors_ends_where_nothing_holds_a_block() -> None:
+    """Its load factor is zero or a rounding of it of either sign, than which there is always a lower one."""
+    found = load_factor(BLOCK, "joints.dry.friction=0", "analysis.flow_rule=non_associative")
+    assert found == pytest.approx(0.0, abs=1e-12)
