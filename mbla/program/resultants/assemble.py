@@ -108,6 +108,13 @@ class ConvexProgram:
         """Resultants of the interfaces, (n_interfaces, 6), from contact forces, (n_points, 3)."""
         return np.asarray((self.resultants @ forces.ravel()).reshape(-1, 6))
 
+    def own_velocities(self, moved: FloatArray, motions: FloatArray) -> FloatArray:
+        """What the motions of the interfaces leave of the velocities of their points, both (n_points, 3).
+
+        motions : (n_interfaces, 2, 6), see ``flows``
+        """
+        return np.asarray(moved - (self.resultants.T @ motions.sum(axis=1).ravel()).reshape(-1, 3))
+
     def flows(self, velocities: FloatArray) -> FloatArray:
         """Motion of every interface by torsion and by crushing, (n_interfaces, 2, 6), in the program's units."""
         of_torsion, of_crushing = self.conditions

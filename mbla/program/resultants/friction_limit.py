@@ -30,6 +30,11 @@ class FrictionLimit:
     of_total: sp.csr_array
     of_share: sp.csr_array
 
+    @property
+    def rest(self) -> FloatArray:
+        """V − R, (n,): what carries shear alone."""
+        return np.asarray(np.maximum(self.total - self.share, 0.0))
+
 
 def friction_limit(limits: TorsionLimits, resultants: FloatArray) -> FrictionLimit:
     """Sizes of the sets at resultants (n_interfaces, 6)."""
@@ -77,7 +82,7 @@ def curve_support(slip: FloatArray, twist: FloatArray, theta: FloatArray) -> Flo
 def torsion_reserve(limits: TorsionLimits, resultants: FloatArray) -> FloatArray:
     """R − R' over the largest V, (n_interfaces,); infinite where there is no condition."""
     size, r = friction_limit(limits, resultants), resultants[limits.interfaces]
-    beyond = np.hypot(r[:, 1], r[:, 2]) - np.maximum(size.total - size.share, 0.0)
+    beyond = np.hypot(r[:, 1], r[:, 2]) - size.rest
     needed = curve_size(np.maximum(beyond, 0.0), np.abs(r[:, 3]) / limits.radii, limits.thetas)
     reserve = np.full(len(resultants), np.inf)
     reserve[limits.interfaces] = np.maximum(size.share - needed, 0.0) / max(float(size.total.max(initial=0.0)), 1e-300)

@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, IterationRecord, ProgramRecord, Status
 
 Log = Callable[[IterationRecord], None]
 
@@ -35,6 +35,11 @@ class ConeSolution:
     seconds: float
     solver: str = "clarabel"
     factorization: str = ""
+
+    @property
+    def usable(self) -> bool:
+        """Whether it has a value, and numbers to go on with."""
+        return self.status in WITH_VALUE and bool(np.isfinite(self.x).all() and np.isfinite(self.z).all())
 
     @property
     def verdict(self) -> str:

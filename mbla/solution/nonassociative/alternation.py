@@ -40,7 +40,7 @@ from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
+from mbla.solution.solution import ProgramRecord, Status
 
 FLOOR = 1e-9
 """Least shear limit of the motion program, in mean block loads: without it the sliding speed of an open point has no
@@ -122,10 +122,9 @@ class Alternation:
         self.work += solution.iterations
         self.programs += 1
         self.late = self.late or solution.status is Status.TIME_LIMIT
-        usable = solution.status in WITH_VALUE and np.isfinite(solution.x).all() and np.isfinite(solution.z).all()
-        value = -float(solution.z[0]) * live if usable else np.nan
+        value = -float(solution.z[0]) * live if solution.usable else np.nan
         self.records.append(solution.record(number, kind, value))
-        return solution if usable else None
+        return solution if solution.usable else None
 
     def _lagged(self, normal: FloatArray) -> YieldLimits:
         """Friction beyond the dilatancy as given normal forces leave it, (n_points,)."""

@@ -33,7 +33,7 @@ def state_without_dilatancy(
     """
     program, limits = convex.points, convex.torsion
     moved = (program.equilibrium_matrix.T @ velocities).reshape(-1, 3)
-    own = moved - (convex.resultants.T @ motions.sum(axis=1).ravel()).reshape(-1, 3)
+    own = convex.own_velocities(moved, motions)
     speed = max(float(np.linalg.norm(moved, axis=1).max(initial=0.0)), 1e-300)
     closing = float(np.where(np.isfinite(program.limits.compression), 0.0, -own[:, 0]).max(initial=0.0)) / speed
     of_points, at_points = _unexplained_at_points(program.limits, forces, own)
@@ -42,9 +42,8 @@ def state_without_dilatancy(
     size = friction_limit(limits, resultants)
     r, motion = resultants[limits.interfaces], motions[limits.interfaces, 0]
     slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
-    rest = np.maximum(size.total - size.share, 0.0)
-    of_torsion = size.share * curve_support(slip, twist, limits.thetas) + rest * slip
-    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - rest, 0.0)
+    of_torsion = size.share * curve_support(slip, twist, limits.thetas) + size.rest * slip
+    beyond = np.maximum(np.hypot(r[:, 1], r[:, 2]) - size.rest, 0.0)
     twisting = curve_size(beyond, np.abs(r[:, 3]) / limits.radii, limits.thetas) - size.share
     rows, of_crushing = convex.crushing.interfaces, np.zeros(convex.n_interfaces)
     fields = StressFields.of(convex.shapes, rows, convex.crushing.strength)
