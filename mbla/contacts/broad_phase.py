@@ -12,8 +12,8 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
-from mbla.contacts.outlines.polygons import CrowdedError, box_pairs
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import CrowdedError, meeting_boxes
 from mbla.model.solids.ragged import chunks, rows_and_items
 
 NEAR_MISS = 10.0
@@ -61,7 +61,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
     margin = (NEAR_MISS * tolerance / 2 * blocks.sizes)[:, None]
     most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
     try:
-        i, j = box_pairs(lower - margin, upper + margin, most)
+        i, j = meeting_boxes(lower - margin, upper + margin, lower - margin, upper + margin, most)
     except CrowdedError as crowded:
         words = (
             f"many blocks lie in one place, as {blocks.name(crowded.box)}: more than {most:,} pairs come near each "

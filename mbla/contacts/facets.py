@@ -9,20 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.overlay import frames_from_normals, unit
-from mbla.contacts.outlines.polygons import (
-    Polygons,
-    areas,
-    convex_polygons,
-    map_polygons,
-    polygons_from_loops,
-    union_by_row,
-)
+from mbla.contacts.outlines.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.measures import connected_labels
-from mbla.model.solids.ragged import next_item, rows_and_items
+from mbla.model.solids.ragged import next_item, row_maxima, row_means, row_sums, rows_and_items
 
 # Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude
 # slower than floating arithmetic, which is enough where faces share their edges, and checked by the area.
@@ -67,17 +61,16 @@ class Facets:
 def build_facets(blocks: Blocks) -> Facets:
     """Facets of all blocks; see :class:`Facets`."""
     corner_start = blocks.loop_start
-    face_of_corner = row_of_item(corner_start)
     corners = blocks.vertices[blocks.loops]
-    centres = np.add.reduceat(corners, corner_start[:-1]) / np.diff(corner_start)[:, None]
+    centres = row_means(corners, corner_start)
     facet_of_face = facets_on_one_plane(blocks, centres)
-    facet_of_corner = facet_of_face[face_of_corner]
+    facet_of_corner = facet_of_face[blocks.face_of_corner]
     _, first_face = np.unique(facet_of_face, return_index=True)
     block_of_facet = blocks.block_of_face[first_face]
     joined = (blocks.facet_of_face != blocks.facet_of_face[first_face][facet_of_face]).nonzero()[0]
     joined = np.isin(np.arange(len(first_face)), facet_of_face[joined])
 
-    face_areas = _face_areas(corners - centres[face_of_corner], corner_start, blocks.face_normals)
+    face_areas = _face_areas(corners - centres[blocks.face_of_corner], corner_start, blocks.face_normals)
     origins, frames = _fitted_planes(facet_of_face, centres, blocks.face_normals, face_areas)
     local = np.einsum("kij,kj->ki", frames[facet_of_corner], corners - origins[facet_of_corner])
     polygons = _outlines(local[:, 1:], corner_start, facet_of_face, joined, blocks.sizes[block_of_facet])
@@ -98,11 +91,9 @@ def build_facets(blocks: Blocks) -> Facets:
 
 def _face_areas(relative_corners: FloatArray, corner_start: IntArray, normals: FloatArray) -> FloatArray:
     """Areas (n_faces,) from corners relative to a point near each face; never zero, for they serve as weights."""
-    following = relative_corners[next_item(corner_start)]
-    vectors = np.add.reduceat(np.cross(relative_corners, following), corner_start[:-1]) / 2
-    extents = np.maximum.reduceat((relative_corners**2).sum(axis=1), corner_start[:-1])
-    found: FloatArray = np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-12 * extents)
-    return found
+    vectors = row_sums(np.cross(relative_corners, relative_corners[next_item(corner_start)]), corner_start) / 2
+    extents = row_maxima((relative_corners**2).sum(axis=1), corner_start)
+    return np.asarray(np.maximum(np.einsum("fi,fi->f", vectors, normals), 1e-12 * extents))
 
 
 def _fitted_planes(
@@ -135,7 +126,8 @@ def _outlines(
     counts = np.bincount(facet)
     outlines: Polygons = faces[starts(counts.astype(np.int64))[:-1]].copy()
     _unite(outlines, faces, facet, (counts > 1) & ~joined, None)
-    lost = np.abs(areas(outlines) - np.bincount(facet, weights=areas(faces))) > _LOST * areas(outlines)
+    areas = shapely.area(outlines)
+    lost = np.abs(areas - np.bincount(facet, weights=shapely.area(faces))) > _LOST * areas
     _unite(outlines, faces, facet, joined | lost, _GRID)
     return _scaled(outlines, sizes)
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
@@ -20,9 +21,9 @@ from mbla.contacts.joints import Laws
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.outlines.overlay import local_maps
 from mbla.contacts.outlines.polygons import (
+    GRID,
     Polygons,
     connected_parts,
-    difference,
     intersect,
     map_polygons,
     union_by_row,
@@ -74,7 +75,8 @@ def counted_once(
     cut = patches.polygons.copy()
     chosen, row = np.unique(later, return_inverse=True)
     order = np.argsort(row, kind="stable")
-    cut[chosen] = difference(cut[chosen], union_by_row(common[order], row[order].astype(np.int64), len(chosen)))
+    taken = union_by_row(common[order], row[order].astype(np.int64), len(chosen))
+    cut[chosen] = shapely.difference(cut[chosen], taken, grid_size=GRID)
     parts, source = connected_parts(cut)
     wide = ~np.isin(source, chosen) | (widths(parts) >= tolerance * (1 - _WHOLE))
     parts, source = parts[wide], source[wide]

@@ -19,23 +19,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
-from mbla.contacts.outlines.polygons import (
-    Polygons,
-    areas,
-    boxes_overlap,
-    connected_parts,
-    contains,
-    corners,
-    inner_points,
-    intersect,
-    map_polygons,
-    widths,
-)
+from mbla.contacts.outlines.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import rows_and_items
@@ -93,7 +83,7 @@ def find_patches(
         overlays.append(on_ground)
         shapes.append(_outlines(on_ground, facets, 1))
     parts, row = connected_parts(np.concatenate(shapes))
-    return _measured(concatenate(overlays).take(row), parts, areas(facets.polygons))
+    return _measured(concatenate(overlays).take(row), parts, shapely.area(facets.polygons))
 
 
 def judge(patches: Patches, tolerance: float, reach: float | None = None) -> Verdicts:
@@ -160,7 +150,7 @@ def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
 
 
 def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -> Patches:
-    points, row = corners(polygons)
+    points, row = shapely.get_coordinates(polygons, return_index=True)
     gap = gap_at(overlays, row, points)
     first = np.flatnonzero(np.diff(row, prepend=-1))
     high = np.maximum.reduceat(gap, first) if len(first) else np.zeros(0)
@@ -173,7 +163,7 @@ def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -
         widths=widths(polygons),
         gaps=np.where(high >= -low, high, low),
         mid_gaps=(high + low) / 2,
-        coverage=areas(polygons) * overlays.sizes**2 / smaller,
+        coverage=shapely.area(polygons) * overlays.sizes**2 / smaller,
     )
 
 
@@ -182,7 +172,7 @@ def drop_covered_near_misses(near_misses: Patches, contacts: Patches) -> Patches
     if not len(near_misses) or not len(contacts):
         return near_misses
     overlays = near_misses.overlays
-    local = inner_points(near_misses.polygons)
+    local = shapely.get_coordinates(shapely.point_on_surface(near_misses.polygons))
     inside = overlays.origins + overlays.sizes[:, None] * np.einsum("ka,kai->ki", local, overlays.frames[:, 1:])
     covered = np.zeros(len(near_misses), dtype=bool)
     for side in (0, 1):
@@ -190,7 +180,7 @@ def drop_covered_near_misses(near_misses: Patches, contacts: Patches) -> Patches
         on = contacts.overlays
         offset = (inside[miss] - on.origins[contact]) / on.sizes[contact, None]
         flat = np.einsum("kai,ki->ka", on.frames[contact, 1:], offset)
-        covered[miss[contains(contacts.polygons[contact], flat)]] = True
+        covered[miss[shapely.contains_xy(contacts.polygons[contact], *flat.T)]] = True
     return near_misses.take(~covered)
 
 

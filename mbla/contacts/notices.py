@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
-from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.outlines.corners import Corners
-from mbla.contacts.outlines.polygons import areas
 from mbla.contacts.report import WIDEST, Findings
-from mbla.contacts.third_block import SeparatedPairs
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.model.solids.ragged import row_maxima
 from mbla.model.wording import counted, named
 
-# So many are named in a notice; the arrays of the report have all.
 _NAMED = 3
+"""pairs that are named in a notice; the arrays of the report have all"""
 
 
 def report_notices(
@@ -29,44 +28,113 @@ def report_notices(
     """What the report and the findings it was made of have to say."""
     bodies = findings.contacts.overlays.bodies
     return (
-        *_isolated(model, section, report),
-        *_unsupported(model, report),
-        *_overlaps(model, report),
-        *_near_misses(model, section, report),
-        *_slivers(model, section, report),
+        *_loose(model, section, report),
+        *(Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)),
+        *_missed(model, section, report),
         *_grounds(model, section, bodies),
-        *_fixed_contacts(report),
-        *_separated_pairs(model, findings.separated),
-        *_glue(report, findings.glue),
+        *_left_out(model, report, findings),
     )
 
 
-def _glue(report: ContactReport, glue: Glue) -> list[Notice]:
-    """What open and glued joints left out, and what glue made of the blocks."""
-    found = []
+def _loose(model: Model, section: ContactsSection, report: ContactReport) -> Iterator[Notice]:
+    """Blocks that touch nothing, and parts that reach no support."""
+    if number := len(report.isolated):
+        verb = "touches nothing" if number == 1 else "touch nothing"
+        text = f"{number} of {counted(len(model.blocks), 'block')} {verb}: {named(report.isolated, model.blocks.name)}"
+        if section.isolated == "allow":
+            yield Notice("notice", "isolated-blocks", text)
+        else:
+            text = f"{text}; exit status 4, unless contacts.isolated is allow"
+            yield Notice("warning", "isolated-blocks", text)
+    if parts := [part for part in report.unsupported if len(part) > 1]:  # one alone is an isolated block
+        largest = max(parts, key=len)
+        text = (
+            f"{counted(len(parts), 'part')} of the structure not connected to a support; the "
+            f"{'largest' if len(parts) > 1 else 'part'} has {counted(len(largest), 'block')}: "
+            f"{named(largest, model.blocks.name)}"
+        )
+        yield Notice("warning", "unsupported-parts", text)
+
+
+def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
+    """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
+    return tuple(
+        f"{_pair(model, pair)} overlap by {_length(model, pair, depth)}: move them apart, leave one out"
+        f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
+        for pair, depth in zip(report.overlaps, report.overlap_depths.tolist(), strict=True)
+    )
+
+
+def _missed(model: Model, section: ContactsSection, report: ContactReport) -> Iterator[Notice]:
+    """What could not be judged, and faces that nearly touch, or touch over next to nothing."""
+    if number := len(report.unchecked):
+        text = (
+            f"{counted(number, 'pair')} of blocks not checked for overlap, because the faces of one do not form a "
+            f"closed solid: {', '.join(_pair(model, pair) for pair in report.unchecked[:_NAMED])}{_more(number)}"
+        )
+        yield Notice("warning", "overlap-not-checked", text)
+    if number := len(report.near_misses):
+        gaps = report.near_miss_gaps
+        nearest = [
+            f"{_pair(model, report.near_misses[row])} ({_length(model, report.near_misses[row], gaps[row])})"
+            for row in np.argsort(np.abs(gaps), kind="stable")[:_NAMED]
+        ]
+        text = (
+            f"{counted(number, 'near miss')}, opposite faces that miss each other by more than the "
+            f"tolerance of {section.tolerance:g}: {', '.join(nearest)}{_more(number)}; they are no contacts"
+            f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
+        )
+        yield Notice("warning", "near-misses", text)
+    if number := len(report.slivers):
+        widest = int(np.argmax(report.sliver_widths))
+        pair, width = report.slivers[widest], float(report.sliver_widths[widest])
+        text = (
+            f"{counted(number, 'common surface')} narrower than the tolerance of {section.tolerance:g} "
+            f"dropped; the widest, between {_pair(model, pair)}, measures {_length(model, pair, width)}"
+        )
+        yield Notice("notice", "slivers-dropped", text)
+
+
+def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> Iterator[Notice]:
+    """Ground planes that carry nothing, and blocks that lie partly below one."""
+    blocks = model.blocks
+    for index, ground in enumerate(model.grounds):
+        if not (bodies[:, 0] == len(blocks) + index).any():
+            text = f"no face lies on {ground.label} within the tolerance: it carries nothing"
+            yield Notice("warning", "ground-without-contact", text)
+        if ground.blocks is not None:
+            continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
+        height = (blocks.vertices - ground.point) @ ground.normal
+        depths, heights = (row_maxima(sign * height, blocks.vertex_start) for sign in (-1.0, 1.0))
+        crossing = np.flatnonzero(np.minimum(depths, heights) > section.tolerance * blocks.sizes)
+        if len(crossing):
+            which = named(crossing, model.blocks.name)
+            text = f"{counted(len(crossing), 'block')} on both sides of {ground.label}: {which}"
+            yield Notice("warning", "block-crosses-ground", text)
+
+
+def _left_out(model: Model, report: ContactReport, findings: Findings) -> Iterator[Notice]:
+    """Interfaces between what does not move, across a thin block, open ones, and those inside of rigid bodies."""
+    if report.fixed_contacts:
+        text = f"{counted(report.fixed_contacts, 'contact')} between bodies that are both fixed left out"
+        yield Notice("notice", "fixed-contacts-left-out", text)
+    if number := len(held := findings.separated):
+        gaps, overlays = held.patches.mid_gaps, held.patches.overlays
+        row = int(np.argmax(gaps * overlays.sizes))
+        pair = overlays.bodies[row]
+        text = (
+            f"{counted(number, 'common surface')} within the tolerance left out, because a thin block lies between: "
+            f"{_pair(model, pair)} stand {_length(model, pair, float(gaps[row]))} apart on "
+            f"{model.body_name(int(held.between[row]))}{', and others' if number > 1 else ''}"
+        )
+        yield Notice("notice", "thin-block-between", text)
     if report.open_interfaces:
         text = f"{counted(report.open_interfaces, 'interface')} with open joints left out: no contact"
-        found.append(Notice("notice", "open-interfaces-left-out", text))
-    if len(report.glued):
-        text = f"{counted(len(report.glued), 'internal interface')} (glued) left out: {glue_words(report, glue.sizes)}"
-        found.append(Notice("notice", "blocks-glued", text))
-    return found
-
-
-def _separated_pairs(model: Model, held: SeparatedPairs) -> list[Notice]:
-    """Faces within the tolerance of each other that are no contacts, for a third block lies between."""
-    if not len(held):
-        return []
-    overlays = held.patches.overlays
-    gaps = held.patches.mid_gaps
-    row = int(np.argmax(gaps * overlays.sizes))
-    pair = overlays.bodies[row]
-    text = (
-        f"{counted(len(held), 'common surface')} within the tolerance left out, because a thin block lies between: "
-        f"{_pair(model, pair)} stand {_length(model, pair.tolist(), float(gaps[row]))} apart on "
-        f"{model.body_name(int(held.between[row]))}{', and others' if len(held) > 1 else ''}"
-    )
-    return [Notice("notice", "thin-block-between", text)]
+        yield Notice("notice", "open-interfaces-left-out", text)
+    if number := len(report.glued):
+        words = glue_words(report, findings.glue.sizes)
+        text = f"{counted(number, 'internal interface')} (glued) left out: {words}"
+        yield Notice("notice", "blocks-glued", text)
 
 
 def glue_words(report: ContactReport, sizes: IntArray) -> str:
@@ -74,112 +142,9 @@ def glue_words(report: ContactReport, sizes: IntArray) -> str:
     parts = []
     if len(sizes):
         parts.append(f"{counted(int(sizes.sum()), 'block')} make {counted(len(sizes), 'rigid body')}")
-    if len(report.held):
-        one = len(report.held) == 1
-        held = f"{counted(len(report.held), 'block')} glued to a support {'does' if one else 'do'} not move"
-        parts.append(held)
+    if number := len(report.held):
+        parts.append(f"{counted(number, 'block')} glued to a support {'does' if number == 1 else 'do'} not move")
     return ", ".join(parts) or "none of the blocks moved without"
-
-
-def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
-    """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
-    return tuple(
-        f"{_pair(model, pair)} overlap by {_length(model, pair.tolist(), depth)}: move them apart, leave one out"
-        f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
-        for pair, depth in zip(report.overlaps, report.overlap_depths.tolist(), strict=True)
-    )
-
-
-def _overlaps(model: Model, report: ContactReport) -> list[Notice]:
-    found = [Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)]
-    if len(report.unchecked):
-        text = (
-            f"{counted(len(report.unchecked), 'pair')} of blocks not checked for overlap, because the faces of one do "
-            f"not form a closed solid: {_pairs(model, report.unchecked)}"
-        )
-        found.append(Notice("warning", "overlap-not-checked", text))
-    return found
-
-
-def _near_misses(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
-    if not len(report.near_misses):
-        return []
-    gaps = report.near_miss_gaps
-    order = np.argsort(np.abs(gaps), kind="stable")
-    named = ", ".join(
-        f"{_pair(model, report.near_misses[row])} ({_length(model, report.near_misses[row].tolist(), gaps[row])})"
-        for row in order[:_NAMED]
-    )
-    text = (
-        f"{counted(len(gaps), 'near miss')}, opposite faces that miss each other by more than the "
-        f"tolerance of {section.tolerance:g}: {named}{_more(len(gaps))}; they are no contacts"
-        f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
-    )
-    return [Notice("warning", "near-misses", text)]
-
-
-def _slivers(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
-    if not len(report.slivers):
-        return []
-    widest = int(np.argmax(report.sliver_widths))
-    pair, width = report.slivers[widest], float(report.sliver_widths[widest])
-    text = (
-        f"{counted(len(report.slivers), 'common surface')} narrower than the tolerance of {section.tolerance:g} "
-        f"dropped; the widest, between {_pair(model, pair)}, measures {_length(model, pair.tolist(), width)}"
-    )
-    return [Notice("notice", "slivers-dropped", text)]
-
-
-def _isolated(model: Model, section: ContactsSection, report: ContactReport) -> list[Notice]:
-    number = len(report.isolated)
-    if not number:
-        return []
-    verb = "touches nothing" if number == 1 else "touch nothing"
-    text = f"{number} of {counted(len(model.blocks), 'block')} {verb}: {named(report.isolated, model.blocks.name)}"
-    if section.isolated == "allow":
-        return [Notice("notice", "isolated-blocks", text)]
-    return [Notice("warning", "isolated-blocks", f"{text}; exit status 4, unless contacts.isolated is allow")]
-
-
-def _unsupported(model: Model, report: ContactReport) -> list[Notice]:
-    parts = [part for part in report.unsupported if len(part) > 1]  # one alone is an isolated block
-    if not parts:
-        return []
-    text = (
-        f"{counted(len(parts), 'part')} of the structure not connected to a support; the "
-        f"{'largest' if len(parts) > 1 else 'part'} has "
-        f"{counted(max(len(part) for part in parts), 'block')}: {named(max(parts, key=len), model.blocks.name)}"
-    )
-    return [Notice("warning", "unsupported-parts", text)]
-
-
-def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> list[Notice]:
-    """Ground planes that carry nothing, and blocks that lie partly below one."""
-    found = []
-    blocks = model.blocks
-    for index, ground in enumerate(model.grounds):
-        if not (bodies[:, 0] == len(blocks) + index).any():
-            text = f"no face lies on {ground.label} within the tolerance: it carries nothing"
-            found.append(Notice("warning", "ground-without-contact", text))
-        if ground.blocks is not None:
-            continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
-        height = (blocks.vertices - ground.point) @ ground.normal
-        first = blocks.vertex_start[:-1]
-        low, high = np.minimum.reduceat(height, first), np.maximum.reduceat(height, first)
-        limit = section.tolerance * blocks.sizes
-        crossing = np.flatnonzero((low < -limit) & (high > limit))
-        if len(crossing):
-            which = named(crossing, model.blocks.name)
-            text = f"{counted(len(crossing), 'block')} on both sides of {ground.label}: {which}"
-            found.append(Notice("warning", "block-crosses-ground", text))
-    return found
-
-
-def _fixed_contacts(report: ContactReport) -> list[Notice]:
-    if not report.fixed_contacts:
-        return []
-    text = f"{counted(report.fixed_contacts, 'contact')} between bodies that are both fixed left out"
-    return [Notice("notice", "fixed-contacts-left-out", text)]
 
 
 def _more(number: int) -> str:
@@ -190,14 +155,9 @@ def _pair(model: Model, pair: IntArray) -> str:
     return f"{model.body_name(int(pair[0]))} and {model.body_name(int(pair[1]))}"
 
 
-def _pairs(model: Model, pairs: IntArray) -> str:
-    return ", ".join(_pair(model, pair) for pair in pairs[:_NAMED]) + _more(len(pairs))
-
-
-def _length(model: Model, pair: Sequence[int], relative: float) -> str:
+def _length(model: Model, pair: IntArray, relative: float) -> str:
     """``0.012 m, 0.03 of the block size``: a length relative to the block size of a pair."""
-    sizes = model.blocks.sizes
-    size = min(sizes[body] for body in pair if body < len(sizes))
+    size = model.blocks.sizes[pair[pair < len(model.blocks)]].min()
     return f"{relative * size:.3g} {model.units.length}, {relative:.2g} of the block size"
 
 
@@ -214,23 +174,21 @@ which blocks turn move by about that share of their distance, and the load facto
 
 def outline_notices(
     model: Model, section: ContactsSection, patches: Patches, corners: Corners, drawn: FloatArray
-) -> list[Notice]:
-    """A notice where corners that were left out change the area of a common surface, or nothing.
+) -> Iterator[Notice]:
+    """A notice where corners that were left out change the area of a common surface.
 
     patches : with the outlines as they were cut
     corners : those that stay
     drawn   : (n_patches,) area within these, relative like the outlines
     """
-    changes = np.abs(drawn / areas(patches.polygons) - 1.0)
-    simpler = int((changes > SEEN).sum())
-    if not simpler:
-        return []
-    most = int(np.argmax(changes))
-    first, second = (model.body_name(int(body)) for body in patches.overlays.bodies[most])
-    stay = int((corners.polygon_of_corner == most).sum())
-    text = (
-        f"corners within the tolerance of {section.tolerance:g} of the outline are left out, which changes the area of "
-        f"{simpler} common surface{'' if simpler == 1 else 's'}, most that of {first} and {second}, drawn by {stay} "
-        f"corners, by {100 * changes[most]:.2g} %: a smaller contacts.tolerance keeps more of them"
-    )
-    return [Notice("notice", "outlines-simplified", text)]
+    changes = np.abs(drawn / shapely.area(patches.polygons) - 1.0)
+    if simpler := int((changes > SEEN).sum()):
+        most = int(np.argmax(changes))
+        text = (
+            f"corners within the tolerance of {section.tolerance:g} of the outline are left out, which changes the "
+            f"area of {counted(simpler, 'common surface')}, most that of "
+            f"{_pair(model, patches.overlays.bodies[most])}, drawn by "
+            f"{int((corners.polygon_of_corner == most).sum())} corners, by {100 * changes[most]:.2g} %: a smaller "
+            "contacts.tolerance keeps more of them"
+        )
+        yield Notice("notice", "outlines-simplified", text)

@@ -94,11 +94,12 @@ def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: flo
         a, b = (int(block) for block in pairs.blocks[row])
         size = float(pairs.sizes[row])
         origin = blocks.centroids[a if blocks.sizes[a] <= blocks.sizes[b] else b]
-        solids = [Solid(blocks.vertices, triangles[block], origin, size) for block in (a, b)]
-        if not all(solid.sound for solid in solids):
+        one, other = (_solid(blocks.vertices, triangles[block], origin, size) for block in (a, b))
+        if one is None or other is None:
             unchecked.append((a, b))
             continue
-        thickness = solids[0].shared_thickness(solids[1])
+        common = one ^ other
+        thickness = 2 * abs(common.volume()) / (common.surface_area() or 1.0)
         if thickness > tolerance:
             found.append((a, b))
             depths.append(thickness)
@@ -109,25 +110,6 @@ def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: flo
         np.array(depths, dtype=np.float64),
         np.array(unchecked, dtype=np.int64).reshape(-1, 2),
     )
-
-
-class Solid:
-    """A closed surface of triangles as a solid, in coordinates relative to ``origin`` over ``size``."""
-
-    def __init__(self, vertices: FloatArray, triangles: IntArray, origin: FloatArray, size: float) -> None:
-        first, last = triangles.min(), triangles.max()
-        self._solid: Any = _manifold((vertices[first : last + 1] - origin) / size, triangles - first)
-
-    @property
-    def sound(self) -> bool:
-        """False where the triangles do not form a closed solid, so that nothing can be said about overlaps."""
-        return self._solid is not None
-
-    def shared_thickness(self, other: Solid) -> float:
-        """Thickness 2 V / S of what two sound solids share, V its volume and S its surface; 0 if nothing."""
-        common = self._solid ^ other._solid
-        surface = common.surface_area()
-        return 2 * abs(common.volume()) / surface if surface > 0 else 0.0
 
 
 def triangulate_blocks(blocks: Blocks, chosen: IntArray) -> dict[int, IntArray]:
@@ -154,10 +136,13 @@ def _triangles(loop: IntArray, flat: FloatArray) -> IntArray:
     return loop[None] if len(loop) == 3 else loop[np.asarray(triangulate([flat]))]
 
 
-def _manifold(vertices: FloatArray, triangles: IntArray) -> Any | None:
+def _solid(vertices: FloatArray, triangles: IntArray, origin: FloatArray, size: float) -> Any | None:
+    """A closed surface of triangles relative to ``origin`` over ``size``; None where it closes no solid."""
     from manifold3d import Error, Manifold, Mesh64
 
-    mesh = Mesh64(vert_properties=vertices, tri_verts=triangles.astype(np.uint64))
+    first, last = triangles.min(), triangles.max()
+    corners = (vertices[first : last + 1] - origin) / size
+    mesh = Mesh64(vert_properties=corners, tri_verts=(triangles - first).astype(np.uint64))
     solid = Manifold(mesh)
     if solid.status() != Error.NoError:
         mesh.merge()  # vertices listed twice at one place

@@ -55,7 +55,7 @@ def build_report(model: Model, findings: Findings) -> ContactReport:
         overlaps=overlaps.pairs,
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
-        isolated=isolated_blocks(len(model.blocks), bodies),
+        isolated=np.setdiff1d(np.arange(len(model.blocks)), bodies),
         unsupported=unsupported_parts(held_blocks(model), bodies),
         fixed_contacts=int(both_fixed(model, touching).sum()),
         open_interfaces=len(findings.open_bodies),
@@ -94,23 +94,12 @@ def _slivers(model: Model, slivers: Patches) -> tuple[IntArray, FloatArray]:
 
 def _near_misses(model: Model, misses: Patches, overlaps: Overlaps) -> tuple[IntArray, FloatArray]:
     """Pairs of bodies with the least gap of each, sorted; pairs that overlap anyway and fixed bodies left out."""
-    bodies = misses.overlays.bodies
-    n_bodies = len(model.fixed) + len(model.grounds)
-    key = bodies[:, 0] * n_bodies + bodies[:, 1]
-    known = np.isin(key, overlaps.pairs[:, 0] * n_bodies + overlaps.pairs[:, 1])
-    rows = np.flatnonzero(~known & ~both_fixed(model, bodies))
+    bodies, n_bodies = misses.overlays.bodies, len(model.fixed) + len(model.grounds)
+    key, known = (pairs[:, 0] * n_bodies + pairs[:, 1] for pairs in (bodies, overlaps.pairs))
+    rows = np.flatnonzero(~np.isin(key, known) & ~both_fixed(model, bodies))
     rows = rows[np.lexsort((np.abs(misses.gaps[rows]), key[rows]))]
-    _, least = np.unique(key[rows], return_index=True)
-    rows = rows[least]
-    rows = rows[np.lexsort((bodies[rows, 1], bodies[rows, 0]))]
+    rows = rows[np.unique(key[rows], return_index=True)[1]]
     return bodies[rows], misses.gaps[rows]
-
-
-def isolated_blocks(n_blocks: int, bodies: IntArray) -> IntArray:
-    """Blocks that occur in none of the contacts between bodies (n, 2), sorted."""
-    touched = np.zeros(n_blocks, dtype=bool)
-    touched[bodies[bodies < n_blocks]] = True
-    return np.flatnonzero(~touched)
 
 
 def held_blocks(model: Model) -> BoolArray:

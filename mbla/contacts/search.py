@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.facets import Facets, build_facets
@@ -18,8 +19,8 @@ from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
 from mbla.contacts.outlines.points import in_pieces, interface_points
-from mbla.contacts.outlines.polygons import centroids, polygons_from_loops, widths
-from mbla.contacts.outlines.refine import InterfacePoints, point_starts
+from mbla.contacts.outlines.polygons import polygons_from_loops, widths
+from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
@@ -133,7 +134,7 @@ def _contacts(
         gaps=kept.gaps * size,
         joints=joints[0],
         joint_names=joints[1],
-        point_start=point_starts(found),
+        point_start=starts(np.bincount(interface, minlength=len(kept)).astype(np.int64)),
         outline=found.outline,
         points=_in_space(kept, interface, found.points),
         frames=kept.overlays.frames[interface],
@@ -154,8 +155,7 @@ def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
 def _sites(model: Model, patches: Patches, order: IntArray) -> Sites:
     """What decides about joint laws; ``order`` has the rows of the patches among all that were found or prescribed."""
     prescribed = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
-    centres = _in_space(patches, np.arange(len(patches)), centroids(patches.polygons))
-    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], centres, prescribed)
+    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], _centroids(patches), prescribed)
 
 
 def _order(patches: Patches, chosen: BoolArray) -> IntArray:
@@ -163,8 +163,13 @@ def _order(patches: Patches, chosen: BoolArray) -> IntArray:
     rows = np.flatnonzero(chosen)
     some = patches.take(rows)
     bodies = some.overlays.bodies
-    along = _in_space(some, np.arange(len(some)), centroids(some.polygons)) @ _ODD_DIRECTION
+    along = _centroids(some) @ _ODD_DIRECTION
     return np.asarray(rows[np.lexsort((along, bodies[:, 1], bodies[:, 0]))])
+
+
+def _centroids(patches: Patches) -> FloatArray:
+    """Of common surfaces, (n, 3) m."""
+    return _in_space(patches, np.arange(len(patches)), shapely.get_coordinates(shapely.centroid(patches.polygons)))
 
 
 def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray:

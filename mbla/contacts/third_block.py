@@ -13,12 +13,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.narrow_phase import Patches, Verdicts
 from mbla.contacts.outlines.overlay import concatenate, local_maps
-from mbla.contacts.outlines.polygons import areas, box_pairs, corners, intersect, map_polygons, widths
+from mbla.contacts.outlines.polygons import intersect, map_polygons, widths
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import meeting_boxes
 from mbla.model.solids.ragged import rows_and_items
 
 # Difference of two gaps, relative to block size, below which they are one: some last digits of a coordinate.
@@ -138,7 +140,7 @@ def _behind_one_facet(patches: Patches) -> tuple[IntArray, IntArray]:
     if not len(rows):
         return none, none
     lower, upper = _boxes(patches.take(rows))
-    i, j = (rows[side] for side in box_pairs(lower, upper))
+    i, j = (rows[side] for side in meeting_boxes(lower, upper, lower, upper, np.inf))
     i, j = np.where(gap[i] > gap[j], i, j), np.where(gap[i] > gap[j], j, i)
     on_one = (face[i][:, :, None] == face[j][:, None, :]).any(axis=(1, 2))
     same = (np.sort(overlays.bodies[i], axis=1) == np.sort(overlays.bodies[j], axis=1)).all(axis=1)
@@ -149,7 +151,7 @@ def _behind_one_facet(patches: Patches) -> tuple[IntArray, IntArray]:
 def _boxes(patches: Patches) -> tuple[FloatArray, FloatArray]:
     """Least and greatest coordinates (n, 3) of the surfaces, with as much room about them as their gap."""
     overlays = patches.overlays
-    local, row = corners(patches.polygons)
+    local, row = shapely.get_coordinates(patches.polygons, return_index=True)
     points = np.einsum("ka,kai->ki", local, overlays.frames[row, 1:]) * overlays.sizes[row, None]
     points += overlays.origins[row]
     first = np.flatnonzero(np.diff(row, prepend=-1))
@@ -167,6 +169,6 @@ def _share_a_surface(patches: Patches, far: IntArray, closer: IntArray, toleranc
     matrices = matrices * patches.overlays.sizes[far, None, None]
     moved = map_polygons(patches.polygons[far], matrices, offsets)
     common = intersect(moved, patches.polygons[closer], np.zeros(len(far), dtype=bool))
-    share = areas(common) / np.minimum(areas(moved), areas(patches.polygons[closer]))
+    share = shapely.area(common) / np.minimum(shapely.area(moved), shapely.area(patches.polygons[closer]))
     wide = (widths(common) >= tolerance * (1 - 1e-9)) | (share >= 0.5)
     return np.asarray((share >= _SHARE) & wide)

@@ -19,15 +19,14 @@ from mbla.contacts.outlines.overlay import (
     unit,
 )
 from mbla.contacts.outlines.polygons import (
-    CrowdedError,
     Polygons,
-    box_pairs,
     connected_parts,
     intersect,
     polygons_from_loops,
     union_by_row,
     widths,
 )
+from mbla.model.solids.plane import CrowdedError, meeting_boxes
 
 
 def array(*polygons: shapely.Geometry) -> Polygons:
@@ -41,7 +40,7 @@ def test_box_pairs_agree_with_all_against_all(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
     lower = rng.uniform(0, 5, (count, 3))
     upper = lower + rng.uniform(0, 2, (count, 3))
-    i, j = box_pairs(lower, upper)
+    i, j = meeting_boxes(lower, upper, lower, upper, 10**6)
     expected = [
         (a, b)
         for a in range(count)
@@ -54,10 +53,10 @@ def test_box_pairs_agree_with_all_against_all(seed: int, count: int) -> None:
 def test_boxes_in_one_place_are_not_paired() -> None:
     rng = np.random.default_rng(1)
     lower = rng.uniform(0, 100, (3000, 3))
-    assert len(box_pairs(lower, lower + 1, most=3000)[0]) < 3000
+    assert len(meeting_boxes(lower, lower + 1, lower, lower + 1, 3000)[0]) < 3000
     lower[1000:1500] = 50
     with pytest.raises(CrowdedError) as caught:
-        box_pairs(lower, lower + 1, most=3000)
+        meeting_boxes(lower, lower + 1, lower, lower + 1, 3000)
     assert 1000 <= caught.value.box < 1500
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.points import MOST_PARTS, in_pieces, interface_points
-from mbla.contacts.outlines.refine import InterfacePoints, point_starts
+from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
 from tests.contacts.structures import boxes, contacts_of, ground, section
@@ -44,7 +44,7 @@ def asked(points_asked: ContactPoints, *polygons: shapely.Polygon) -> tuple[Inte
     assert (np.diff(points.polygon) >= 0).all()
     everywhere = shapely.points(points.points)
     assert shapely.dwithin(np.array(polygons, dtype=object)[points.polygon], everywhere, 1e-9).all()
-    for i, start in enumerate(point_starts(points)[:-1]):
+    for i, start in enumerate(np.searchsorted(points.polygon, np.arange(len(points.outline)))):
         ring = points.points[start : start + points.outline[i]]
         assert shapely.is_ccw(shapely.linearrings(ring))
     return points, notices

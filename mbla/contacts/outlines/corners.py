@@ -12,9 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, valid, widths
+from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, widths
 from mbla.model.solids.ragged import next_item
 
 # Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
@@ -110,7 +111,8 @@ def _crossing_after(corners: Corners, keep: BoolArray) -> BoolArray:
     if changed.any():
         thinned = corners.take(keep & changed[corners.polygon_of_corner])
         _, dense = np.unique(thinned.polygon_of_ring, return_inverse=True)
-        changed[changed] = ~valid(polygons_from_rings(thinned.points, thinned.ring_start, dense.astype(np.int64)))
+        outlines = polygons_from_rings(thinned.points, thinned.ring_start, dense.astype(np.int64))
+        changed[changed] = ~shapely.is_valid(outlines)
     return changed[corners.polygon_of_corner]
 
 

@@ -1,4 +1,4 @@
-"""Polygons in the plane, in bulk: the only module that imports shapely.
+"""Polygons in the plane, in bulk, by shapely.
 
 An array of polygons is a numpy array of shapely geometries (polygons or multipolygons, with or without holes).
 """
@@ -19,67 +19,9 @@ Polygons: TypeAlias = NDArray[np.object_]
 _POLYGON, _MULTIPOLYGON, _COLLECTION = 3, 6, 7
 
 # Grid that overlays are snapped to, for coordinates of order one.
-_GRID = 1e-11
-
-# Rows that a tree is asked for at first; the number is doubled as long as there are fewer hits than the second number,
-# which bounds memory to some 50 MB wherever the boxes lie.
-_FIRST_ROWS, _MANY_HITS = 8, 1_000_000
+GRID = 1e-11
 
 _EMPTY = shapely.Polygon()
-
-
-class CrowdedError(Exception):
-    """Far more boxes share a point than those of things that lie beside each other.
-
-    box : the one that shares a point with most of those looked at
-    """
-
-    def __init__(self, box: int) -> None:
-        super().__init__(box)
-        self.box = box
-
-
-def box_pairs(lower: FloatArray, upper: FloatArray, most: float = np.inf) -> tuple[IntArray, IntArray]:
-    """Pairs i < j of boxes that share a point, sorted by i, then j.
-
-    lower, upper : (n, 3) corners of the boxes
-    most         : pairs that are found; raises ``CrowdedError`` before there are many more
-
-    The tree works on the two axes along which the boxes are smallest against the whole; the third is compared after.
-    """
-    if len(lower) < 2:
-        empty = np.zeros(0, dtype=np.int64)
-        return empty, empty
-    extent = upper.max(axis=0) - lower.min(axis=0)
-    selectivity = np.median(upper - lower, axis=0) / np.where(extent > 0, extent, 1.0)
-    selectivity[extent <= 0] = 2.0
-    first, second, third = np.argsort(selectivity, kind="stable")
-    rectangles = shapely.box(lower[:, first], lower[:, second], upper[:, first], upper[:, second])
-    tree = shapely.STRtree(rectangles)
-    found: list[tuple[IntArray, IntArray]] = []
-    number, begin, size = 0, 0, _FIRST_ROWS
-    spread = _spread(len(lower))
-    while begin < len(spread):
-        rows = spread[begin : begin + size]
-        i, j = tree.query(rectangles[rows])
-        hits, i = len(i), rows[i]
-        keep = (i < j) & (lower[i, third] <= upper[j, third]) & (lower[j, third] <= upper[i, third])
-        i, j = i[keep], j[keep].astype(np.int64)
-        found.append((i, j))
-        number += len(i)
-        if number > most:
-            raise CrowdedError(int(np.bincount(i).argmax()))
-        begin += size
-        size = max(size // 2, 1) if hits > _MANY_HITS else 2 * size
-    i, j = (np.concatenate([pair[side] for pair in found]) for side in (0, 1))
-    order = np.lexsort((j, i))
-    return i[order], j[order]
-
-
-def _spread(n: int) -> IntArray:
-    """All rows, (n,), in an order in which those that follow each other are from everywhere."""
-    step = max(round(np.sqrt(n)), 1)
-    return np.concatenate([np.arange(begin, n, step) for begin in range(step)])
 
 
 def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
@@ -184,14 +126,8 @@ def intersect(first: Polygons, second: Polygons, convex: BoolArray) -> Polygons:
     rows = np.flatnonzero(~convex)
     if len(rows):
         # Snapped to a grid the overlay is robust; in floating arithmetic it may lose parts whose edges nearly coincide.
-        common[rows] = shapely.intersection(first[rows], second[rows], grid_size=_GRID)
+        common[rows] = shapely.intersection(first[rows], second[rows], grid_size=GRID)
     return common
-
-
-def difference(first: Polygons, second: Polygons) -> Polygons:
-    """What of each polygon lies outside of another, (n,); may be empty, or in several parts."""
-    left: Polygons = shapely.difference(first, second, grid_size=_GRID)
-    return left
 
 
 def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
@@ -247,12 +183,6 @@ def widths(polygons: Polygons) -> FloatArray:
     return width
 
 
-def corners(polygons: Polygons) -> tuple[FloatArray, IntArray]:
-    """All corners, (n_corners, 2), and the row of the polygon each belongs to; the closing corner is listed twice."""
-    points, row = shapely.get_coordinates(polygons, return_index=True)
-    return points, row.astype(np.int64)
-
-
 def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
     """Corners of all rings without the closing one; outer rings counter-clockwise, holes clockwise.
 
@@ -274,36 +204,6 @@ def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
     position = np.arange(len(points))
     mirrored = start[ring] + start[ring + 1] - 1 - position
     return points[np.where(wrong[ring], mirrored, position)], start, polygon.astype(np.int64)
-
-
-def valid(polygons: Polygons) -> BoolArray:
-    """True where no ring crosses itself or another, (n,)."""
-    result: BoolArray = np.atleast_1d(shapely.is_valid(polygons))
-    return result
-
-
-def contains(polygons: Polygons, points: FloatArray) -> BoolArray:
-    """True where a polygon contains its point, (n,); points : (n, 2)."""
-    result: BoolArray = np.atleast_1d(shapely.contains_xy(polygons, points[:, 0], points[:, 1]))
-    return result
-
-
-def inner_points(polygons: Polygons) -> FloatArray:
-    """A point inside each polygon, (n, 2)."""
-    points: FloatArray = shapely.get_coordinates(shapely.point_on_surface(polygons))
-    return points
-
-
-def areas(polygons: Polygons) -> FloatArray:
-    """Area of each polygon, (n,)."""
-    found: FloatArray = shapely.area(polygons)
-    return found
-
-
-def centroids(polygons: Polygons) -> FloatArray:
-    """Centroid of each polygon, (n, 2)."""
-    points: FloatArray = shapely.get_coordinates(shapely.centroid(polygons))
-    return points
 
 
 def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:

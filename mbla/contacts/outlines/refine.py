@@ -50,7 +50,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.outlines.convex import convex_loops
 from mbla.contacts.outlines.corners import Corners, parallelograms
 from mbla.contacts.outlines.polygons import polygons_from_rings, triangles
@@ -225,11 +225,6 @@ def _nodes_of_triangles(corners: FloatArray, parts: int) -> tuple[FloatArray, Fl
     edge1, edge2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = np.abs(edge1[:, 0] * edge2[:, 1] - edge1[:, 1] * edge2[:, 0]) / 2
     return ((a + b) + c) / parts, area[:, None] / (3 * parts**2) * touching
-
-
-def point_starts(points: InterfacePoints) -> IntArray:
-    """Offsets of the points of each polygon, (n_polygons + 1,)."""
-    return starts(np.bincount(points.polygon, minlength=len(points.outline)).astype(np.int64))
 
 
 def _fan_shares(points: FloatArray) -> FloatArray:

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.solids.ragged import chunks
 
 
 def unit(direction: Sequence[float] | FloatArray) -> FloatArray:
@@ -59,24 +60,49 @@ def signed_areas(loops: FloatArray) -> FloatArray:
     return np.asarray((to[..., 0] * after[..., 1] - to[..., 1] * after[..., 0]).sum(axis=1) / 2)
 
 
-AT_ONCE = 20_000
-"""boxes of which the partners are looked for together"""
+MOST_HITS = 20_000_000
+"""rectangles that meet, in memory together, wherever they lie"""
+
+
+class CrowdedError(Exception):
+    """Far more boxes share a point than those of things that lie beside each other; ``box`` has most partners."""
+
+    def __init__(self, box: int) -> None:
+        super().__init__(box)
+        self.box = box
 
 
 def meeting_boxes(
-    lower: FloatArray, upper: FloatArray, others_lower: FloatArray, others_upper: FloatArray
+    lower: FloatArray, upper: FloatArray, others_lower: FloatArray, others_upper: FloatArray, most: float | None = None
 ) -> tuple[IntArray, IntArray]:
-    """Rows of boxes and of others that share a point, sorted by the first, then by the second; corners (n, 3) each."""
+    """Rows of boxes and of others that share a point, sorted by the first, then by the second; corners (n, 3) each.
+
+    most : the others are the boxes themselves, each pair i < j is given once, and there are hardly more than so many
+
+    The tree works on the two axes along which the others are smallest against the whole; the third is compared after.
+
+    Raises
+    ------
+    CrowdedError
+        where there are more
+    """
     import shapely
 
-    tree = shapely.STRtree(shapely.box(*others_lower[:, :2].T, *others_upper[:, :2].T))
-    rectangles = shapely.box(*lower[:, :2].T, *upper[:, :2].T)
-    found = [np.empty((2, 0), dtype=np.int64)]
-    for begin in range(0, len(lower), AT_ONCE):
-        row, other = tree.query(rectangles[begin : begin + AT_ONCE])
-        row = row + begin
-        near = (lower[row, 2] <= others_upper[other, 2]) & (others_lower[other, 2] <= upper[row, 2])
-        found.append(np.stack([row, other])[:, near])
-    row, other = np.concatenate(found, axis=1).astype(np.int64)
+    found, number = [np.empty((2, 0), dtype=np.int64)], 0
+    if len(lower) and len(others_lower):
+        extent = others_upper.max(axis=0) - others_lower.min(axis=0)
+        share = np.median(others_upper - others_lower, axis=0) / np.where(extent > 0, extent, 1.0)
+        x, y, z = np.argsort(np.where(extent > 0, share, 2.0), kind="stable")
+        tree = shapely.STRtree(shapely.box(*others_lower[:, [x, y]].T, *others_upper[:, [x, y]].T))
+        rectangles = shapely.box(*lower[:, [x, y]].T, *upper[:, [x, y]].T)
+        for rows in chunks(np.full(len(lower), len(others_lower)), MOST_HITS):
+            row, other = tree.query(rectangles[rows])
+            row += rows.start
+            near = (lower[row, z] <= others_upper[other, z]) & (others_lower[other, z] <= upper[row, z])
+            found.append(np.stack([row, other])[:, near if most is None else near & (row < other)])
+            number += found[-1].shape[1]
+            if most is not None and number > most:
+                raise CrowdedError(int(np.bincount(found[-1][0]).argmax()))
+    row, other = np.concatenate(found, axis=1)
     order = np.lexsort((other, row))
     return row[order], other[order]
