@@ -22,7 +22,7 @@ from pydantic_core import PydanticUndefined
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
 from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, Quantity
-from mbla.deck.section import AT_LEAST_ONE, EXACTLY_ONE
+from mbla.deck.section import EXACTLY_ONE
 from mbla.deck.units import DIMENSIONS
 
 REPOSITORY = Path(__file__).parents[2]
@@ -35,8 +35,6 @@ def deck_schema() -> dict[str, Any]:
     definitions = {name: tidy(definition) for name, definition in schema.pop("$defs").items()}
     for section, keys in EXACTLY_ONE.items():
         definitions[section.__name__]["oneOf"] = [{"required": [key]} for key in keys]
-    for section, keys in AT_LEAST_ONE.items():
-        definitions[section.__name__]["anyOf"] = [{"required": [key]} for key in keys]
     schema = tidy(schema)
     # With an inclusion, what this file lacks may come from another.
     required = [key for key in schema.pop("required") if key != "mbla"]

@@ -7,7 +7,7 @@ A rule gets a section whose own keys are all valid and yields what is wrong belo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar
 
 from pydantic import (
@@ -39,10 +39,6 @@ RULES: dict[type, list[Rule]] = {}
 """By the type of section that they check; they hold for the types made from it too."""
 EXACTLY_ONE: dict[type, tuple[str, ...]] = {}
 """Keys of which a section has exactly one; the schema says so too."""
-AT_LEAST_ONE: dict[type, tuple[str, ...]] = {}
-"""Keys of which a section has one or more; the schema says so too."""
-KINDS: dict[type, str] = {}
-"""What the keys are where they are too many for one line; messages then leave the list to the key reference."""
 
 
 def rule(*sections: type) -> Callable[[R], R]:
@@ -56,25 +52,12 @@ def rule(*sections: type) -> Callable[[R], R]:
     return register
 
 
-def exactly_one_of(*keys: str, kind: str = "") -> Callable[[type[Model]], type[Model]]:
-    """A section has exactly one of some keys, of all its keys if none is named; ``kind`` as in ``KINDS``."""
+def exactly_one_of(*keys: str) -> Callable[[type[Model]], type[Model]]:
+    """A section has exactly one of some keys, of all its keys if none is named."""
 
     def register(section: type[Model]) -> type[Model]:
         chosen = EXACTLY_ONE[section] = keys or tuple(section.model_fields)
-        if kind:
-            KINDS[section] = kind
-        rule(section)(lambda item: one_of(item, chosen, kind=kind))
-        return section
-
-    return register
-
-
-def at_least_one_of(*keys: str) -> Callable[[type[Model]], type[Model]]:
-    """A section has one or more of some keys."""
-
-    def register(section: type[Model]) -> type[Model]:
-        AT_LEAST_ONE[section] = keys
-        rule(section)(lambda item: some_of(item, keys))
+        rule(section)(lambda item: one_of(item, chosen))
         return section
 
     return register
@@ -86,14 +69,13 @@ class TooManyWrongError(Exception):
 
 @dataclass
 class WrongValues:
-    """Number of wrong values that a check has found so far, and the first mappings with what is wrong in each.
+    """Number of wrong values that a check has found so far.
 
-    The library that checks builds an error for every wrong value, of which only the first ``MOST_FAULTS`` are told: a
-    list of a million wrong items would take gigabytes. An exception of ours that is no ValueError ends it at once.
+    The library that checks builds an error for every wrong value: a list of a million wrong items would take
+    gigabytes. An exception of ours that is no ValueError ends it at once.
     """
 
     number: int = 0
-    mappings: list[tuple[dict[str, Any], ValidationError]] = field(default_factory=list)
 
     def add(self, number: int = 1) -> None:
         """Count wrong values.
@@ -106,12 +88,6 @@ class WrongValues:
         self.number += number
         if self.number > MOST_WRONG:
             raise TooManyWrongError
-
-    def add_section(self, value: Any, error: ValidationError, before: int) -> None:
-        """Count what is wrong in a section beside what was counted in it; ``before`` is the number at its beginning."""
-        if isinstance(value, dict) and len(self.mappings) <= MOST_FAULTS:
-            self.mappings.append((value, error))
-        self.add(max(error.error_count() - (self.number - before), 0))
 
 
 def wrong_values(context: dict[str, Any] | None) -> WrongValues:
@@ -133,7 +109,7 @@ class Section(BaseModel):
         try:
             section = handler(value)
         except ValidationError as error:
-            wrong.add_section(value, error, before)
+            wrong.add(max(error.error_count() - (wrong.number - before), 0))  # beside what was counted below it
             raise
         findings = [finding for kind in cls.__mro__ for check in RULES.get(kind, ()) for finding in check(section)]
         if findings:
@@ -162,24 +138,11 @@ def given(section: Any, keys: Sequence[str]) -> list[str]:
     return [key for key in keys if getattr(section, key) is not None]
 
 
-def one_of(section: Any, keys: Sequence[str], what: str = "", kind: str = "") -> Iterator[Finding]:
-    """Findings where a section has none or several of some keys.
-
-    what : ends the sentence
-    kind : stands for the list of keys, where they are too many for one line
-    """
+def one_of(section: Any, keys: Sequence[str], what: str = "") -> Iterator[Finding]:
+    """Findings where a section has none or several of some keys; ``what`` ends the sentence."""
     found = given(section, keys)
     if not found:
-        some = (
-            f"one {kind}, such as {listed(keys[:3])}: the key reference lists all" if kind else f"one of {listed(keys)}"
-        )
-        yield Finding("missing-key", f"needs {some}{what}")
+        yield Finding("missing-key", f"needs one of {listed(keys)}{what}")
     elif len(found) > 1:
-        one = f"one {kind}" if kind else f"one of {listed(keys)}"
-        yield Finding("one-of-several", f"only {one} may be given{what}, here are {listed(found, 'and')}", found[1])
-
-
-def some_of(section: Any, keys: Sequence[str]) -> Iterator[Finding]:
-    """A finding where a section has none of some keys."""
-    if not given(section, keys):
-        yield Finding("missing-key", f"needs one of {listed(keys)}")
+        words = f"only one of {listed(keys)} may be given{what}, here are {listed(found, 'and')}"
+        yield Finding("one-of-several", words, found[1])

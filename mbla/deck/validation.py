@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from mbla.deck.content import DeckContent
-from mbla.deck.fields import allowed_keys, description, sections_at
+from mbla.deck.fields import allowed_keys, description
 from mbla.deck.gone import gone_key, gone_value
 from mbla.deck.quantities import PATTERNS
-from mbla.deck.section import KINDS, MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
+from mbla.deck.section import MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.text.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
-from mbla.errors import Fault, Message, first_faults
+from mbla.errors import MOST_FAULTS, Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
-NESTED = (dict, list)
 TOO_MANY = Message("more-faults", f"more than {MOST_WRONG:,} values are wrong: they are looked at no further")
 
 
@@ -33,44 +32,32 @@ def validate(
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
     """
-    wrong = WrongValues()
     try:
-        return built(root).model_validate(tree.data, context={"convert": convert, WRONG: wrong}), []
+        return built(root).model_validate(tree.data, context={"convert": convert, WRONG: WrongValues()}), []
     except ValidationError as error:
-        errors = _errors_of(error)
+        errors = error.errors(include_url=False, include_context=True)
     except TooManyWrongError:
-        errors = _errors_of_first(tree.data, wrong)
+        errors = _errors_of_first(tree.data, root, convert)
         if not errors:
             return None, [Fault(tree.place_of(tree.marks.own), "", TOO_MANY)]
     around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
     return None, first_faults(_faults(tree, root, errors, reported, around))
 
 
-def _errors_of(error: ValidationError, path: KeyPath = ()) -> list[Any]:
-    """What is wrong with the value at a path."""
-    found = error.errors(include_url=False, include_context=True)
-    return [{**each, "loc": (*path, *each["loc"])} for each in found] if path else list(found)
-
-
-def _errors_of_first(data: Any, wrong: WrongValues) -> list[Any]:
-    """What is wrong with the first mappings of a deck that have something wrong, which are found by what they are."""
-    errors = {id(value): error for value, error in wrong.mappings}
-    found: list[Any] = []
-    pending: list[tuple[KeyPath, Any]] = [((), data)]
-    while pending and errors:
-        path, value = pending.pop()
-        if isinstance(value, dict):
-            if error := errors.pop(id(value), None):
-                found += _errors_of(error, path)
-            pending += [((*path, key), below) for key, below in reversed(value.items()) if isinstance(below, NESTED)]
-        else:
-            below = [((*path, index), item) for index, item in enumerate(value) if isinstance(item, NESTED)]
-            pending += reversed(below)
-    return found
+def _errors_of_first(data: dict[str, Any], root: type[BaseModel], convert: Convert) -> Sequence[Any]:
+    """What is wrong with the first items of the lists of a deck; nothing where that is too much as well."""
+    first = {key: value[: MOST_FAULTS + 1] if isinstance(value, list) else value for key, value in data.items()}
+    try:
+        root.model_validate(first, context={"convert": convert, WRONG: WrongValues()})
+    except ValidationError as error:
+        return error.errors(include_url=False, include_context=True)
+    except TooManyWrongError:
+        pass
+    return []
 
 
 def _faults(
-    tree: Tree, root: type[BaseModel], errors: list[Any], reported: set[int], around: set[int]
+    tree: Tree, root: type[BaseModel], errors: Sequence[Any], reported: set[int], around: set[int]
 ) -> Iterator[Fault]:
     """Faults without those that only follow from others; ``around``: marks of what holds something reported."""
     by_path: dict[KeyPath, Any] = {}
@@ -172,7 +159,8 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         return Message("missing-key", "is missing" + (f": {meaning}" if meaning else "")), False
     if kind == "extra_forbidden":
         gone = gone_key(path) if root is DeckContent else None
-        return gone or Message("unknown-key", _unknown_key(root, path)), True
+        allowed = allowed_keys(root, path[:-1])
+        return gone or Message("unknown-key", unknown("key", str(path[-1]), allowed)), True
     if kind in ("too_long", "too_short"):
         return Message("wrong-length", _length(context, _items(data, path))), False
     old = gone_value(path, value) if root is DeckContent else None
@@ -199,15 +187,6 @@ def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
     """The number that an expression or a text with a unit gives, where that is out of bounds."""
     computed = isinstance(_value_at(data, path), str) and isinstance(value, (int, float))
     return f"; this is {value:.6g}" if computed else ""
-
-
-def _unknown_key(root: type[BaseModel], path: KeyPath) -> str:
-    """With the keys that are allowed, or where to find them when they are too many for one line."""
-    key, allowed = str(path[-1]), allowed_keys(root, path[:-1])
-    kinds = [KINDS[section] for section in sections_at(root, path[:-1]) if section in KINDS]
-    if not kinds:
-        return unknown("key", key, allowed)
-    return f"unknown key{did_you_mean(key, allowed) or ';'} the key reference lists every {kinds[0]}"
 
 
 def _items(data: Any, path: KeyPath) -> str:

@@ -14,7 +14,7 @@ from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.deck.section import Section, exactly_one_of
 
 
-@exactly_one_of(kind="kind of item")
+@exactly_one_of()
 class BlockItem(Section):
     """An item of `blocks`: exactly one key, its kind."""
 

@@ -180,19 +180,7 @@ Gravity: TypeAlias = Annotated[
 ]
 
 
-@exactly_one_of(
-    "gravity",
-    "acceleration",
-    "force",
-    "moment",
-    "line",
-    "pressure",
-    "table",
-    "loads",
-    "travel",
-    "tilt",
-    kind="kind of load",
-)
+@exactly_one_of(*("gravity", "acceleration", "force", "moment", "line", "pressure", "table", "loads", "travel", "tilt"))
 class Load(Section):
     """One load of exactly one kind; dead or live, save `travel` and `tilt`, which are live only."""
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
 from mbla.deck.quantities import Box, Index, Name, Position
-from mbla.deck.section import Section, at_least_one_of, rule, shape
+from mbla.deck.section import Section, given, rule, shape
+from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
 POSITIONS = (
@@ -24,18 +25,21 @@ POSITIONS = (
     "copy",
 )
 """Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
+ONE_OF = ("group", "box")
+"""keys of a selector of which it has at least one"""
 PositionRange: TypeAlias = Annotated[
     Annotated[Position, Tag("number")] | Annotated[tuple[Position, Position], Tag("list")],
     Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "number"),
 ]
 
 
-@at_least_one_of("group", "box")
 class SelectorTerm(Section):
     """Blocks of a group, or blocks whose centroid lies in a box; every further key narrows the choice.
 
     A position is a number, or [first, last]; negative ones count from the last of the group, -1.
     """
+
+    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": [key]} for key in ONE_OF]})
 
     group: Name | None = Field(None, description="name of a group")
     box: Box | None = Field(None, description="least and greatest coordinates; centroids inside count")
@@ -72,7 +76,9 @@ Selector: TypeAlias = Annotated[
 
 @rule(SelectorTerm)
 def selector_term(term: SelectorTerm) -> Iterator[Finding]:
-    """An index counts within a group; a range ascends; a box has an extent."""
+    """A group or a box; an index counts within a group; a range ascends."""
+    if not given(term, ONE_OF):
+        yield Finding("missing-key", f"needs one of {listed(ONE_OF)}")
     if term.index is not None and term.group is None and term.box is not None:
         yield Finding("key-of-another-choice", "applies with group only", "index")
     for name in POSITIONS:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import re
 import stat
+from array import array
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -29,6 +31,7 @@ class FileKind:
 DECK = FileKind(name="deck", begins="mbla: 1", includes=True)
 MAX_BYTES = 16 * 1024 * 1024
 """Larger decks are refused: geometry of that size belongs in a mesh file."""
+_BREAK = re.compile("\r\n|\r|\n")
 # Every control character but tab, line feed and carriage return, and the two characters that Unicode never assigns.
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ufffe\uffff]")
 
@@ -47,27 +50,19 @@ class SourceText:
     line: int | None = None
 
     @cached_property
-    def _counted(self) -> list[int]:
-        """Offset up to which line breaks were counted, and how many there are: faults are told in their order."""
-        return [0, 0]
+    def _lines(self) -> array[int]:
+        """Offset at which each line begins."""
+        return array("q", (0, *(match.end() for match in _BREAK.finditer(self.text))))
 
     def place(self, offset: int) -> Place:
         """Place of the character at an offset of the text."""
         if self.line is not None:
             return Place(self.label, self.line, offset + 1)
-        text, (known, row) = self.text, self._counted
-        if offset < known:
-            known = row = 0
-        within = text[offset - 1 : offset + 1] == "\r\n"  # a break of two characters ends behind the second
-        row += text.count("\n", known, offset) + text.count("\r", known, offset) - text.count("\r\n", known, offset)
-        row -= within
-        self._counted[:] = offset, row
-        start = text.rfind("\n", 0, offset) + 1
-        start = max(start, text.rfind("\r", start, offset - within) + 1)
-        return Place(self.label, row + 1, offset - start + 1)
+        row = bisect_right(self._lines, offset)
+        return Place(self.label, row, offset - self._lines[row - 1] + 1)
 
 
-def read_bytes(path: Path, label: str) -> bytes:
+def _read_bytes(path: Path, label: str) -> bytes:
     """Content of a regular file.
 
     Raises
@@ -101,7 +96,7 @@ def read_source(path: Path, label: str, kind: FileKind = DECK) -> SourceText:
     DeckError
         if its content is not such a text, or too large
     """
-    content = read_bytes(path, label)
+    content = _read_bytes(path, label)
     return SourceText(label, _decode(content, label, kind), path.resolve())
 
 
@@ -109,13 +104,6 @@ def source_of_text(text: str, path: Path, label: str) -> SourceText:
     """A text as that of a file; DeckError as ``read_source``."""
     content = text.encode("utf-8", "surrogatepass")  # a lone surrogate is no text: told like any bad byte
     return SourceText(label, _decode(content, label, DECK), path.resolve())
-
-
-def check_characters(source: SourceText, kind: FileKind = DECK) -> None:
-    """Raises DeckError at the first control character."""
-    if match := _CONTROL.search(source.text):
-        words = f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
-        raise _refusal(source, match.start(), Message("control-character", words))
 
 
 def has_control_character(text: str) -> bool:
@@ -140,7 +128,9 @@ def _decode(content: bytes, label: str, kind: FileKind) -> str:
         byte = content[error.start]
         words = f"byte 0x{byte:02X} is not UTF-8: save the {kind.name} as UTF-8"
         raise _refusal(SourceText(label, before), len(before), Message("not-utf-8", words)) from None
-    check_characters(SourceText(label, text), kind)
+    if match := _CONTROL.search(text):
+        words = f"control character U+{ord(match.group()):04X} is not allowed in a {kind.name}"
+        raise _refusal(SourceText(label, text), match.start(), Message("control-character", words))
     return text
 
 
