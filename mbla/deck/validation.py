@@ -32,6 +32,7 @@ def validate(
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
     """
+    errors: Sequence[Any]
     try:
         return built(root).model_validate(tree.data, context={"convert": convert, WRONG: WrongValues()}), []
     except ValidationError as error:
