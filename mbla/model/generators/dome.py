@@ -30,7 +30,8 @@ from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
-from mbla.model.generators.curves import Symmetric, named_curve, radius_of
+from mbla.model.generators.curves import named_curve, radius_of
+from mbla.model.generators.curves.shapes import Smooth
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
@@ -43,14 +44,14 @@ class _Dome:
     """Intrados circle, angles of the joints from the springing up, height of the springing."""
 
     item: DomeItem
-    circle: Symmetric
+    circle: Smooth
     angles: FloatArray
     springing: float
 
     def joint(self, angle: float) -> FloatArray:
         """Intrados and extrados point of a joint, (2, 2): distance from the axis, height."""
         points = self.circle.points(np.array([angle]), np.array([[0.0, self.item.thickness]]))[0]
-        return np.asarray(points - [self.circle.span / 2, -self.springing], dtype=np.float64)
+        return np.asarray(points - [self.item.span / 2, -self.springing], dtype=np.float64)
 
     def ring(self, profile: FloatArray, number: int) -> Polyhedra:
         """The blocks of a ring, (n,), counted from the springing; rings below it have negative numbers."""
@@ -98,20 +99,20 @@ def generate_dome(item: DomeItem, site: Site) -> Generated:
 def _dome(item: DomeItem) -> _Dome:
     shape = "semicircular" if item.shape == "hemispherical" else item.shape
     circle = named_curve(shape, item.span, item.rise, item.embrace)
-    assert isinstance(circle, Symmetric)  # a circle, which both shapes are
+    assert isinstance(circle, Smooth)  # a circle, which both shapes are
     springing = item.drum.height if item.drum else 0.0
-    angles = np.linspace(circle.end, _top(item, circle), item.rings + 1)
+    angles = np.linspace(circle.ends[1], _top(item, circle), item.rings + 1)
     return _Dome(item, circle, angles, springing)
 
 
-def _top(item: DomeItem, circle: Symmetric) -> float:
+def _top(item: DomeItem, circle: Smooth) -> float:
     """Angle of the last joint from the crown."""
     key = "oculus" if item.oculus is not None else "keystone"
     diameter: float | None = getattr(item, key)
     if diameter is None:
-        return circle.end / (2 * item.rings + 1)
-    across = 2 * radius_of(circle.span, circle.end)
-    widest = across * np.sin(min(circle.end, np.pi / 2))
+        return circle.ends[1] / (2 * item.rings + 1)
+    across = 2 * radius_of(item.span, circle.ends[1])
+    widest = across * np.sin(min(circle.ends[1], np.pi / 2))
     if diameter >= widest:
         raise ItemRefused(Finding("out-of-bounds", f"must be < {widest:g}, the greatest diameter of the intrados", key))
     return float(np.arcsin(diameter / across))
@@ -125,7 +126,7 @@ def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
 
 def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:
     """Courses from the bottom; the last has a bevelled bed for the dome, and a ledge where the drum is wider."""
-    foot = dome.joint(dome.circle.end)
+    foot = dome.joint(dome.circle.ends[1])
     inside = foot[0, 0]
     outside = inside + (dome.item.thickness if drum.thickness is None else drum.thickness)
     if foot[1, 0] > outside + FLUSH * dome.item.thickness:
@@ -155,7 +156,7 @@ def _keystone(dome: _Dome, joint: FloatArray) -> Polyhedra:
 
 def _behind(dome: _Dome, joint: FloatArray) -> FloatArray:
     """Profile of the fixed blocks: from the springing joint back by the thickness."""
-    back = dome.item.thickness * np.array([np.cos(dome.circle.end), -np.sin(dome.circle.end)])
+    back = dome.item.thickness * np.array([np.cos(dome.circle.ends[1]), -np.sin(dome.circle.ends[1])])
     return np.array([joint[0] + back, joint[0], joint[1], joint[1] + back])
 
 

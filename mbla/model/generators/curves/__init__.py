@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
 from mbla.deck.items.arch import SIDE_ANGLE as SIDE_ANGLE
-from mbla.model.generators.curves.shapes import Curve as Curve
-from mbla.model.generators.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
-from mbla.model.generators.curves.shapes import Symmetric as Symmetric
+from mbla.model.generators.curves.shapes import Pointed, Smooth, basket, catenary, circle, ellipse, segmental
 from mbla.model.generators.curves.shapes import radius_of as radius_of
 
+Curve: TypeAlias = Smooth | Pointed
 WITH_RISE: dict[str, Callable[[float, float], Curve]] = {
     "segmental": segmental,
     "pointed": Pointed,

@@ -10,9 +10,6 @@ so that the length between two parameters is that of the curve itself plus o tim
 their length and their direction only, whatever the thickness of the arch. Equal lengths come from inverting the
 monotone function from parameter to length.
 
-A curve that is its own mirror image is known by its points, by its length from the crown and by the angle that it has
-turned by since, over a parameter from -end to end that is 0 at the crown.
-
 *Circle* (semicircular and segmental arches). With r the radius and a the half angle of embrace, the springings lie at z
 = 0, a span s = 2 r sin a apart, and the centre at x = s/2, z = -r cos a (above the springings for an embrace beyond 180
 degrees). The parameter is the angle t from the crown: x = s/2 + r sin t, z = -r cos a + r cos t, with t from -a to a.
@@ -43,46 +40,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, TypeAlias
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 
-
-class Curve(Protocol):
-    """A plane curve from its left springing to its right one; parameters grow on the way, in units of its own."""
-
-    @property
-    def crest(self) -> float | None:
-        """Parameter of a kink that points outside, such as the apex of a pointed arch; None for a smooth curve."""
-        ...
-
-    def divide(self, count: int, offset: float) -> FloatArray:
-        """Parameters (count + 1,) that divide the line at an offset outside into equal lengths, both ends included."""
-        ...
-
-    def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Points at offsets (n, k) on the joints at parameters (n,), as (n, k, 2).
-
-        At a kink the lines beside the curve are carried on until they meet.
-        """
-        ...
-
-    def forwards(self, parameters: FloatArray) -> FloatArray:
-        """Direction of travel at parameters (n,), unit and at right angles to the joint there, (n, 2)."""
-        ...
-
-    def lengths(self, parameters: FloatArray) -> FloatArray:
-        """Length of the curve itself from the left springing to parameters (n,)."""
-        ...
-
-
+RIGHT = np.pi / 2
 HALVINGS = 60
 """of an interval; more than a double has digits"""
+Along: TypeAlias = Callable[[FloatArray], FloatArray]
+"""function of parameters (n,), with values (n,)"""
 
 
-def invert(function: Callable[[FloatArray], FloatArray], values: FloatArray, low: float, high: float) -> FloatArray:
+def invert(function: Along, values: FloatArray, low: float, high: float) -> FloatArray:
     """Where an increasing function takes values (n,) between low and high: bisection, all values at once."""
     below, above = np.full(len(values), low), np.full(len(values), high)
     for _ in range(HALVINGS):
@@ -92,61 +63,55 @@ def invert(function: Callable[[FloatArray], FloatArray], values: FloatArray, low
     return np.asarray((below + above) / 2, dtype=np.float64)
 
 
-def beside(points: FloatArray, forwards: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Points at offsets (n, k) outside points (n, 2) of a curve with these directions (n, 2), as (n, k, 2)."""
-    outside = np.stack([-forwards[:, 1], forwards[:, 0]], axis=1)
-    return np.asarray(points[:, None, :] + offsets[..., None] * outside[:, None, :], dtype=np.float64)
-
-
-RIGHT = np.pi / 2
-Along: TypeAlias = Callable[[FloatArray], FloatArray]
-"""function of parameters (n,), with values (n,)"""
-
-
 @dataclass(frozen=True)
-class Symmetric:
-    """A smooth curve over a span [length] that is its own mirror image, from -end to end.
+class Smooth:
+    """A plane curve from its left springing to its right one; parameters grow on the way, in units of its own.
 
-    x, z   : coordinates [length]
-    length : from the crown, negative to the left [length]
-    turned : angle by which it has turned to the right since the crown [rad]
+    ends      : parameters of the springings; of a curve that is its own mirror image -end and end, 0 at the crown
+    x, z      : coordinates [length]
+    length    : from anywhere on it [length]
+    turned    : angle from +x to the direction of travel, to the right [rad]
+    symmetric : it is its own mirror image
+    crest     : parameter of a kink that points outside, such as the apex of a pointed arch; a smooth curve has none
     """
 
-    span: float
-    end: float
+    ends: tuple[float, float]
     x: Along
     z: Along
     length: Along
     turned: Along
-    crest: None = None
+    symmetric: bool = True
+    crest: ClassVar[None] = None
 
     def divide(self, count: int, offset: float) -> FloatArray:
-        """Parameters (n,) as ``Curve.divide``; both halves are mirror images to the last digit, the ends are exact."""
+        """Parameters (count + 1,) that divide the line at an offset outside into equal lengths, both ends included.
+
+        Those of a curve that is its own mirror image are so to the last digit.
+        """
 
         def length(parameters: FloatArray) -> FloatArray:
             return np.asarray(self.length(parameters) + offset * self.turned(parameters), dtype=np.float64)
 
-        steps = np.arange(count, -1, -2)  # in half steps from the crown, to both sides
-        outer = steps[steps > 0]
-        half = invert(length, float(length(np.array([self.end]))[0]) * outer / count, 0.0, self.end)
-        half[:1] = self.end
-        return np.concatenate([-half, [0.0] if count % 2 == 0 else [], half[::-1]])
+        first, last = length(np.array(self.ends))
+        inner = invert(length, first + (last - first) * np.arange(1, count) / count, *self.ends)
+        if self.symmetric:
+            inner = (inner - inner[::-1]) / 2
+        return np.concatenate([self.ends[:1], inner, self.ends[1:]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Points (n, k, 2) as ``Curve.points``; the springings of the curve itself are exact."""
-        curve = np.stack([self.x(parameters), self.z(parameters)], axis=1)
-        curve[parameters == -self.end] = [0.0, 0.0]
-        curve[parameters == self.end] = [self.span, 0.0]
-        return beside(curve, self.forwards(parameters), offsets)
+        """Points at offsets (n, k) outside, on the joints at parameters (n,), as (n, k, 2)."""
+        curve, forwards = np.stack([self.x(parameters), self.z(parameters)], axis=1), self.forwards(parameters)
+        outside = np.stack([-forwards[:, 1], forwards[:, 0]], axis=1)
+        return np.asarray(curve[:, None, :] + offsets[..., None] * outside[:, None, :], dtype=np.float64)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:
-        """Unit directions (n, 2) as ``Curve.forwards``."""
+        """Direction of travel at parameters (n,), unit and at right angles to the joint there, (n, 2)."""
         turned = self.turned(parameters)
         return np.stack([_cosine(turned), -np.sin(turned)], axis=1)
 
     def lengths(self, parameters: FloatArray) -> FloatArray:
-        """Lengths (n,) [length] as ``Curve.lengths``."""
-        return np.asarray(self.length(parameters) + self.length(np.array([self.end])), dtype=np.float64)
+        """Length of the curve itself from the left springing to parameters (n,) [length]."""
+        return np.asarray(self.length(parameters) - self.length(np.array(self.ends[:1])), dtype=np.float64)
 
 
 def _cosine(angles: FloatArray) -> FloatArray:
@@ -154,12 +119,11 @@ def _cosine(angles: FloatArray) -> FloatArray:
     return np.where(np.abs(angles) == RIGHT, 0.0, np.cos(angles))
 
 
-def circle(span: float, half_angle: float) -> Symmetric:
+def circle(span: float, half_angle: float) -> Smooth:
     """Arc of a circle over a span [length] with a half angle of embrace [rad]."""
     radius = radius_of(span, half_angle)
-    return Symmetric(
-        span,
-        half_angle,
+    return Smooth(
+        (-half_angle, half_angle),
         x=lambda t: span / 2 + radius * np.sin(t),
         z=lambda t: radius * (np.cos(t) - np.cos(half_angle)),
         length=lambda t: radius * t,
@@ -172,12 +136,12 @@ def radius_of(span: float, half_angle: float) -> float:
     return float(span / (2 * np.sin(half_angle)))
 
 
-def segmental(span: float, rise: float) -> Symmetric:
+def segmental(span: float, rise: float) -> Smooth:
     """Arc of a given rise: half the rise over half the span is the tangent of half the half angle."""
     return circle(span, float(2 * np.arctan2(rise, span / 2)))
 
 
-def basket(span: float, rise: float, side_angle: float) -> Symmetric:
+def basket(span: float, rise: float, side_angle: float) -> Smooth:
     """Three-centred curve over a span, with a rise [length] and the angle of each side arc [rad]."""
     k = float((1 - np.sin(side_angle)) / np.cos(side_angle))
     sides = (rise - k * span / 2) / (1 - k)  # positive where the rise exceeds k a
@@ -187,9 +151,8 @@ def basket(span: float, rise: float, side_angle: float) -> Symmetric:
         """Angle on a side arc, negative on the left one."""
         return np.asarray(np.sign(t) * np.maximum(np.abs(t) - (RIGHT - side_angle), 0.0))
 
-    return Symmetric(
-        span,
-        RIGHT,
+    return Smooth(
+        (-RIGHT, RIGHT),
         x=lambda t: (
             span / 2 + np.where(beyond(t) != 0, np.sign(t) * (span / 2 - sides) + sides * np.sin(t), middle * np.sin(t))
         ),
@@ -199,7 +162,7 @@ def basket(span: float, rise: float, side_angle: float) -> Symmetric:
     )
 
 
-def ellipse(span: float, rise: float) -> Symmetric:
+def ellipse(span: float, rise: float) -> Smooth:
     """Half an ellipse over a span, with a rise [length]."""
     half = span / 2
     ratio = rise / half
@@ -209,9 +172,8 @@ def ellipse(span: float, rise: float) -> Symmetric:
 
         return np.asarray(half * ellipeinc(u, 1 - ratio * ratio), dtype=np.float64)
 
-    return Symmetric(
-        span,
-        RIGHT,
+    return Smooth(
+        (-RIGHT, RIGHT),
         x=lambda u: half + half * np.sin(u),
         z=lambda u: rise * _cosine(u),
         length=length,
@@ -219,16 +181,15 @@ def ellipse(span: float, rise: float) -> Symmetric:
     )
 
 
-def catenary(span: float, rise: float) -> Symmetric:
+def catenary(span: float, rise: float) -> Smooth:
     """Catenary over a span, with a rise [length]."""
     ratio = np.array([2 * rise / span])
     # (cosh u - 1)/u is at least u/2, and more than the ratio at the logarithm below
     most = float(min(2.0 * ratio[0], 2.0 + 2.0 * np.log1p(ratio[0])))
     end = float(invert(lambda u: 2 * np.sinh(u / 2) ** 2 / u, ratio, 0.0, most)[0])
     scale = span / (2 * end)  # radius of curvature at the crown, a
-    return Symmetric(
-        span,
-        end,
+    return Smooth(
+        (-end, end),
         x=lambda u: span / 2 * (1 + u / end),
         # cosh U - cosh u, without the loss of digits in a flat one
         z=lambda u: 2 * scale * (np.sinh(end / 2) ** 2 - np.sinh(u / 2) ** 2),
@@ -254,13 +215,13 @@ class Pointed:
         return self.span / 4 + self.rise / self.span * self.rise
 
     def divide(self, count: int, offset: float) -> FloatArray:
-        """Parameters (n,) as ``Curve.divide``; the apex is a joint where the number of voussoirs is even."""
+        """Parameters (n,) as ``Smooth.divide``; the apex is a joint where the number of voussoirs is even."""
         whole = float(np.arccos((self.radius - self.span / 2) / (self.radius + offset)))
         left = 2 * whole * np.arange((count + 1) // 2) / count
         return np.concatenate([left, [APEX] if count % 2 == 0 else [], np.pi - left[::-1]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Points (n, k, 2) as ``Curve.points``."""
+        """Points (n, k, 2) as ``Smooth.points``; at the apex the lines beside the curve meet."""
         reach = self.radius + offsets
         left = parameters < APEX
         turned = np.where(left, parameters, np.pi - parameters)[:, None]
@@ -273,14 +234,14 @@ class Pointed:
         return np.stack([x, z], axis=-1)
 
     def forwards(self, parameters: FloatArray) -> FloatArray:
-        """Unit directions (n, 2) as ``Curve.forwards``; exact at the springings and at the apex."""
+        """Unit directions (n, 2) as ``Smooth.forwards``; exact at the springings and at the apex."""
         left = parameters < APEX
         turned = np.where(left, parameters, np.pi - parameters)
         up = np.where(parameters == APEX, 0.0, np.cos(turned))
         return np.stack([np.sin(turned), np.where(left, up, -up)], axis=1)
 
     def lengths(self, parameters: FloatArray) -> FloatArray:
-        """Lengths (n,) [length] as ``Curve.lengths``."""
+        """Lengths (n,) [length] as ``Smooth.lengths``."""
         half = float(np.arctan2(self.rise, self.radius - self.span / 2))
         turned = np.minimum(np.where(parameters < APEX, parameters, np.pi - parameters), half)
         return np.asarray(self.radius * np.where(parameters < APEX, turned, 2 * half - turned), dtype=np.float64)

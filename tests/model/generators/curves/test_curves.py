@@ -9,9 +9,10 @@ from scipy.integrate import quad
 from mbla.arrays import FloatArray
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
-from mbla.model.generators.curves.spline import Spline
+from mbla.model.generators.curves.spline import through
 
 SPAN = 4.0
+GIVEN = [(0.0, 0.0), (0.4, 1.0), (1.3, 1.7), (2.6, 1.8), (3.7, 0.9), (4.0, 0.2)]
 CURVES: dict[str, Curve] = {
     "semicircle": circle(SPAN, np.pi / 2),
     "segment": segmental(SPAN, 0.7),
@@ -22,7 +23,7 @@ CURVES: dict[str, Curve] = {
     "catenary": catenary(SPAN, 2.5),
     "basket": basket(SPAN, 1.3, np.radians(60)),
     "pointed": Pointed(SPAN, 3.0),
-    "spline": Spline(((0.0, 0.0), (0.4, 1.0), (1.3, 1.7), (2.6, 1.8), (3.7, 0.9), (4.0, 0.2))),
+    "spline": through(GIVEN),
 }
 SYMMETRIC = [name for name in CURVES if name != "spline"]
 LEVEL = ("semicircle", "flat ellipse", "tall ellipse", "basket", "pointed")
@@ -101,7 +102,7 @@ def test_lengths_are_those_of_the_chords_in_the_limit(name: str) -> None:
     at = np.linspace(low, high, 40_001)
     if curve.crest is not None:  # parameters in between stand for no point of the curve
         half = curve.points(np.array([curve.crest]), np.zeros((1, 1)))[0, 0]
-        turn = np.arctan2(half[1], curve.radius - half[0])  # type: ignore[attr-defined]
+        turn = np.arctan2(half[1], curve.radius - half[0])
         at = np.concatenate([np.linspace(0, turn, 20_000), np.pi - np.linspace(turn, 0, 20_000)])
     chords = np.linalg.norm(np.diff(on_curve(curve, at), axis=0), axis=1)
     assert np.diff(curve.lengths(at)).sum() == pytest.approx(chords.sum(), rel=1e-8)
@@ -156,7 +157,7 @@ def test_the_lines_beside_a_pointed_arch_meet_on_the_axis() -> None:
 def test_a_spline_through_points_of_a_circle_comes_close_to_it() -> None:
     angles = np.linspace(-1.2, 1.2, 15)
     given = np.stack([np.sin(angles) - np.sin(-1.2), np.cos(angles) - np.cos(1.2)], axis=1)
-    curve = Spline(tuple((float(x), float(z)) for x, z in given))
+    curve = through(given.tolist())
     joints = curve.divide(8, 0.2)
     arc = circle(float(2 * np.sin(1.2)), 1.2)
     expected = arc.points(arc.divide(8, 0.2), np.full((9, 1), 0.2))
@@ -164,11 +165,9 @@ def test_a_spline_through_points_of_a_circle_comes_close_to_it() -> None:
 
 
 def test_a_spline_passes_its_points() -> None:
-    curve = CURVES["spline"]
-    assert isinstance(curve, Spline)
-    chords = np.linalg.norm(np.diff(np.array(curve.given), axis=0), axis=1)
+    chords = np.linalg.norm(np.diff(np.array(GIVEN), axis=0), axis=1)
     at = np.concatenate([[0.0], np.cumsum(chords)])
-    assert on_curve(curve, at) == pytest.approx(np.array(curve.given), abs=1e-14)
+    assert on_curve(CURVES["spline"], at) == pytest.approx(np.array(GIVEN), abs=1e-14)
 
 
 @pytest.mark.parametrize("shape", ["semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"])
