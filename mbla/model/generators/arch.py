@@ -9,25 +9,26 @@ times the length, with joints at equal angles d of a circle n (R2^2 - R1^2)/2 si
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.items.arch import ArchItem
+from mbla.deck.items.arch import ArchItem, ArchPiers
 from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
-    LEVEL,
     Section,
-    SpringingJoint,
     Thickness,
     build_section,
-    courses,
+    check_rise,
+    check_width,
     end_springer,
     springer_polygons,
     springing_grounds,
     springing_joints,
-    unfit_rise,
+    stacks,
     vault_section,
     voussoir_polygons,
 )
@@ -57,13 +58,11 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     shear = float(np.tan(np.radians(item.skew)))
     voussoirs = _voussoirs(item, section, shear)
     if item.springers == "blocks":
-        behind = prisms(springer_polygons(section, springing), _full_width(item, 2), shear)
+        behind = _through(item, springer_polygons(section, springing), shear)
         return Generated((voussoirs, Part(behind, "_springers", fixed=True)))
     if item.springers == "ground":
         return Generated((voussoirs,), springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear))
-    if item.piers is not None:
-        return Generated((voussoirs, *_piers(item, section, shear)))
-    return Generated((voussoirs,))
+    return Generated((voussoirs, *(_piers(item, item.piers, section, shear) if item.piers else ())))
 
 
 def _curve(item: ArchItem) -> Curve:
@@ -76,77 +75,49 @@ def _curve(item: ArchItem) -> Curve:
 def _voussoirs(item: ArchItem, section: Section, shear: float) -> Part:
     """Blocks of all rings; in running bond across the width every other course begins with half a block."""
     polygons, number, ring = voussoir_polygons(section)
-    blocks, across, units = [], [], []
-    for polygon, odd in zip(polygons, (number + ring) % 2, strict=True):
-        edges = _edges_across(item.width, item.units_across, bool(odd))
-        blocks += [polygon] * (len(edges) - 1)
-        across.append(np.stack([edges[:-1], edges[1:]], axis=1))
-        units.append(np.arange(len(edges) - 1))
-    each = np.array([len(unit) for unit in units])
-    labels: dict[str, IntArray] = {
-        "voussoir": np.repeat(number, each),
-        "ring": np.repeat(ring, each),
-        "unit": np.concatenate(units),
-    }
-    return Part(prisms(blocks, np.concatenate(across), shear), member="voussoir", labels=labels)
+    even = np.linspace(0.0, item.width, item.units_across + 1)
+    odd = np.concatenate([[0.0], (even[:-1] + even[1:]) / 2, [item.width]]) if item.units_across > 1 else even
+    rows = [ends_of(odd if shifted else even) for shifted in (number + ring) % 2]
+    block = np.repeat(np.arange(len(polygons)), [len(row) for row in rows])
+    unit = np.concatenate([np.arange(len(row)) for row in rows])
+    labels: dict[str, IntArray] = {"voussoir": number[block], "ring": ring[block], "unit": unit}
+    made = prisms([polygons[row] for row in block.tolist()], np.concatenate(rows), shear)
+    return Part(made, member="voussoir", labels=labels)
 
 
-def _edges_across(width: float, count: int, odd: bool) -> FloatArray:
-    """Joints across the width, both faces included."""
-    if count == 1 or not odd:
-        return np.linspace(0.0, width, count + 1)
-    inner = width * (np.arange(count) + 0.5) / count
-    return np.concatenate([[0.0], inner, [width]])
-
-
-def _full_width(item: ArchItem, count: int) -> FloatArray:
-    return np.tile([0.0, item.width], (count, 1))
+def ends_of(joints: FloatArray) -> FloatArray:
+    """Both ends of each unit between joints (n + 1,), (n, 2)."""
+    return np.stack([joints[:-1], joints[1:]], axis=1)
 
 
 # --- springings ---------------------------------------------------------------------------------------------------
 
 
-def _piers(item: ArchItem, section: Section, shear: float) -> list[Part]:
+def _piers(item: ArchItem, piers: ArchPiers, section: Section, shear: float) -> Iterator[Part]:
     """Courses from the bottom, left and right in each; then the springer blocks where the joints are inclined."""
-    assert item.piers is not None
     joints = springing_joints(section)
-    _check_piers(item, joints)
-    stacks, springers, sides = [], [], []
-    for side, joint in enumerate(joints):
-        near, far = joint.intrados[0], joint.intrados[0] + joint.side * item.piers.width
-        top = joint.intrados[1]
-        stacks.append(courses(min(near, far), max(near, far), top - item.piers.height, top, item.piers.courses))
-        springer = end_springer(joint, item.piers.width)
-        if springer is not None:
-            springers.append(springer)
-            sides.append(side)
-    pairs = [block for course in zip(*stacks, strict=True) for block in course]
-    count = np.arange(len(pairs))
-    labels = {"course": count // 2, "unit": count % 2}
-    parts = [Part(_through(item, pairs, shear), member="pier", labels=labels)]
-    if springers:
-        above = {"course": np.full(len(sides), item.piers.courses), "unit": np.array(sides)}
-        parts.append(Part(_through(item, springers, shear), member="springer", labels=above))
-    return parts
-
-
-def _check_piers(item: ArchItem, joints: tuple[SpringingJoint, SpringingJoint]) -> None:
-    assert item.piers is not None
-    least = max(joint.reach for joint in joints)
     for joint in joints:
-        unfit = unfit_rise(joint)
-        if unfit is not None:
-            raise ItemRefused(Finding("arch-shape", unfit, "piers"))
-    if item.piers.width < least * (1 - LEVEL):
-        raise ItemRefused(
-            Finding("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint", "piers", "width")
-        )
-    if joints[1].intrados[0] <= joints[0].intrados[0]:
+        check_rise(joint, "piers")
+    if findings := list(check_width(piers.width, joints, "piers")):
+        raise ItemRefused(*findings)
+    (left, left_top), (right, right_top) = (joint.intrados for joint in joints)
+    if right <= left:
         raise ItemRefused(Finding("arch-shape", "the piers would overlap: nothing is left of the clear span", "piers"))
+    places = [(left - piers.width, left, left_top), (right, right + piers.width, right_top)]
+    blocks = stacks(places, piers.height, piers.courses)
+    count = np.arange(len(blocks))
+    yield Part(_through(item, blocks, shear), member="pier", labels={"course": count // 2, "unit": count % 2})
+    springers = [(side, end_springer(joint, piers.width)) for side, joint in enumerate(joints)]
+    polygons = [polygon for _, polygon in springers if polygon is not None]
+    if polygons:
+        sides = np.array([side for side, polygon in springers if polygon is not None])
+        labels = {"course": np.full(len(sides), piers.courses), "unit": sides}
+        yield Part(_through(item, polygons, shear), member="springer", labels=labels)
 
 
 def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:
-    return prisms(polygons, _full_width(item, len(polygons)), shear)
+    """Blocks over the whole width."""
+    return prisms(polygons, np.tile([0.0, item.width], (len(polygons), 1)), shear)
 
 
 NO_UNIT = 1e-6
@@ -179,5 +150,4 @@ def _ends(item: BarrelVaultItem, shifted: bool) -> FloatArray:
     first = item.unit / 2 if shifted else item.unit
     joints = first + item.unit * np.arange(int(np.ceil(item.length / item.unit)) + 1)
     inner = joints[joints < item.length - NO_UNIT * item.unit]
-    ends = np.concatenate([[0.0], inner, [item.length]])
-    return np.stack([ends[:-1], ends[1:]], axis=1)
+    return ends_of(np.concatenate([[0.0], inner, [item.length]]))

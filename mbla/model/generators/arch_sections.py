@@ -7,6 +7,7 @@ stand in courses, and springer blocks give an inclined springing joint a level b
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -201,18 +202,9 @@ class SpringingJoint:
 
     @property
     def rise(self) -> float:
-        """Height of the extrados over the intrados [length]; exactly zero where level."""
-        rise = float(self.extrados[1] - self.intrados[1])
-        return 0.0 if abs(rise) <= LEVEL * float(np.linalg.norm(self.extrados - self.intrados)) else rise
-
-
-def unfit_rise(joint: SpringingJoint) -> str | None:
-    """What is wrong with the inclination of a joint that a pier shall carry; None where nothing is."""
-    if joint.rise < 0:
-        return "a pier needs a springing joint that is level or rises outwards: at most half a circle"
-    if 0 < joint.rise < LEAST_RISE * float(np.linalg.norm(joint.extrados - joint.intrados)):
-        return "the springing joint is almost level, its springer block a sliver: make it level, or incline it more"
-    return None
+        """Height of the extrados over the intrados, relative to its length [-]; exactly zero where level."""
+        rise = float((self.extrados[1] - self.intrados[1]) / np.linalg.norm(self.extrados - self.intrados))
+        return 0.0 if abs(rise) <= LEVEL else rise
 
 
 def springing_joints(section: Section) -> tuple[SpringingJoint, SpringingJoint]:
@@ -221,25 +213,38 @@ def springing_joints(section: Section) -> tuple[SpringingJoint, SpringingJoint]:
     return SpringingJoint(first[0], first[-1], -1), SpringingJoint(last[0], last[-1], 1)
 
 
-def rectangle(left: float, right: float, bottom: float, top: float) -> FloatArray:
-    """Polygon counter-clockwise, (4, 2)."""
-    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+def check_rise(joint: SpringingJoint, *path: str | int) -> None:
+    """Refuse the inclination of a joint that a pier cannot carry; key path below the item."""
+    if joint.rise < 0:
+        words = "a pier needs a springing joint that is level or rises outwards: at most half a circle"
+        raise ItemRefused(Finding("arch-shape", words, *path))
+    if 0 < joint.rise < LEAST_RISE:
+        words = "the springing joint is almost level, its springer block a sliver: make it level, or incline it more"
+        raise ItemRefused(Finding("arch-shape", words, *path))
 
 
-def courses(left: float, right: float, bottom: float, top: float, count: int) -> list[FloatArray]:
-    """Rectangles (4, 2) of equal height on top of each other."""
-    levels = np.linspace(bottom, top, count + 1)
-    return [rectangle(left, right, levels[i], levels[i + 1]) for i in range(count)]
+def check_width(width: float, joints: Iterable[SpringingJoint], key: str) -> Iterator[Finding]:
+    """What stands under springing joints is as wide as they reach."""
+    least = max(joint.reach for joint in joints)
+    if width < least * (1 - LEVEL):
+        yield Finding("out-of-bounds", f"must be >= {least:g}, the extent of the springing joint", key, "width")
+
+
+def stacks(places: Sequence[tuple[float, float, float]], height: float, count: int) -> list[FloatArray]:
+    """Rectangles (4, 2) of equal height, course by course from the bottom; places: left, right and top of each pier."""
+    levels = [np.linspace(top - height, top, count + 1) for _, _, top in places]
+    return [
+        np.array([[left, at[course]], [right, at[course]], [right, at[course + 1]], [left, at[course + 1]]])
+        for course in range(count)
+        for (left, right, _), at in zip(places, levels, strict=True)
+    ]
 
 
 def end_springer(joint: SpringingJoint, width: float) -> FloatArray | None:
     """Block (k, 2) between a springing joint and the pier under it, over its width; None where the joint is level."""
     if not joint.rise:
         return None
-    far = joint.intrados[0] + joint.side * width
-    top = joint.extrados[1]
-    corners = [joint.intrados, joint.extrados, [far, top], [far, joint.intrados[1]]]
-    if abs(width - joint.reach) <= LEVEL * width:
-        corners = [joint.intrados, joint.extrados, [far, joint.intrados[1]]]
-    polygon = np.array(corners)
+    far, top = joint.intrados[0] + joint.side * width, joint.extrados[1]
+    beyond = [] if abs(width - joint.reach) <= LEVEL * width else [[far, top]]
+    polygon = np.array([joint.intrados, joint.extrados, *beyond, [far, joint.intrados[1]]])
     return polygon if joint.side < 0 else polygon[::-1]

@@ -24,10 +24,11 @@ from mbla.model.generators.arch_sections import (
     SpringingJoint,
     Thickness,
     build_section,
-    courses,
+    check_rise,
+    check_width,
     end_springer,
     springing_joints,
-    unfit_rise,
+    stacks,
     voussoir_polygons,
 )
 from mbla.model.generators.curves import Curve, named_curve
@@ -134,16 +135,9 @@ def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Sec
 
 
 def _check_widths(item: BridgeItem, joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]) -> None:
-    findings: list[Finding] = []
     for number, both_sides in enumerate(joints):
-        unfit = unfit_rise(both_sides[0])
-        if unfit is not None:
-            path = ("rise", number) if isinstance(item.rise, list) else ("rise",)
-            raise ItemRefused(Finding("arch-shape", unfit, *path))
-    least = max(joints[0][0].reach, joints[-1][1].reach)
-    if item.abutments.width < least * (1 - LEVEL):
-        words = f"must be >= {least:g}, the extent of the springing joint"
-        findings.append(Finding("out-of-bounds", words, "abutments", "width"))
+        check_rise(both_sides[0], "rise", *([number] if isinstance(item.rise, list) else []))
+    findings = list(check_width(item.abutments.width, (joints[0][0], joints[-1][1]), "abutments"))
     for one, other in pairwise(joints):
         assert item.piers is not None  # a rule of the deck
         both = one[1].reach + other[0].reach
@@ -188,8 +182,7 @@ def _supports(item: BridgeItem, frame: _Frame) -> list[Part]:
 
 
 def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> Part:
-    stacks = [courses(left, right, -height, 0.0, count) for left, right in ends]
-    polygons = [block for course in zip(*stacks, strict=True) for block in course]
+    polygons = stacks([(left, right, 0.0) for left, right in ends], height, count)
     number = np.arange(len(polygons))
     labels = {"course": number // len(ends), "unit": number % len(ends)}
     return _part(member, polygons, (0.0, item.width), labels)
