@@ -16,7 +16,8 @@ and fills 8 q A c. Sums of these, and the keystone, are the volumes.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -40,61 +41,59 @@ LEAST_EDGE = 1e-3
 class HalfSection:
     """Half of the section across x, from the springing up to the crown or to the keystone.
 
-    distance, height : (n_courses + 1, 2) of the intrados and extrados point of each joint from the middle, and z
-    back             : (2,) from the springing joint backwards by the thickness: distance, height
-    stretch          : bay[1]/bay[0]
-    keystone         : whether the last joint is that of a keystone rather than the crown itself
+    joints   : (n_courses + 2, 2, 2) of the intrados and extrados point of each joint the distance from the middle, and
+               z; the first of them lies behind the springing joint by the thickness
+    stretch  : bay[1]/bay[0]
+    keystone : whether the last joint is that of a keystone rather than the crown itself
     """
 
-    distance: FloatArray
-    height: FloatArray
-    back: FloatArray
+    joints: FloatArray
     stretch: float
     keystone: bool
 
     @property
     def courses(self) -> int:
         """Number of courses up to the last joint."""
-        return len(self.distance) - 1
+        return len(self.joints) - 2
 
     def profile(self, course: int) -> FloatArray:
         """The four points of a course, (4, 2): distance, height; from the intrados below round by the one above.
 
         The course -1 lies behind the springing joint.
         """
-        low = self._joint(course)
-        high = self._joint(course + 1)
+        low, high = self.joints[course + 1 : course + 3]
         return np.stack([low[0], high[0], high[1], low[1]])
-
-    def _joint(self, number: int) -> FloatArray:
-        joint = np.stack([self.distance[max(number, 0)], self.height[max(number, 0)]], axis=1)
-        return joint + self.back if number < 0 else joint
 
 
 def half_section(item: VaultItem, bay: tuple[float, float]) -> HalfSection:
     """The section of a vault over a bay, folded at the crown."""
     section = vault_section(item, bay[0])
-    half = section.joints[: item.courses // 2 + 1]
-    distance, height = bay[0] / 2 - half[..., 0], half[..., 1].copy()
+    joints = section.joints[: item.courses // 2 + 1] * [-1.0, 1.0] + [bay[0] / 2, 0.0]
     if item.courses % 2 == 0:
-        distance[-1] = 0.0
-    back = item.thickness * section.forwards[0] * [1.0, -1.0]
-    return HalfSection(distance, height, back, bay[1] / bay[0], item.courses % 2 == 1)
+        joints[-1, :, 0] = 0.0
+    behind = joints[:1] + item.thickness * section.forwards[0] * [1.0, -1.0]
+    return HalfSection(np.concatenate([behind, joints]), bay[1] / bay[0], item.courses % 2 == 1)
 
 
-def along_y(profile: FloatArray, y: float | FloatArray) -> FloatArray:
-    """A profile across x at a place along y, (4, 3); y for all its points or for each."""
-    return np.stack([profile[:, 0], np.broadcast_to(y, 4), profile[:, 1]], axis=1)
+def station(profile: FloatArray, x: float | FloatArray, y: float | FloatArray) -> FloatArray:
+    """The heights of a profile at places of the plan, (4, 3); x and y for all its points or for each."""
+    return np.stack([np.broadcast_to(x, 4), np.broadcast_to(y, 4), profile[:, 1]], axis=1)
 
 
-def along_x(profile: FloatArray, stretch: float, x: float | FloatArray) -> FloatArray:
-    """A profile across y at a place along x, (4, 3)."""
-    return np.stack([np.broadcast_to(x, 4), stretch * profile[:, 0], profile[:, 1]], axis=1)
+def mitred_block(section: HalfSection, course: int, x: float, y: float) -> FloatArray:
+    """The block in the corner +x+y, (1, 3, 4, 3): its end along x, the mitre over the diagonal, its end along y."""
+    profile = section.profile(course)
+    across, along = profile[:, 0], section.stretch * profile[:, 0]
+    return np.stack([station(profile, x, along), station(profile, across, along), station(profile, across, y)])[None]
 
 
-def mitred(profile: FloatArray, stretch: float) -> FloatArray:
-    """The profile over the diagonal, (4, 3)."""
-    return along_y(profile, stretch * profile[:, 0])
+def units_between(
+    profile: FloatArray, stretch: float, x: Sequence[float | FloatArray], y: Sequence[float | FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Units of a course along x and along y between upright joints (n,) each, (n - 1, 2, 4, 3)."""
+    along_x = np.array([station(profile, at, stretch * profile[:, 0]) for at in x])
+    along_y = np.array([station(profile, profile[:, 0], at) for at in y])
+    return np.stack([along_x[1:], along_x[:-1]], axis=1), np.stack([along_y[:-1], along_y[1:]], axis=1)
 
 
 def reflected(stations: FloatArray, corner: tuple[int, int]) -> Polyhedra:
@@ -103,18 +102,8 @@ def reflected(stations: FloatArray, corner: tuple[int, int]) -> Polyhedra:
     return chains(turned[:, :, ::-1] if corner[0] * corner[1] < 0 else turned)
 
 
-@dataclass
-class _Webs:
-    """Units of the webs as they are made."""
-
-    units: list[Polyhedra] = field(default_factory=list)
-    labels: list[tuple[int, int, int]] = field(default_factory=list)
-
-    def add(self, stations: FloatArray, corner: tuple[int, int], course: int, span: int) -> None:
-        """Units (n, n_polygons, 4, 3) of one course of one web, in their order."""
-        if len(stations):
-            self.units.append(reflected(stations, corner))
-            self.labels += [(course, span, unit) for unit in range(len(stations))]
+Webs: TypeAlias = list[tuple[FloatArray, tuple[int, int], int, int]]
+"""units (n, 2, 4, 3) of a course in the corner +x+y, in their order, the corner they are reflected to, course, span"""
 
 
 def _vault(
@@ -122,21 +111,21 @@ def _vault(
     section: HalfSection,
     member: str,
     mitred_blocks: Sequence[FloatArray],
-    webs: _Webs,
+    webs: Webs,
     behind: FloatArray,
-    closed: bool,
 ) -> Generated:
     """Mitred blocks (1, 3, 4, 3) of each course in all corners, units of the webs, keystone, springers, ground.
 
-    behind : (1, 3, 4, 3) the fixed block behind the springing; closed : whether there is a keystone
+    behind : (1, 3, 4, 3) the fixed block behind the springing
     """
     around = {"course": np.repeat(np.arange(section.courses), 4), "segment": np.tile(np.arange(4), section.courses)}
     parts = [Part(_in_corners(mitred_blocks), member=member, labels=around)]
-    if webs.units:  # all units of a small vault may belong to the groins
-        course, span, unit = np.array(webs.labels, dtype=np.int64).T
-        positions = {"course": course, "span": span, "unit": unit}
-        parts.append(Part(join_polyhedra(webs.units), member="web", labels=positions))
-    if closed:
+    numbers = [(course, span, unit) for units, _, course, span in webs for unit in range(len(units))]
+    if numbers:  # all units of a small vault may belong to the groins
+        positions = dict(zip(("course", "span", "unit"), np.array(numbers, dtype=np.int64).T, strict=True))
+        units = join_polyhedra([reflected(units, corner) for units, corner, _, _ in webs if len(units)])
+        parts.append(Part(units, member="web", labels=positions))
+    if section.keystone:
         parts.append(Part(_keystone(section), member="keystone", labels={"course": np.array([section.courses])}))
     first = np.flatnonzero(np.concatenate([part.labels["course"] for part in parts]) == 0)
     if item.springers == "blocks":
@@ -150,16 +139,10 @@ def _in_corners(blocks: Sequence[FloatArray]) -> Polyhedra:
 
 def _keystone(section: HalfSection) -> Polyhedra:
     """The frustum between the last joints of all four webs."""
-    flat = section.distance[-1][:, None, None] * (np.array(CORNERS, dtype=np.float64) * [1.0, section.stretch])
-    height = np.broadcast_to(section.height[-1][:, None, None], (2, 4, 1))
-    return chains(np.concatenate([flat, height], axis=2)[None])
-
-
-def _mitred_block(section: HalfSection, course: int, x: float, y: float) -> FloatArray:
-    """The block in the corner +x+y, (1, 3, 4, 3): its end along x, the mitre, its end along y."""
-    profile = section.profile(course)
-    ends = along_x(profile, section.stretch, x), along_y(profile, y)
-    return np.stack([ends[0], mitred(profile, section.stretch), ends[1]])[None]
+    distance, height = section.joints[-1].T
+    flat = distance[:, None, None] * (np.array(CORNERS, dtype=np.float64) * [1.0, section.stretch])
+    levels = np.broadcast_to(height[:, None, None], (2, 4, 1))
+    return chains(np.concatenate([flat, levels], axis=2)[None])
 
 
 # --- cross vaults ---------------------------------------------------------------------------------------------------
@@ -186,22 +169,24 @@ def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
     """
     section = half_section(item, item.bay)
     ends = _ends(item, section)
-    groins, webs = [], _Webs()
+    groins, webs = [], Webs()
     for course in range(section.courses):
-        arms = _joints_outwards(item, ends, section.profile(course), section.stretch, course)
-        groins.append(_mitred_block(section, course, arms[0][0], arms[1][0]))
+        profile = section.profile(course)
+        x, y = _joints_outwards(item, ends, profile, section.stretch, course)
+        groins.append(mitred_block(section, course, x[0], y[0]))
+        along_x, along_y = units_between(profile, section.stretch, x, y)
         for corner in CORNERS:
-            _add_units(webs, section, course, arms, corner)
+            webs.append((along_x, corner, course, 0 if corner[0] > 0 else 2))
+            webs.append((along_y, corner, course, 1 if corner[1] > 0 else 3))
     if section.keystone:
-        _add_ridges(webs, section, item, ends)
-    behind = _mitred_block(section, -1, ends[0], ends[1])
-    return _vault(item, section, "groin", groins, webs, behind, section.keystone)
+        webs += _ridges(section, item, ends)
+    return _vault(item, section, "groin", groins, webs, mitred_block(section, -1, ends[0], ends[1]))
 
 
 def _ends(item: CrossVaultItem, section: HalfSection) -> FloatArray:
     """Where the webs end along x and y from the middle, (2,)."""
     sides = np.array([1.0, section.stretch])
-    feet = sides * section.distance[0].max() - np.array(item.bay) / 2
+    feet = sides * section.joints[1, :, 0].max() - np.array(item.bay) / 2
     edge = _edge(item)
     if edge < feet.max() + LEAST_EDGE * item.thickness:
         message = f"must be > {feet.max():g}: the webs end beyond the feet of the groins"
@@ -224,28 +209,15 @@ def _joints_outwards(
     return found[0], found[1]
 
 
-def _add_units(
-    webs: _Webs, section: HalfSection, course: int, arms: tuple[FloatArray, FloatArray], corner: tuple[int, int]
-) -> None:
-    """The units on both sides of a groin, from there outwards."""
-    profile = section.profile(course)
-    across_y = np.array([along_x(profile, section.stretch, x) for x in arms[0]])
-    across_x = np.array([along_y(profile, y) for y in arms[1]])
-    webs.add(np.stack([across_y[1:], across_y[:-1]], axis=1), corner, course, 0 if corner[0] > 0 else 2)
-    webs.add(np.stack([across_x[:-1], across_x[1:]], axis=1), corner, course, 1 if corner[1] > 0 else 3)
-
-
-def _add_ridges(webs: _Webs, section: HalfSection, item: CrossVaultItem, ends: FloatArray) -> None:
+def _ridges(section: HalfSection, item: CrossVaultItem, ends: FloatArray) -> Webs:
     """The course along the ridge of each web, from the keystone outwards."""
-    course, foot = section.courses, section.distance[-1]
-    profile = np.stack([foot[[0, 0, 1, 1]] * [1, -1, -1, 1], section.height[-1][[0, 0, 1, 1]]], axis=1)
-    at_keystone = np.abs(profile[:, 0])
-    along = _joints_outwards(item, ends, profile, section.stretch, course)
-    across_y = np.array([along_x(profile, section.stretch, x) for x in [at_keystone, *along[0]]])
-    across_x = np.array([along_y(profile, y) for y in [section.stretch * at_keystone, *along[1]]])
-    for span, corner in enumerate(((1, 1), (1, 1), (-1, 1), (1, -1))):
-        stations = (across_y[1:], across_y[:-1]) if span % 2 == 0 else (across_x[:-1], across_x[1:])
-        webs.add(np.stack(stations, axis=1), corner, course, span)
+    last = section.joints[-1]
+    profile = last[[0, 0, 1, 1]] * [[1, 1], [-1, 1], [-1, 1], [1, 1]]
+    side = np.abs(profile[:, 0])
+    x, y = _joints_outwards(item, ends, profile, section.stretch, section.courses)
+    units = units_between(profile, section.stretch, [side, *x], [section.stretch * side, *y])
+    corners = ((1, 1), (1, 1), (-1, 1), (1, -1))
+    return [(units[span % 2], corner, section.courses, span) for span, corner in enumerate(corners)]
 
 
 # --- pavilion vaults ------------------------------------------------------------------------------------------------
@@ -259,18 +231,19 @@ def amount_pavilion_vault(item: PavilionVaultItem) -> Amount:
 def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:
     """Hips from the springings up, four blocks in each course; units of the webs; keystone; fixed springers."""
     section = half_section(item, item.bay)
-    hips, webs = [], _Webs()
+    hips, webs = [], Webs()
     for course in range(section.courses):
-        joints = _joints_between(item, section, course)
-        hips.append(_hip(section, course, joints[0][-1], joints[1][-1]))
-        for span in range(4):
-            webs.add(_units(section, course, joints, span), (1, 1), course, span)
-    return _vault(item, section, "hip", hips, webs, _hip(section, -1, 0.0, 0.0), closed=True)
+        x, y = _joints_between(item, section, course)
+        hips.append(_hip(section, course, x[-1], y[-1]))
+        along_x, along_y = units_between(section.profile(course), section.stretch, x, y)
+        for span, units in enumerate((along_y, along_x[::-1]) * 2):  # counter-clockwise
+            webs.append((units if span < 2 else units * [-1.0, -1.0, 1.0], (1, 1), course, span))
+    return _vault(item, section, "hip", hips, webs, _hip(section, -1, 0.0, 0.0))
 
 
 def _hip(section: HalfSection, course: int, x: float, y: float) -> FloatArray:
     """The block in the corner +x+y, (1, 3, 4, 3): its end along y, the mitre, its end along x."""
-    return _mitred_block(section, course, x, y)[:, ::-1]
+    return mitred_block(section, course, x, y)[:, ::-1]
 
 
 def _joints_between(item: PavilionVaultItem, section: HalfSection, course: int) -> tuple[FloatArray, FloatArray]:
@@ -284,14 +257,3 @@ def _joints_between(item: PavilionVaultItem, section: HalfSection, course: int) 
         right = item.unit * steps[item.unit * steps <= reach]
         found.append(np.unique(np.concatenate([-right, right])) if len(right) else np.zeros(1))
     return found[0], found[1]
-
-
-def _units(section: HalfSection, course: int, joints: tuple[FloatArray, FloatArray], span: int) -> FloatArray:
-    """The units of a course between two hips, counter-clockwise, (n, 2, 4, 3)."""
-    profile = section.profile(course)
-    if span % 2 == 0:
-        stations = np.array([along_y(profile, y) for y in joints[1]])
-    else:
-        stations = np.array([along_x(profile, section.stretch, x) for x in joints[0][::-1]])
-    ordered = np.stack([stations[:-1], stations[1:]], axis=1)
-    return np.asarray(ordered if span < 2 else ordered * [-1.0, -1.0, 1.0])
