@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.supports import Support
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
@@ -63,17 +63,6 @@ def joined(first: Guides, second: Guides) -> Guides:
     )
 
 
-def held_components(fixed: BoolArray, count: int) -> FloatArray:
-    """Motions of blocks of which some components are held, (count, 6, 6).
-
-    fixed : (6,) x, y, z, rotation about x, y, z through the centroid
-    """
-    ways = np.zeros((6, WAYS))
-    free = np.flatnonzero(~fixed)
-    ways[free, np.arange(len(free))] = 1.0
-    return np.broadcast_to(ways, (count, 6, WAYS)).copy()
-
-
 def slide(direction: FloatArray, count: int) -> FloatArray:
     """Velocity along a unit direction (3,), (count, 6): without rotation."""
     return np.broadcast_to(np.concatenate([direction, np.zeros(3)]), (count, 6)).copy()
@@ -85,12 +74,12 @@ def turn(axis: FloatArray, about: FloatArray, centroids: FloatArray) -> FloatArr
     return np.hstack([velocity, np.broadcast_to(axis, velocity.shape)])
 
 
-def rigid_motions(centre: FloatArray, centroids: FloatArray) -> FloatArray:
-    """The six motions of a body about a point as motions of its blocks, (n, 6, 6)."""
+def rigid_motions(centres: FloatArray, centroids: FloatArray) -> FloatArray:
+    """The six motions of a body about its centre, (3,) or that of each block, as motions of its blocks, (n, 6, 6)."""
     motions = np.zeros((len(centroids), 6, 6))
     for axis, along in enumerate(np.eye(3)):
         motions[:, :, axis] = slide(along, len(centroids))
-        motions[:, :, 3 + axis] = turn(along, centre, centroids)
+        motions[:, :, 3 + axis] = turn(along, centres, centroids)
     return motions
 
 
@@ -106,38 +95,28 @@ def is_guide(support: Support) -> bool:
 
 def guides_of(support: Support, chosen: IntArray, blocks: Blocks) -> Guides:
     """The guides that an item of `supports` makes of the blocks it selects, (n,)."""
-    together = bool(support.together)
-    bodies = np.zeros(len(chosen), dtype=np.int64) if together else np.arange(len(chosen))
+    together, centroids = bool(support.together), blocks.centroids[chosen]
     if support.fixed is not None:
-        motions = _held(support, chosen, blocks, together)
-        words = f"held in {', '.join(c for c in COMPONENTS if c in support.fixed)}"
+        centre = np.average(centroids, axis=0, weights=blocks.volumes[chosen]) if together else centroids
+        free = [component not in support.fixed for component in COMPONENTS]
+        ways = rigid_motions(centre, centroids)[:, :, free]
+        words = f"held in {', '.join(each for each in COMPONENTS if each in support.fixed)}"
     else:
-        motions, words = _ways(support, chosen, blocks)
+        ways, words = _ways(support, centroids)
+    motions = np.zeros((len(chosen), 6, WAYS))
+    motions[:, :, : ways.shape[2]] = ways
+    bodies = np.zeros(len(chosen), dtype=np.int64) if together else np.arange(len(chosen))
     subject = counted(len(chosen), "block") + (" as one body" if together else "")
     return Guides(chosen, bodies, motions, (f"{subject} {words}",))
 
 
-def _held(support: Support, chosen: IntArray, blocks: Blocks, together: bool) -> FloatArray:
-    """Motions with some components held, about each centroid, or about the common one of a body."""
-    assert support.fixed is not None
-    fixed = np.array([component in support.fixed for component in COMPONENTS])
-    if not together:
-        return held_components(fixed, len(chosen))
-    centre = np.average(blocks.centroids[chosen], axis=0, weights=blocks.volumes[chosen])
-    motions = np.zeros((len(chosen), 6, 6))
-    motions[:, :, : int((~fixed).sum())] = rigid_motions(centre, blocks.centroids[chosen])[:, :, ~fixed]
-    return motions
-
-
-def _ways(support: Support, chosen: IntArray, blocks: Blocks) -> tuple[FloatArray, str]:
-    """Motions that slide, turn, or both, and the same in words."""
+def _ways(support: Support, centroids: FloatArray) -> tuple[FloatArray, str]:
+    """Motions that slide, turn, or both, (n, 6, k), and the same in words."""
     ways, words = [], []
     if support.slide is not None:
-        ways.append(slide(unit(support.slide), len(chosen)))
+        ways.append(slide(unit(support.slide), len(centroids)))
         words.append(f"slide along {vector(support.slide)}")
     if support.turn is not None:
-        ways.append(turn(unit(support.turn.axis), np.array(support.turn.about), blocks.centroids[chosen]))
+        ways.append(turn(unit(support.turn.axis), np.array(support.turn.about), centroids))
         words.append(f"turn about {vector(support.turn.axis)} through {vector(support.turn.about)}")
-    motions = np.zeros((len(chosen), 6, 6))
-    motions[:, :, : len(ways)] = np.stack(ways, axis=2)
-    return motions, f"may {' and '.join(words)} only"
+    return np.stack(ways, axis=2), f"may {' and '.join(words)} only"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
 from mbla.model.solids.ragged import items_of_rows, numbered
@@ -27,20 +27,20 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
     corners = items_of_rows(blocks.loop_start, faces)
     new_vertex = np.empty(len(blocks.vertices), dtype=np.int64)
     new_vertex[vertices] = np.arange(len(vertices))
-    volumes = _sums(blocks.volumes, joined, count)
+    volumes = summed(joined, blocks.volumes, count)
     alone = np.bincount(joined, minlength=count) == 1
-    centroids = _sums(blocks.volumes[:, None] * blocks.centroids, joined, count) / volumes[:, None]
-    densities = _sums(blocks.volumes * blocks.densities, joined, count) / volumes
+    centroids = summed(joined, blocks.volumes[:, None] * blocks.centroids, count) / volumes[:, None]
+    densities = summed(joined, blocks.volumes * blocks.densities, count) / volumes
     # what stands alone keeps its numbers to the last digit
     centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
     added, centres = carried_masses(centroids, joined, blocks.added_masses, blocks.added_mass_points)
     labels = blocks.labels
     return Blocks(
         vertices=blocks.vertices[vertices],
-        vertex_start=_joined_start(blocks.vertex_start, joined, count),
+        vertex_start=starts(summed(joined, np.diff(blocks.vertex_start), count).astype(np.int64)),
         loops=new_vertex[blocks.loops[corners]],
         loop_start=starts(np.diff(blocks.loop_start)[faces]),
-        face_start=_joined_start(blocks.face_start, joined, count),
+        face_start=starts(summed(joined, np.diff(blocks.face_start), count).astype(np.int64)),
         facet_of_face=numbered(blocks.facet_of_face[faces])[0],
         face_normals=blocks.face_normals[faces],
         convex=alone & blocks.convex[first],
@@ -53,18 +53,6 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
         group_indices=blocks.group_indices[first],
         labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),
     )
-
-
-def _sums(values: FloatArray, joined: IntArray, count: int) -> FloatArray:
-    total = np.zeros((count, *values.shape[1:]))
-    np.add.at(total, joined, values)
-    return total
-
-
-def _joined_start(start: IntArray, joined: IntArray, count: int) -> IntArray:
-    items = np.zeros(count, dtype=np.int64)
-    np.add.at(items, joined, np.diff(start))
-    return starts(items)
 
 
 def polyhedra_of(blocks: Blocks) -> Polyhedra:

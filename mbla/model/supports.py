@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
 from mbla.deck.sections.supports import GroundPlane, SymmetryPlane
 from mbla.deck.text.tree import KeyPath
@@ -108,9 +108,8 @@ def does_nothing(load: FloatArray, supports: Supports) -> bool:
     if np.any(load[elsewhere]) or not len(guides) or not np.any(load[guides.blocks]):
         return False
     own = load[guides.blocks]
-    work, gross = np.zeros((guides.n_bodies, 6)), np.zeros((guides.n_bodies, 6))
-    np.add.at(work, guides.bodies, np.einsum("mij,mi->mj", guides.motions, own))
-    np.add.at(gross, guides.bodies, np.einsum("mij,mi->mj", np.abs(guides.motions), np.abs(own)))
+    each = np.einsum("mij,mi->mj", guides.motions, own), np.einsum("mij,mi->mj", np.abs(guides.motions), np.abs(own))
+    work, gross = (summed(guides.bodies, values, guides.n_bodies) for values in each)
     return bool(np.all(np.abs(work) <= UNMOVED * gross))
 
 

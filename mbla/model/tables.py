@@ -7,7 +7,6 @@ in some countries. Empty lines and lines that begin with # are passed over. Ever
 from __future__ import annotations
 
 import csv
-import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -106,32 +105,29 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
     name = path.name
     try:
         text = path.read_bytes().decode("utf-8-sig")
+        (line, header), *rows = _rows(text)
     except OSError as error:
         raise _unreadable(f"{name}: cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise _unreadable(f"{name}: is not UTF-8 text: save it as CSV UTF-8") from error
-    semicolons = ";" in next((line for line in text.splitlines() if _counts(line)), "")
-    rows = _rows(name, text, ";" if semicolons else ",")
-    if not rows:
-        raise _unreadable(f"{name}: is empty: its first line must name the columns {listed(required, 'and')}")
-    (line, header), *rows = rows
+    except csv.Error as error:
+        raise _unreadable(f"{name}:{error}") from error
+    except ValueError:
+        words = f"{name}: is empty: its first line must name the columns {listed(required, 'and')}"
+        raise _unreadable(words) from None
     header = [each.lower() for each in header]
     faults = _header_faults(header, required, optional, with_rest)
-    if faults:
-        raise TableRefused(*(Message("table-columns", f"{name}:{line}: {fault}") for fault in faults))
     known = list(required) if with_rest else [each for each in header if each]
-    for number, row in rows:
-        if len(row) < len(known):
-            faults.append(f"{name}:{number}: has {len(row)} columns instead of {len(known)} ({', '.join(known)})")
-        elif not with_rest and any(row[len(known) :]):
-            faults.append(f"{name}:{number}: has more columns than the header ({', '.join(known)})")
+    faults = [f"{name}:{line}: {fault}" for fault in faults] or [
+        f"{name}:{number}: {fault}" for number, row in rows if (fault := _misfit(row, known, with_rest))
+    ]
     if faults:
         raise TableRefused(*(Message("table-columns", fault) for fault in faults))
     if not rows:
         raise _unreadable(f"{name}: has no rows below its header")
     columns = {each: [row[place] for _, row in rows] for place, each in enumerate(known)}
     rest = [[text for text in row[len(known) :] if text] for _, row in rows] if with_rest else []
-    return Table(name, columns, rest, [number for number, _ in rows], semicolons)
+    return Table(name, columns, rest, [number for number, _ in rows], _separator(text) == ";")
 
 
 def _unreadable(words: str) -> TableRefused:
@@ -143,15 +139,20 @@ def _counts(line: str) -> bool:
     return bool(line.strip(" \t,;")) and not line.lstrip().startswith("#")
 
 
-def _rows(name: str, text: str, delimiter: str) -> list[tuple[int, list[str]]]:
-    """Rows with the numbers of their lines; quoted texts may hold delimiters, but no line breaks."""
-    rows = []
+def _separator(text: str) -> str:
+    """Of columns, by the first line."""
+    return ";" if ";" in next(filter(_counts, text.splitlines()), "") else ","
+
+
+def _rows(text: str) -> list[tuple[int, list[str]]]:
+    """Rows with the numbers of their lines; quoted texts may hold separators, but no line breaks."""
+    rows, separator = [], _separator(text)
     for number, line in enumerate(text.splitlines(), start=1):
         if _counts(line):
             try:
-                fields = next(csv.reader(io.StringIO(line), delimiter=delimiter, strict=True))
+                fields = next(csv.reader([line], delimiter=separator, strict=True))
             except csv.Error as error:
-                raise _unreadable(f"{name}:{number}: cannot be read: {error}") from error
+                raise csv.Error(f"{number}: cannot be read: {error}") from error
             rows.append((number, [field.strip() for field in fields]))
     return rows
 
@@ -170,12 +171,18 @@ def _header_faults(header: list[str], required: Sequence[str], optional: Sequenc
     return faults + [f"column {each} is there twice" for each in allowed if header.count(each) > 1]
 
 
+def _misfit(row: list[str], known: Sequence[str], with_rest: bool) -> str:
+    """What is wrong with the number of columns of a row."""
+    if len(row) < len(known):
+        return f"has {len(row)} columns instead of {len(known)} ({', '.join(known)})"
+    more = not with_rest and any(row[len(known) :])
+    return f"has more columns than the header ({', '.join(known)})" if more else ""
+
+
 def _number(text: str, decimal_comma: bool) -> float | None:
     plain = text.replace(",", ".", 1) if decimal_comma else text
-    if "_" in plain:  # Python would read 1_000
-        return None
     try:
-        value = float(plain)
+        value = math.nan if "_" in plain else float(plain)  # Python would read 1_000
     except ValueError:
         return None
     return value if math.isfinite(value) else None

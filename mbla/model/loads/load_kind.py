@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.loads import Load
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
@@ -83,9 +83,7 @@ def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -
 def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, FloatArray]:
     """Blocks, each once, ascending, and the sums of the wrenches on them, from (n,) and (n, 6)."""
     unique, row = np.unique(blocks, return_inverse=True)
-    total = np.zeros((len(unique), 6))
-    np.add.at(total, row, wrenches)
-    return unique, total
+    return unique, summed(row, wrenches, len(unique))
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
 
@@ -132,9 +132,8 @@ def carried_masses(
 
     centroids : (n_blocks, 3) of the blocks, that of the mass where a block carries none
     """
-    total, moments = np.zeros(len(centroids)), np.zeros((len(centroids), 3))
-    np.add.at(total, rows, masses)
-    np.add.at(moments, rows, masses[:, None] * (points - centroids[rows]))
+    total = summed(rows, masses, len(centroids))
+    moments = summed(rows, masses[:, None] * (points - centroids[rows]), len(centroids))
     return total, centroids + moments / np.where(total > 0.0, total, 1.0)[:, None]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -111,7 +111,20 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     facets = np.arange(len(polyhedra.block_of_face))
     if not defects.found:
         facets = find_facets(polyhedra, edges, faces, tolerance * sizes)
-    blocks = _blocks(polyhedra, faces.normals, facets, convex, volumes, centroids, labels)
+    blocks = Blocks(
+        **{each.name: getattr(polyhedra, each.name) for each in fields(Polyhedra)},
+        facet_of_face=facets,
+        face_normals=faces.normals,
+        convex=convex,
+        volumes=volumes,
+        centroids=centroids,
+        densities=labels.densities,
+        added_masses=np.zeros(len(volumes)),
+        added_mass_points=centroids,
+        groups=labels.groups,
+        group_indices=labels.group_indices,
+        labels=labels.within,
+    )
     limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
     rough = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[polyhedra.block_of_face])  # others are refused
     owner = polyhedra.block_of_face[rough]
@@ -127,36 +140,6 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         ),
     )
     return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
-
-
-def _blocks(
-    polyhedra: Polyhedra,
-    face_normals: FloatArray,
-    facets: IntArray,
-    convex: BoolArray,
-    volumes: FloatArray,
-    centroids: FloatArray,
-    labels: Labels,
-) -> Blocks:
-    """Blocks of what was measured, without added masses."""
-    return Blocks(
-        vertices=polyhedra.vertices,
-        vertex_start=polyhedra.vertex_start,
-        loops=polyhedra.loops,
-        loop_start=polyhedra.loop_start,
-        face_start=polyhedra.face_start,
-        facet_of_face=facets,
-        face_normals=face_normals,
-        convex=convex,
-        volumes=volumes,
-        centroids=centroids,
-        densities=labels.densities,
-        added_masses=np.zeros(len(volumes)),
-        added_mass_points=centroids,
-        groups=labels.groups,
-        group_indices=labels.group_indices,
-        labels=labels.within,
-    )
 
 
 def _oriented(polyhedra: Polyhedra, edges: Edges, defects: Defects) -> tuple[Polyhedra, BoolArray]:

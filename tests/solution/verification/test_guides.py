@@ -9,7 +9,7 @@ import numpy as np
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.guides import Guides, held_components, joined, rigid_motions, slide, turn
+from mbla.model.guides import Guides, joined, rigid_motions, slide, turn
 from mbla.model.model import Model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
@@ -34,7 +34,9 @@ def motions_of(*ways: np.typing.NDArray[np.float64]) -> np.typing.NDArray[np.flo
 
 
 def test_what_a_guide_takes_does_not_count() -> None:
-    model = guided(held_components(np.array([True, False, False, False, True, True]), 1), [1], [0])
+    ways = np.zeros((1, 6, 6))
+    ways[0, [1, 2, 3], [0, 1, 2]] = 1.0
+    model = guided(ways, [1], [0])
     wrenches = np.arange(1.0, 19.0).reshape(3, 6)
     left = left_to_balance(model, wrenches, ARMS)
     np.testing.assert_allclose(left[[0, 2]], wrenches[[0, 2]])
