@@ -42,29 +42,15 @@ from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_fro
 from mbla.model.solids.ragged import ranges
 from mbla.model.wording import counted
 
-SURFACE_CELLS = {"triangle": 3, "quad": 4, "polygon": 0}
-"""number of corners; 0 where it is that of the cell"""
+SURFACE_CELLS = {"triangle": 3, "quad": 4, "polygon": None}
+"""number of corners; None where it is that of the cell"""
+POLYHEDRON = "polyhedron"
 POLYGON = 7
 NODES = {1: 1, 3: 2, 5: 3, POLYGON: 3, 8: 4, 9: 4, 10: 4, 11: 8, 12: 8, 13: 6, 14: 5, 15: 10, 16: 12, 21: 3, 22: 6}
 NODES |= {23: 8, 24: 10, 25: 20, 26: 15, 27: 13, 28: 9, 29: 27, 30: 6, 31: 12, 32: 18, 33: 24, 34: 7, 35: 4}
 """number of points of each type of VTK that is read, of polygons the least"""
-PLAIN = {
-    21: 3,
-    35: 3,
-    22: 5,
-    34: 5,
-    23: 9,
-    28: 9,
-    30: 9,
-    24: 10,
-    25: 12,
-    29: 12,
-    33: 12,
-    26: 13,
-    31: 13,
-    32: 13,
-    27: 14,
-}
+HIGHER = {3: (21, 35), 5: (22, 34), 9: (23, 28, 30), 10: (24,), 12: (25, 29, 33), 13: (26, 31, 32), 14: (27,)}
+PLAIN = {kind: plain for plain, kinds in HIGHER.items() for kind in kinds}
 """type that a cell of higher order is by its corners"""
 BY_AXES = {8: (9, (0, 1, 3, 2)), 11: (12, (0, 1, 3, 2, 4, 5, 7, 6))}
 """pixels and voxels, whose points come along the axes: the type that they are, and its points in order around it"""
@@ -80,24 +66,12 @@ COMPRESSION = 1
 
 
 def read_vtu(path: Path) -> Geometry:
-    """Volume cells, or closed parts of surfaces, of a VTU file.
-
-    Raises
-    ------
-    GeometryFileError
-        for malformed files
-    """
+    """Volume cells, or closed parts of surfaces, of a VTU file; raises GeometryFileError for malformed ones."""
     return _read(str(path), "vtu")
 
 
 def read_msh(path: Path) -> Geometry:
-    """Volume cells, or closed parts of surfaces, of a Gmsh file.
-
-    Raises
-    ------
-    GeometryFileError
-        for malformed files
-    """
+    """Volume cells, or closed parts of surfaces, of a Gmsh file; raises GeometryFileError for malformed ones."""
     _refuse_other_sections(path)  # before room is made for what they announce
     return _read(str(path), "gmsh")
 
@@ -119,33 +93,32 @@ def _read(path: str, file_format: str) -> Geometry:
     """What the file holds."""
     mesh, remarks = _mesh(path, file_format)
     points = _points(mesh)
-    volumes = [
-        block for block in mesh.cells if _shape(block.type) in VOLUME_CELLS or block.type.startswith("polyhedron")
-    ]
-    surfaces = [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
-    used = volumes or surfaces
+    volumes = [block for block in mesh.cells if _shape(block.type) in (*VOLUME_CELLS, POLYHEDRON)]
+    used = volumes or [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
     others = [block for block in mesh.cells if not any(block is other for other in used) and block.type != "vertex"]
     left_out = (block.type for block in others for _ in range(len(block.data)))  # single points are not worth a word
-    notices = [*remarks, *cells_left_out(left_out, bool(volumes)), *unused_points(len(points), _rows_of(mesh))]
+    corners = [np.ravel(face) for block in mesh.cells for cell in block.data for face in _faces(block, cell)]
+    rows = np.concatenate([np.empty(0, dtype=np.int64), *corners]).astype(np.int64)
+    notices = (*remarks, *cells_left_out(left_out, bool(volumes)), *unused_points(len(points), rows))
+    names = _physical_groups(mesh, used)
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        return Geometry(cells, tuple(notices), _physical_groups(mesh, volumes), cells=True)
-    faces = list(chain.from_iterable(_surface_cells(block) for block in surfaces))
+        return Geometry(cells, notices, names, cells=True)
+    faces = [face for block in used for face in _loops(block)]
     check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), len(points))
-    names = _physical_groups(mesh, surfaces)
     surface, present = surfaces_by_label(points, faces, names or ("",) * len(faces))
-    return Geometry(surface, tuple(notices), tuple(present) if names else ())
+    return Geometry(surface, notices, tuple(present) if names else ())
 
 
-def _rows_of(mesh: Any) -> IntArray:
-    """Rows of points that any cell names, whatever its type."""
-    rows = [np.ravel(each) for block in mesh.cells for cell in block.data for each in _parts(block, cell)]
-    return np.concatenate([np.empty(0, dtype=np.int64), *rows]).astype(np.int64)
-
-
-def _parts(block: Any, cell: Any) -> Sequence[Any]:
+def _faces(block: Any, cell: Any) -> Sequence[Any]:
     """Faces of a polyhedron; another cell as it is."""
-    return list(cell) if block.type.startswith("polyhedron") else [cell]
+    return list(cell) if _shape(block.type) == POLYHEDRON else [cell]
+
+
+def _loops(block: Any) -> list[list[int]]:
+    """Corners of each of the faces that a block of cells holds."""
+    loops: list[list[int]] = np.asarray(block.data, dtype=np.int64)[:, : SURFACE_CELLS[_shape(block.type)]].tolist()
+    return loops
 
 
 def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
@@ -163,20 +136,28 @@ def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
 
 def _mesh(path: str, file_format: str) -> tuple[Any, list[Notice]]:
     """The file as meshio gives it, and what meshio would have printed."""
-    printed = io.StringIO()
-    try:
-        meshio = _meshio()
-        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), np.errstate(all="ignore"):
-            # the reader itself: meshio.read prints, and ends the program, where a file is malformed
-            mesh = getattr(meshio, file_format).read(path)
-    except (GeometryFileError, MemoryError, OSError):
-        raise
-    except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
-        reason = " ".join(f"{printed.getvalue()} {error}".split())
-        reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""
-        raise GeometryFileError("geometry-file", f"is not a well-formed {WORDS[file_format]} file{reason}") from error
+    with _printed() as printed:
+        try:
+            with np.errstate(all="ignore"):
+                # the reader itself: meshio.read prints, and ends the program, where a file is malformed
+                mesh = getattr(_meshio(), file_format).read(path)
+        except (GeometryFileError, MemoryError, OSError):
+            raise
+        except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
+            reason = " ".join(f"{printed.getvalue()} {error}".split())
+            reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""
+            words = f"is not a well-formed {WORDS[file_format]} file{reason}"
+            raise GeometryFileError("geometry-file", words) from error
     words = " ".join(printed.getvalue().split())
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
+
+
+@contextlib.contextmanager
+def _printed() -> Iterator[io.StringIO]:
+    """What is printed meanwhile, instead of printing it."""
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+        yield printed
 
 
 @cache
@@ -259,14 +240,13 @@ def _refuse_other_faces(faces: IntArray, ends: IntArray) -> None:
 
 
 def _points(mesh: Any) -> FloatArray:
+    """In space, (n, 3); those of a plane lie at height zero."""
     points = np.asarray(mesh.points, dtype=np.float64)
     if not points.size:
         return np.empty((0, 3))
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise GeometryFileError("geometry-file", "the points have neither two nor three coordinates")
-    if points.shape[1] == 2:
-        points = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
-    return points
+    return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
 
 
 def _shape(cell_type: str) -> str:
@@ -275,31 +255,19 @@ def _shape(cell_type: str) -> str:
 
 
 def _volume_cells(points: FloatArray, block: Any) -> Polyhedra:
-    if block.type.startswith("polyhedron"):
-        return _polyhedron_cells(points, block.data)
-    count, faces = VOLUME_CELLS[_shape(block.type)]
+    """Cells of one shape, or given by faces, each face by rows of points."""
+    if _shape(block.type) == POLYHEDRON:
+        faces = [np.asarray(face, dtype=np.int64) for cell in block.data for face in cell]
+        owner = np.repeat(np.arange(len(block.data)), [len(cell) for cell in block.data])
+        corners = np.concatenate(faces)
+        check_rows(corners, len(points))
+        return own_vertices(points, corners, starts(np.array([len(face) for face in faces], dtype=np.int64)), owner)
+    count, of_shape = VOLUME_CELLS[_shape(block.type)]
     rows = np.asarray(block.data, dtype=np.int64)
     if rows.ndim != 2 or rows.shape[1] < count:
         raise GeometryFileError("geometry-file", f"a cell of type {block.type} has fewer than {count} points")
-    rows = rows[:, :count]
-    check_rows(rows, len(points))
-    return polyhedra_from_cells(points[rows], faces)
-
-
-def _polyhedron_cells(points: FloatArray, cells: Any) -> Polyhedra:
-    """Cells given by faces, each face by rows of points."""
-    faces = [np.asarray(face, dtype=np.int64) for cell in cells for face in cell]
-    block = np.repeat(np.arange(len(cells)), [len(cell) for cell in cells])
-    counts = np.array([len(face) for face in faces], dtype=np.int64)
-    corners = np.concatenate(faces)
-    check_rows(corners, len(points))
-    return own_vertices(points, corners, starts(counts), block)
-
-
-def _surface_cells(block: Any) -> Iterator[Sequence[int]]:
-    rows = np.asarray(block.data, dtype=np.int64)
-    count = SURFACE_CELLS.get(_shape(block.type), 0)
-    yield from (rows[:, :count] if count else rows).tolist()
+    check_rows(rows[:, :count], len(points))
+    return polyhedra_from_cells(points[rows[:, :count]], of_shape)
 
 
 def write_mesh(
@@ -323,15 +291,10 @@ def write_mesh(
         where the file cannot be written
     """
     meshio = _meshio()
-    printed = io.StringIO()
+    of_cells = {name: list(arrays) for name, arrays in (cell_data or {}).items()}
     try:
-        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-            mesh = meshio.Mesh(
-                points,
-                list(cells),
-                point_data=dict(point_data or {}),
-                cell_data={name: list(arrays) for name, arrays in (cell_data or {}).items()},
-            )
+        with _printed() as printed:
+            mesh = meshio.Mesh(points, list(cells), point_data=dict(point_data or {}), cell_data=of_cells)
             meshio.write(path, mesh, file_format=file_format)
     except OSError as error:
         raise FileError("file-not-written", f"{path}: cannot be written: {error.strerror or error}") from error

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, starts
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 
 HEADER, TRIANGLE = 84, 50
 """bytes before the first triangle of a binary file, and of each triangle"""
@@ -27,9 +27,7 @@ def read_stl(path: Path) -> Geometry:
     """
     content = path.read_bytes()
     n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1
-    if (
-        n_triangles >= 0 and len(content) == HEADER + TRIANGLE * n_triangles
-    ):  # binary headers may begin with "solid", too
+    if 0 <= n_triangles == (len(content) - HEADER) / TRIANGLE:  # binary headers may begin with "solid", too
         return _geometry([_triangles(content)], [""])
     if content.lstrip()[:5].lower() == b"solid":
         return _solids(content.decode("utf-8", errors="replace"))
@@ -73,18 +71,15 @@ def _solids(text: str) -> Geometry:
 
 
 def _geometry(solids: list[FloatArray], names: list[str]) -> Geometry:
-    kept = [row for row, triangles in enumerate(solids) if len(triangles)]
+    """Surfaces of triangles (n, 3, 3) each; one surface of all where none of them has a name."""
+    kept = [(triangles, name) for triangles, name in zip(solids, names, strict=True) if len(triangles)]
     empty = empty_objects([name for name, triangles in zip(names, solids, strict=True) if not len(triangles)])
-    parts = [_soup(solids[row]) for row in kept]
-    named = tuple(names[row] for row in kept)
-    several = len(kept) > 1 and any(named)
-    if not several and len(parts) > 1:
-        parts = [_soup(np.concatenate([solids[row] for row in kept]))]
-    return Geometry(join_polyhedra(parts), empty, named if several else (), indexed=False)
-
-
-def _soup(triangles: FloatArray) -> Polyhedra:
-    n = len(triangles)
-    return Polyhedra(
-        triangles.reshape(-1, 3), np.array([0, 3 * n]), np.arange(3 * n), 3 * np.arange(n + 1), np.array([0, n])
-    )
+    several = len(kept) > 1 and any(name for _, name in kept)
+    parts = [triangles for triangles, _ in kept]
+    if parts and not several:
+        parts = [np.concatenate(parts)]
+    count = starts(np.array([len(part) for part in parts], dtype=np.int64))
+    corners = 3 * int(count[-1])
+    vertices = np.concatenate([np.empty((0, 3, 3)), *parts]).reshape(-1, 3)
+    surfaces = Polyhedra(vertices, 3 * count, np.arange(corners), np.arange(0, corners + 1, 3), count)
+    return Geometry(surfaces, empty, tuple(name for _, name in kept) if several else (), indexed=False)
