@@ -18,7 +18,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, parse_json
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json, well_formed
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 from mbla.model.wording import counted, was
 
@@ -60,13 +60,8 @@ def read_compas_json(path: Path) -> Geometry:
         for files that are no JSON, hold no mesh, or a mesh that is malformed
     """
     found = _Found()
-    try:
+    with well_formed("COMPAS JSON"):
         _collect(parse_json(path.read_bytes()), _Context(), found)
-    except RecursionError as error:
-        raise GeometryFileError("geometry-file", "is not a COMPAS file: its JSON is nested too deeply") from error
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError) as error:
-        reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise malformed("COMPAS JSON", reason) from error
     kinds = ", ".join(sorted(found.others))
     if kinds and not found.names:
         words = f"holds no mesh, but objects of type {kinds}: convert them (Mesh.from_shape, to_mesh)"

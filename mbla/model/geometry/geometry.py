@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import re
+import struct
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -31,6 +33,17 @@ class GeometryFileError(Refusal):
 def malformed(kind: str, reason: str) -> GeometryFileError:
     """What a file is refused by that is not what its extension says."""
     return GeometryFileError("geometry-file", f"is not a well-formed {kind} file: {reason}")
+
+
+@contextmanager
+def well_formed(kind: str) -> Iterator[None]:
+    """Refuses a document of JSON in which something is missing, or other than its format says."""
+    try:
+        yield
+    except RecursionError:
+        raise malformed(kind, "its JSON is nested too deeply") from None
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
+        raise malformed(kind, f"lacks {error}" if isinstance(error, KeyError) else str(error)) from error
 
 
 @dataclass(frozen=True)

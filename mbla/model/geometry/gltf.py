@@ -21,8 +21,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, parse_json
-from mbla.model.geometry.welding import own_vertices
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json, well_formed
+from mbla.model.geometry.welding import triangle_soup
 from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
 
@@ -44,13 +44,8 @@ def read_gltf(path: Path) -> Geometry:
     GeometryFileError
         for files that are no glTF 2.0, lack a part, or need an extension that changes the shape (compression)
     """
-    try:
+    with well_formed("glTF"):
         return _geometry(_Document(path))
-    except RecursionError:
-        raise malformed("glTF", "its JSON is nested too deeply") from None
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
-        reason = f"lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise malformed("glTF", reason) from error
 
 
 def _parts(content: bytes) -> tuple[Any, bytes | None]:
@@ -126,40 +121,38 @@ class _Document:
             raise ValueError(f"accessor {number} has not {'whole numbers of corners' if width == 1 else 'points'}")
         if "bufferView" not in accessor or "sparse" in accessor or type(count) is not int or min(count, begin) < 0:
             raise ValueError(f"accessor {number} has no view of a buffer of its own for its count of {count}")
+        if not count:
+            return np.zeros((0, width))
         view = self.entry("bufferViews", accessor["bufferView"])
         stride = view.get("byteStride") or kind.itemsize * width
         first, content = view.get("byteOffset", 0) + begin, self.buffer(view["buffer"])
-        if count and not 0 <= first <= len(content) - stride * (count - 1) - kind.itemsize * width:
+        if not 0 <= first <= len(content) - stride * (count - 1) - kind.itemsize * width:
             raise ValueError("a buffer is shorter than the document says")
-        if first % kind.itemsize or stride < 1 or not count:
-            if count:
-                raise ValueError(f"bufferView {accessor['bufferView']} begins at byte {first}, amid a number")
-            return np.zeros((0, width))
+        if first % kind.itemsize or stride < 1:
+            raise ValueError(f"bufferView {accessor['bufferView']} begins at byte {first}, amid a number")
         rows = np.ndarray((count, width), kind, content, first, (stride, kind.itemsize)).astype(np.float64)
         if accessor.get("normalized") and kind.kind in "iu":
-            rows = np.maximum(rows / (2 ** (8 * kind.itemsize - (kind.kind == "i")) - 1), -1.0)
+            rows = np.maximum(rows / np.iinfo(kind).max, -1.0)
         return rows
 
 
 def _geometry(document: _Document) -> Geometry:
     surfaces, names, empty = [], [], list[str]()
-    left_out = 0
-    deformed = False
+    left_out, deformed = 0, False
     for node, matrix in _placed_nodes(document):
         if "mesh" not in node:
             continue
         mesh = document.entry("meshes", node["mesh"])
         deformed |= "skin" in node or any("targets" in primitive for primitive in mesh["primitives"])
-        points, triangles, lines = _surface(document, mesh)
-        left_out += lines
+        drawn = [each for each in mesh["primitives"] if each.get("mode", TRIANGLES) in (TRIANGLES, STRIP, FAN)]
+        left_out += len(mesh["primitives"]) - len(drawn)
+        triangles = np.concatenate([np.empty((0, 3, 3)), *(_triangles(document, each) for each in drawn)])
         name = str(node.get("name") or mesh.get("name") or "")
-        if not len(triangles):
-            empty += [] if lines else [name]
-            continue
-        placed = points @ matrix[:3, :3].T + matrix[:3, 3]
-        block = np.zeros(len(triangles), dtype=np.int64)
-        surfaces.append(own_vertices(placed, triangles.reshape(-1), 3 * np.arange(len(triangles) + 1), block))
-        names.append(name)
+        if len(triangles):
+            surfaces.append(triangle_soup([triangles @ matrix[:3, :3].T + matrix[:3, 3]]))
+            names.append(name)
+        elif len(drawn) == len(mesh["primitives"]):
+            empty.append(name)
     notices = [*empty_objects(empty)]
     if left_out:
         words = f"{counted(left_out, 'set')} of points or lines {was(left_out)} left out: no block"
@@ -207,28 +200,19 @@ def _local_matrix(node: dict[str, Any]) -> FloatArray:
     return matrix
 
 
-def _surface(document: _Document, mesh: dict[str, Any]) -> tuple[FloatArray, IntArray, int]:
-    """Points (n, 3) and triangles (m, 3) of all primitives of a mesh, and how many of them are no surfaces."""
-    all_points, all_triangles = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
-    count = left_out = 0
-    for primitive in mesh["primitives"]:
-        mode = primitive.get("mode", TRIANGLES)
-        if mode not in (TRIANGLES, STRIP, FAN):
-            left_out += 1
-            continue
-        points = document.values(primitive["attributes"]["POSITION"], "VEC3")
-        rows = np.arange(len(points))
-        if "indices" in primitive:
-            rows = document.values(primitive["indices"], "SCALAR")[:, 0].astype(np.int64)
-            if rows.size and rows.max() >= len(points):
-                raise ValueError(f"a triangle names a point that does not exist; there are {len(points)}")
-        all_points.append(points)
-        all_triangles.append(_triangles(rows, mode) + count)
-        count += len(points)
-    return np.concatenate(all_points), np.concatenate(all_triangles), left_out
+def _triangles(document: _Document, primitive: dict[str, Any]) -> FloatArray:
+    """Corners of the triangles of a primitive, (n, 3, 3)."""
+    points = document.values(primitive["attributes"]["POSITION"], "VEC3")
+    rows = np.arange(len(points))
+    if "indices" in primitive:
+        rows = document.values(primitive["indices"], "SCALAR")[:, 0].astype(np.int64)
+        if rows.size and rows.max() >= len(points):
+            raise ValueError(f"a triangle names a point that does not exist; there are {len(points)}")
+    found: FloatArray = points[rows_of_triangles(rows, primitive.get("mode", TRIANGLES))]
+    return found
 
 
-def _triangles(rows: IntArray, mode: int) -> IntArray:
+def rows_of_triangles(rows: IntArray, mode: int) -> IntArray:
     """(n, 3) rows of points, from the order of a list, a strip (every other one turned) or a fan."""
     if mode == TRIANGLES:
         if len(rows) % 3:

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray, starts
+from mbla.arrays import FloatArray
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed
-from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.geometry.welding import triangle_soup
 
 HEADER, TRIANGLE = 84, 50
 """bytes before the first triangle of a binary file, and of each triangle"""
@@ -78,8 +78,5 @@ def _geometry(solids: list[FloatArray], names: list[str]) -> Geometry:
     parts = [triangles for triangles, _ in kept]
     if parts and not several:
         parts = [np.concatenate(parts)]
-    count = starts(np.array([len(part) for part in parts], dtype=np.int64))
-    corners = 3 * int(count[-1])
-    vertices = np.concatenate([np.empty((0, 3, 3)), *parts]).reshape(-1, 3)
-    surfaces = Polyhedra(vertices, 3 * count, np.arange(corners), np.arange(0, corners + 1, 3), count)
-    return Geometry(surfaces, empty, tuple(name for _, name in kept) if several else (), indexed=False)
+    names = [name for _, name in kept] if several else []
+    return Geometry(triangle_soup(parts), empty, tuple(names), indexed=False)

@@ -137,3 +137,11 @@ def own_vertices(points: FloatArray, corners: IntArray, loop_start: IntArray, bl
         loop_start=loop_start,
         face_start=starts(np.bincount(block, minlength=n_blocks)),
     )
+
+
+def triangle_soup(surfaces: Sequence[FloatArray]) -> Polyhedra:
+    """Surfaces of triangles, (n, 3, 3) each, that share no vertices."""
+    count = starts(np.array([len(triangles) for triangles in surfaces], dtype=np.int64))
+    corners = 3 * int(count[-1])
+    vertices = np.concatenate([np.empty((0, 3, 3)), *surfaces]).reshape(-1, 3)
+    return Polyhedra(vertices, 3 * count, np.arange(corners), np.arange(0, corners + 1, 3), count)

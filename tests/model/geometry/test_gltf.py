@@ -119,10 +119,10 @@ def test_primitives_of_a_mesh_make_one_surface(tmp_path: Path) -> None:
 
 
 def test_strips_and_fans() -> None:
-    from mbla.model.geometry.gltf import FAN, STRIP, _triangles
+    from mbla.model.geometry.gltf import FAN, STRIP, rows_of_triangles
 
-    assert _triangles(np.arange(5), STRIP).tolist() == [[0, 1, 2], [1, 3, 2], [2, 3, 4]]
-    assert _triangles(np.arange(5), FAN).tolist() == [[1, 2, 0], [2, 3, 0], [3, 4, 0]]
+    assert rows_of_triangles(np.arange(5), STRIP).tolist() == [[0, 1, 2], [1, 3, 2], [2, 3, 4]]
+    assert rows_of_triangles(np.arange(5), FAN).tolist() == [[1, 2, 0], [2, 3, 0], [3, 4, 0]]
 
 
 def test_quantized_positions(tmp_path: Path) -> None:
