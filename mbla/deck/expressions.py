@@ -62,6 +62,10 @@ class ExpressionError(ValueRefused):
     """The expression cannot be evaluated; the message says why."""
 
 
+def _wrong(words: str) -> ExpressionError:
+    return ExpressionError("wrong-expression", words)
+
+
 class ParameterFaultError(ExpressionError):
     """The expression uses a parameter whose own fault is reported where it is defined."""
 
@@ -121,7 +125,7 @@ class Parameters:
         if name in self._raw:
             raise ParameterFaultError("wrong-expression", f"parameter {name} has no value")
         if name in FUNCTIONS:
-            raise ExpressionError("wrong-expression", f"{name} is a function: write {name}(...)")
+            raise _wrong(f"{name} is a function: write {name}(...)")
         raise ExpressionError("unknown-name", unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
 
     def dependencies(self, names: Iterable[str]) -> set[str]:
@@ -170,8 +174,7 @@ class Parameters:
 
     def _blame_cycle(self, names: list[str]) -> None:
         """Report a cycle from the member that stands first in the deck."""
-        order = {name: position for position, name in enumerate(self._raw)}
-        first = names.index(min(names, key=order.__getitem__))
+        first = names.index(min(names, key=list(self._raw).index))
         cycle = [*names[first:], *names[:first], names[first]]
         shown = cycle if len(cycle) <= _LONGEST_CYCLE else [*cycle[: _LONGEST_CYCLE - 2], "...", cycle[-1]]
         self._failures[cycle[0]] = Message("wrong-expression", f"refers to itself: {' -> '.join(shown)}")
@@ -186,26 +189,24 @@ def parse_source(text: str) -> ast.expr:
     """Syntax of an expression without its ``=``; raises ExpressionError if it cannot be read."""
     source = text.strip()
     if not source:
-        raise ExpressionError(
-            "wrong-expression", "is an expression without content: write a number or an expression after the ="
-        )
+        raise _wrong("is an expression without content: write a number or an expression after the =")
     if len(source) > MAX_LENGTH:
-        raise ExpressionError("wrong-expression", f"is an expression of more than {MAX_LENGTH} characters")
+        raise _wrong(f"is an expression of more than {MAX_LENGTH} characters")
     if "^" in source:
-        raise ExpressionError("wrong-expression", "^ is not an operator of expressions: write ** for powers")
+        raise _wrong("^ is not an operator of expressions: write ** for powers")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Python's remarks on style ("1if") are not for the user of a deck
             return ast.parse(source, mode="eval").body
     except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
         reason = getattr(error, "msg", None) or "too deeply nested"
-        raise ExpressionError("wrong-expression", f"cannot be read as an expression: {reason}") from None
+        raise _wrong(f"cannot be read as an expression: {reason}") from None
 
 
 def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> float:
     """Value of a syntax node, by recursion; ``depth`` bounds it. Raises ExpressionError where it has none."""
     if depth > MAX_DEPTH:
-        raise ExpressionError("wrong-expression", f"is an expression nested more than {MAX_DEPTH} levels deep")
+        raise _wrong(f"is an expression nested more than {MAX_DEPTH} levels deep")
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return _number(float, (value,), "number")
@@ -220,8 +221,7 @@ def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> fl
             _refuse_radians(name, args)
             return _call(name, [evaluate(argument, value_of, depth + 1) for argument in args])
         case _:
-            raise ExpressionError(
-                "wrong-expression",
+            raise _wrong(
                 "holds something other than numbers, parameters, + - * / % **, parentheses and functions "
                 f"({', '.join(FUNCTIONS)})",
             )
@@ -231,21 +231,19 @@ def _refuse_radians(name: str, arguments: list[ast.expr]) -> None:
     """Conversions from and to radians, and pi in an angle: whoever writes them expects functions of radians."""
     if name in ("radians", "degrees"):
         words = f"{name} is not needed: angles of sin, cos, tan, asin, acos, atan and atan2 are in degrees"
-        raise ExpressionError("wrong-expression", words)
+        raise _wrong(words)
     inside = (node for argument in arguments for node in ast.walk(argument))
     if name in OF_ANGLES and any(isinstance(node, ast.Name) and node.id == "pi" for node in inside):
-        raise ExpressionError("wrong-expression", f"{name} takes degrees: write 180 for pi in its angle")
+        raise _wrong(f"{name} takes degrees: write 180 for pi in its angle")
 
 
 def _call(name: str, arguments: list[float]) -> float:
     if name not in FUNCTIONS:
-        raise ExpressionError("wrong-expression", unknown(f"function {name}", name, FUNCTIONS))
+        raise _wrong(unknown(f"function {name}", name, FUNCTIONS))
     least, most = _ARGUMENTS.get(name, (1, 1))
     if not least <= len(arguments) <= most:
         wanted = str(least) if least == most else f"{least} to {most}"
-        raise ExpressionError(
-            "wrong-expression", f"{name} takes {wanted} argument{'s' if most > 1 else ''}, has {len(arguments)}"
-        )
+        raise _wrong(f"{name} takes {wanted} argument{'s' if most > 1 else ''}, has {len(arguments)}")
     return _number(FUNCTIONS[name], arguments, name)
 
 
@@ -254,14 +252,14 @@ def _number(function: Callable[..., Any], arguments: Any, name: str) -> float:
     try:
         result = function(*arguments)
     except ZeroDivisionError:
-        raise ExpressionError("wrong-expression", "divides by zero") from None
+        raise _wrong("divides by zero") from None
     except OverflowError:
-        raise ExpressionError("wrong-expression", "gives a number that is too large") from None
+        raise _wrong("gives a number that is too large") from None
     except ValueError:
         shown = ", ".join(f"{argument:g}" for argument in arguments)
-        raise ExpressionError("wrong-expression", f"{name}({shown}) is not defined") from None
+        raise _wrong(f"{name}({shown}) is not defined") from None
     if isinstance(result, complex):
-        raise ExpressionError("wrong-expression", "gives a root of a negative number")
+        raise _wrong("gives a root of a negative number")
     if not math.isfinite(result):
-        raise ExpressionError("wrong-expression", "gives a number that is too large")
+        raise _wrong("gives a number that is too large")
     return float(result)

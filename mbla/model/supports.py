@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
-from mbla.deck.sections.supports import GroundPlane, SymmetryPlane
+from mbla.deck.sections.supports import Plane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
@@ -117,7 +117,7 @@ FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
 
 
-def plane_of(section: GroundPlane | SymmetryPlane) -> tuple[FloatArray, FloatArray, str]:
+def plane_of(section: Plane) -> tuple[FloatArray, FloatArray, str]:
     """Point (3,) and unit normal (3,) of a plane, and ``z = 0``; nothing for one by point and normal."""
     for axis, key in enumerate("xyz"):
         coordinate = getattr(section, key)

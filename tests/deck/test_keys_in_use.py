@@ -24,7 +24,6 @@ UNUSED: dict[str, str] = {
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PublishedScheme": "averaging max_programs",
-    "SymmetryPlane": "z",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""
 

@@ -9,8 +9,8 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.items.item import Item
-from mbla.deck.quantities import Count, EmbraceAngle, Name, PlanePoint, PositiveLength, SideAngle, SkewAngle
+from mbla.deck.items.item import SpringingItem
+from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, given, one_of, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
@@ -28,7 +28,7 @@ class ArchPiers(Section):
     courses: Count = Field(description="number of courses, one block each")
 
 
-class ArchItem(Item):
+class ArchItem(SpringingItem):
     """An arch of straight-edged voussoirs in the x-z plane, extruded along +y.
 
     Its joints are normal to the line that has the shape, and divide the line through the middle of the thickness into
@@ -73,12 +73,6 @@ class ArchItem(Item):
         description="degrees: the plan is sheared, x by y tan(skew), so that the faces stay in planes of constant y "
         "and the joints stay parallel to the abutments (false skew; no helicoidal courses)",
     )
-    springers: Literal["none", "ground", "blocks"] = Field(
-        "none",
-        description="ground: rigid ground under both springing joints; blocks: a fixed block behind each, "
-        "in group GROUP_springers; none: the deck's supports hold the arch",
-    )
-    joint: Name | None = Field(None, description="joint law at a springing on ground; that of contacts unless given")
     piers: ArchPiers | None = Field(None, description="piers under the springings; the deck's supports hold them")
 
 
@@ -104,8 +98,6 @@ def arch_shape(arch: ArchItem) -> Iterator[Finding]:
     yield from shape_keys(arch, arch.shape, tuple(SHAPES_WITH))
     if arch.span is not None and arch.rise is not None:
         yield from range_of_rise(arch.shape, arch.span, arch.rise, arch.side_angle, ("rise",))
-    if arch.joint is not None and arch.springers != "ground":
-        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")
     if arch.piers is not None and arch.springers != "none":
         words = f"the springings have piers or springers: leave out one of them (springers: {arch.springers})"
         yield Finding("key-of-another-choice", words, "piers")

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.items.item import Item
-from mbla.deck.quantities import Count, EmbraceAngle, Integer, Name, PositiveLength
+from mbla.deck.items.item import SpringingItem
+from mbla.deck.quantities import Count, EmbraceAngle, Integer, PositiveLength
 from mbla.deck.section import Section, given, one_of, rule
 from mbla.errors import Finding
 
@@ -23,7 +23,7 @@ class DomeDrum(Section):
     )
 
 
-class DomeItem(Item):
+class DomeItem(SpringingItem):
     """A spherical dome of rings of blocks about the z axis, bed joints conical about the centre of the sphere.
 
     The middle of the springing is at the origin, or at z = height of the drum, which then stands at z = 0. Circles are
@@ -60,12 +60,6 @@ class DomeItem(Item):
         description="plane pieces around of each block's faces, even for running bond; 2 unless given, in stack bond 1",
     )
     drum: DomeDrum | None = Field(None, description="cylindrical wall that the dome stands on")
-    springers: Literal["none", "ground", "blocks"] = Field(
-        "none",
-        description="ground: rigid ground under a level springing, or under the drum; blocks: a ring of fixed blocks "
-        "behind the springing joint, in group GROUP_springers; none: the deck's supports hold the dome",
-    )
-    joint: Name | None = Field(None, description="joint law at a springing on ground; that of contacts unless given")
 
 
 @rule(DomeItem)
@@ -98,5 +92,3 @@ def dome_springers(dome: DomeItem) -> Iterator[Finding]:
         yield Finding("vault-shape", words, "springers")
     if dome.springers == "blocks" and dome.drum is not None:
         yield Finding("key-of-another-choice", "a drum carries the dome: write ground or none", "springers")
-    if dome.joint is not None and dome.springers != "ground":
-        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from collections.abc import Iterator
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.quantities import Angle, Direction, Integer, Name, Point, PositiveNumber
-from mbla.deck.section import Section, exactly_one_of, shape
+from mbla.deck.section import Section, exactly_one_of, rule, shape
+from mbla.errors import Finding
 
 
 class Rotation(Section):
@@ -69,3 +71,21 @@ class Item(Section):
         description="copies, made after the transform, all in the same group; of a list each step repeats what the "
         "steps before it have made",
     )
+
+
+class SpringingItem(Item):
+    """What springs from its supports: arches, domes and vaults."""
+
+    springers: Literal["none", "ground", "blocks"] = Field(
+        "none",
+        description="ground: rigid ground under the springing joints; blocks: fixed blocks behind them, in group "
+        "GROUP_springers; none: the deck's supports hold the structure",
+    )
+    joint: Name | None = Field(None, description="joint law at springings on ground; that of contacts unless given")
+
+
+@rule(SpringingItem)
+def joint_of_ground(item: SpringingItem) -> Iterator[Finding]:
+    """The joint law of a ground needs a ground."""
+    if item.joint is not None and item.springers != "ground":
+        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")

@@ -8,15 +8,15 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field
 
 from mbla.deck.items.arch import range_of_rise, shape_keys
-from mbla.deck.items.item import Item
-from mbla.deck.quantities import EmbraceAngle, Integer, Name, PositiveLength
+from mbla.deck.items.item import SpringingItem
+from mbla.deck.quantities import EmbraceAngle, Integer, PositiveLength
 from mbla.deck.section import ROUNDING, rule
 from mbla.errors import Finding
 
 VaultShape: TypeAlias = Literal["semicircular", "segmental", "pointed", "elliptic", "catenary"]
 
 
-class VaultItem(Item):
+class VaultItem(SpringingItem):
     """Keys of every vault."""
 
     shape: VaultShape = Field(
@@ -31,12 +31,6 @@ class VaultItem(Item):
     )
     unit: PositiveLength = Field(description="length of the units along their course; closing units are cut to fit")
     bond: Literal["running", "stack"] = Field("running", description="running: odd courses shifted by half a unit")
-    springers: Literal["none", "ground", "blocks"] = Field(
-        "none",
-        description="ground: rigid ground under the springing joints; blocks: fixed blocks behind them, in group "
-        "GROUP_springers; none: the deck's supports hold the vault",
-    )
-    joint: Name | None = Field(None, description="joint law at springings on ground; that of contacts unless given")
 
 
 class BarrelVaultItem(VaultItem):
@@ -99,13 +93,6 @@ def vault_curve(vault: VaultItem) -> Iterator[Finding]:
         yield from range_of_rise(vault.shape, span, vault.rise, None, ("rise",))
     if vault.shape == "pointed" and vault.courses % 2 and not isinstance(vault, PavilionVaultItem):
         yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
-
-
-@rule(VaultItem)
-def vault_springers(vault: VaultItem) -> Iterator[Finding]:
-    """The joint law of a ground needs a ground."""
-    if vault.joint is not None and vault.springers != "ground":
-        yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")
 
 
 @rule(CrossVaultItem, PavilionVaultItem)

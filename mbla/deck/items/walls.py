@@ -41,22 +41,22 @@ class CrossWall(Section):
     to: PlanePoint = Field(description="where it ends: x, y")
 
 
-class SegmentOpening(Opening):
+class OnSegment(Section):
+    """On one of several walls."""
+
+    segment: Index = Field(description="which wall: segments of the plan from 0, then the cross walls")
+
+
+class SegmentOpening(Opening, OnSegment):
     """Opening in one wall of a plan; distances along it are from the first point of its line."""
 
-    segment: Index = Field(description="which wall: segments of the plan from 0, then the cross walls")
 
-
-class SegmentGable(Gable):
+class SegmentGable(Gable, OnSegment):
     """Gable on one wall of a plan, over its whole length with the corners."""
 
-    segment: Index = Field(description="which wall: segments of the plan from 0, then the cross walls")
 
-
-class SegmentButtress(Buttress):
+class SegmentButtress(Buttress, OnSegment):
     """Buttress against one wall of a plan."""
-
-    segment: Index = Field(description="which wall: segments of the plan from 0, then the cross walls")
 
 
 class WallsItem(Masonry):
@@ -95,10 +95,6 @@ def walls(item: WallsItem) -> Iterator[Finding]:
                 words = f"must be <= {len(lengths) - 1}: there are {len(lengths)} walls, from 0"
                 found = iter([Finding("out-of-bounds", words, "segment")])
             yield from (finding.below(key, number) for finding in found)
-    yield from _one_gable_each(item)
-
-
-def _one_gable_each(item: WallsItem) -> Iterator[Finding]:
     segments = [gable.segment for gable in item.gables]
     for number, segment in enumerate(segments):
         if segment in segments[:number]:

@@ -13,19 +13,25 @@ from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 
 
-@exactly_one_of("x", "y", "z", "point")
-class GroundPlane(Section):
-    """A plane: exactly one of x, y, z (normal along that axis), or a point and a normal towards the structure."""
+class Plane(Section):
+    """A plane at right angles to an axis, or by a point and its normal."""
 
-    x: Length | None = Field(None, description="the plane at this x, structure on the side of greater x")
-    y: Length | None = Field(None, description="the plane at this y, structure on the side of greater y")
-    z: Length | None = Field(None, description="the plane at this z, structure above")
+    x: Length | None = Field(None, description="the plane at this x")
+    y: Length | None = Field(None, description="the plane at this y")
+    z: Length | None = Field(None, description="the plane at this z")
     point: Point | None = Field(None, description="a point on the plane")
-    normal: Direction | None = Field(None, description="normal of the plane, towards the structure")
+    normal: Direction | None = Field(None, description="normal of the plane; of ground it points to the structure")
 
 
 @exactly_one_of("x", "y", "z", "point")
-class SymmetryPlane(Section):
+class GroundPlane(Plane):
+    """A plane: exactly one of x, y, z (the structure lies on the side of greater x, y or z), or a point and a normal
+    towards the structure.
+    """
+
+
+@exactly_one_of("x", "y", "z", "point")
+class SymmetryPlane(Plane):
     """A plane of symmetry: exactly one of x, y, z (normal along that axis), or a point and a normal.
 
     Blocks, supports, guides, settlements and forces given in the deck appear on both sides, images in the groups of
@@ -34,18 +40,13 @@ class SymmetryPlane(Section):
     and its halves are chosen from that.
     """
 
-    x: Length | None = Field(None, description="the plane at this x")
-    y: Length | None = Field(None, description="the plane at this y")
-    z: Length | None = Field(None, description="the plane at this z")
-    point: Point | None = Field(None, description="a point on the plane")
-    normal: Direction | None = Field(None, description="normal of the plane, to either side")
     halves: Selector | None = Field(
         None, description="blocks that are cut in two by the plane: half and image are one block"
     )
 
 
-@rule(GroundPlane, SymmetryPlane)
-def plane_normal(plane: GroundPlane | SymmetryPlane) -> Iterator[Finding]:
+@rule(Plane)
+def plane_normal(plane: Plane) -> Iterator[Finding]:
     """A normal goes with a point."""
     if plane.point is not None and plane.normal is None:
         yield Finding("missing-key", "needs a normal beside its point")

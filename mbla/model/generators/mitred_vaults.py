@@ -88,7 +88,7 @@ def mitred_block(section: HalfSection, course: int, x: float, y: float) -> Float
 
 
 def units_between(
-    profile: FloatArray, stretch: float, x: Sequence[float | FloatArray], y: Sequence[float | FloatArray]
+    profile: FloatArray, stretch: float, x: FloatArray | list[FloatArray], y: FloatArray | list[FloatArray]
 ) -> tuple[FloatArray, FloatArray]:
     """Units of a course along x and along y between upright joints (n,) each, (n - 1, 2, 4, 3)."""
     along_x = np.array([station(profile, at, stretch * profile[:, 0]) for at in x])
