@@ -14,7 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.associative.certificate import cleaned_certificate
+from mbla.solution.associative.certificate import steepest_fall
 from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -161,8 +161,9 @@ def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResu
     result = _by_flow_rule(program, settings, log)
     certificate = result.associative.certificate
     if certificate is not None:  # of what does not stand, only that moves
-        clean = cleaned_certificate(program, certificate, settings, log)
-        result = replace(result, associative=replace(result.associative, certificate=clean))
+        fall = steepest_fall(program, settings, log)
+        if fall is not None:
+            result = replace(result, associative=replace(result.associative, certificate=fall))
     if settings.range or looks_lower(program, settings):
         result = _with_range(result, settings, log)
     return _with_standing(result, settings) if settings.standing else result

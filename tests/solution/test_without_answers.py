@@ -24,7 +24,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing import spring_state
 from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
-from mbla.solution.standing.spring_state import convex_minimum, newton_step
+from mbla.solution.standing.spring_state import newton_step
 from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.verify import verify
@@ -86,27 +86,13 @@ def on_springs() -> SpringProblem:
 
 def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = on_springs()
-    joints = joints_at(problem, 1e-3, np.zeros(6), None)
-    assert newton_step(problem, 1e-3, joints, lagged=False) is not None
+    joints = joints_at(problem, 1e-3, np.zeros(6))
+    assert newton_step(problem, 1e-3, joints) is not None
     monkeypatch.setattr(spring_state, "factors_on_the_diagonal", lambda *arguments: None)
-    assert newton_step(problem, 1e-3, joints, lagged=False) is None
+    assert newton_step(problem, 1e-3, joints) is None
     late = replace(problem, pattern=LatePattern(line_of(BLOCK).program))
     monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: None)
-    assert [newton_step(late, 1e-3, joints, lagged=False) for _ in range(PATTERN_FROM + 1)][-1] is None
-
-
-@pytest.mark.parametrize("share", [None, -1.0], ids=["no step", "uphill"])
-def test_a_minimum_that_no_step_leads_to_is_not_gone_to(share: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
-    problem, start = on_springs(), np.full(6, 1e-3)
-    limit = joints_at(problem, 1e-3, start).state.limit
-    assert not np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
-
-    def step(*arguments: object, lagged: bool) -> np.ndarray | None:
-        right = newton_step(*arguments, lagged=lagged)  # type: ignore[arg-type]
-        return None if share is None or right is None else share * right
-
-    monkeypatch.setattr(spring_state, "newton_step", step)
-    assert np.array_equal(convex_minimum(problem, 1e-3, start, limit), start)
+    assert [newton_step(late, 1e-3, joints) for _ in range(PATTERN_FROM + 1)][-1] is None
 
 
 def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypatch: pytest.MonkeyPatch) -> None:

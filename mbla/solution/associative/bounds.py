@@ -108,15 +108,6 @@ def dissipation(program: Program, velocities: FloatArray, charge: float) -> floa
 
     velocities : (n_rows,)  non-dimensional, as is the power
     """
-    power, closing = point_dissipation(program, velocities)
-    return float(power.sum() + charge * closing.sum())
-
-
-def point_dissipation(program: Program, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Power that each point dissipates by associative flow, and by how much it is incompatible, both (n_points,).
-
-    velocities : (n_rows,); incompatible is μ s − v_N where that is positive and the point cannot crush
-    """
     limits = program.limits
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
@@ -124,4 +115,4 @@ def point_dissipation(program: Program, velocities: FloatArray) -> tuple[FloatAr
     crushes, short = np.isfinite(limits.compression), np.maximum(-surplus, 0.0)
     crushed = np.where(crushes, limits.compression, 0.0) * short
     power = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + crushed
-    return power, np.where(crushes, 0.0, short)
+    return float(power.sum() + charge * short[~crushes].sum())

@@ -16,12 +16,11 @@ from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.associative.bounds import LOCKED_IN, dissipation, point_dissipation
+from mbla.solution.associative.bounds import LOCKED_IN, dissipation
 from mbla.solution.cone_solvers.choice import interior_point_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings
@@ -67,61 +66,6 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     moving = velocities / largest
     candidates = (np.where(np.abs(moving) > AT_REST, moving, 0.0), moving)
     return next((motion for motion in candidates if _proves(program, motion)), None)
-
-
-def cleaned_certificate(program: Program, velocities: FloatArray, settings: SolverSettings, log: Log) -> FloatArray:
-    """A motion that proves what ``velocities``, (n_rows,), prove, without what does not fall.
-
-    The steepest fall where it is found; else the given motion without the connected parts in which the dead load gains
-    nothing.
-    """
-    fall = steepest_fall(program, settings, log)
-    return failing_parts(program, velocities) if fall is None else fall
-
-
-def failing_parts(program: Program, velocities: FloatArray) -> FloatArray:
-    """The motion, (n_rows,), with every part at rest whose own dead load does no more work than its joints dissipate.
-
-    Parts are moving blocks connected by contacts; taking one away leaves the velocities at the contacts of the others.
-    """
-    part_of_row, n_parts = _moving_parts(program, velocities)
-    gain = np.zeros(n_parts)
-    moving = part_of_row >= 0
-    np.add.at(gain, part_of_row[moving], (program.dead_load * velocities)[moving])
-    part_of_point, touched = _part_of_point(program, part_of_row)
-    np.add.at(gain, part_of_point[touched], -point_dissipation(program, velocities)[0][touched])
-    kept = np.where(moving & (gain > 0)[part_of_row], velocities, 0.0)
-    return kept if _proves(program, kept) else velocities
-
-
-def _moving_parts(program: Program, velocities: FloatArray) -> tuple[np.typing.NDArray[np.int64], int]:
-    """Part of each row, −1 where it does not move, and the number of parts."""
-    touches = sp.coo_array(_touches(program))
-    moves = velocities != 0
-    n_rows, n_points = touches.shape
-    here = moves[touches.row]
-    entries = (np.ones(int(here.sum())), (touches.row[here], n_rows + touches.col[here]))
-    graph = sp.coo_array(entries, shape=(n_rows + n_points, n_rows + n_points))
-    n_parts, label = connected_components(graph, directed=False)
-    return np.where(moves, label[:n_rows], -1).astype(np.int64), int(n_parts)
-
-
-def _part_of_point(
-    program: Program, part_of_row: np.typing.NDArray[np.int64]
-) -> tuple[np.typing.NDArray[np.int64], BoolArray]:
-    """Part whose rows move at each contact point, and whether there is one."""
-    touches = sp.coo_array(_touches(program))
-    part = np.full(program.n_points, -1, dtype=np.int64)
-    here = part_of_row[touches.row] >= 0
-    part[touches.col[here]] = part_of_row[touches.row[here]]
-    return part, part >= 0
-
-
-def _touches(program: Program) -> sp.csr_array:
-    """Rows that each contact point acts on, (n_rows, n_points)."""
-    matrix = program.equilibrium_matrix.tocoo()
-    entries = (np.ones(len(matrix.data)), (matrix.row, matrix.col // program.components))
-    return sp.csr_array(sp.coo_array(entries, shape=(matrix.shape[0], program.n_points)))
 
 
 def _proves(program: Program, velocities: FloatArray) -> bool:

@@ -57,23 +57,20 @@ class JointState:
     in_contact: BoolArray
 
 
-def joint_state(
-    limits: YieldLimits, trial: FloatArray, slope: FloatArray | float = 0.0, limit: FloatArray | None = None
-) -> JointState:
+def joint_state(limits: YieldLimits, trial: FloatArray, slope: FloatArray | float = 0.0) -> JointState:
     """Return map of every joint.
 
     trial : (n_points, components) trial forces a, τ
     slope : (n_points,) tangent of the dilatancy angle, or one for all
-    limit : (n_points,) of shear where it does not follow the normal force
     """
     size = np.linalg.norm(trial[:, 1:], axis=1)
     direction = trial[:, 1:] / np.maximum(size, 1e-300)[:, None]
     normal = np.clip(trial[:, 0], -limits.tension, limits.compression)
-    slips = size > (_shear_limit(limits, normal) if limit is None else limit)
+    slips = size > _shear_limit(limits, normal)
     sliding = (trial[:, 0] + slope * (size - limits.cohesion)) / (1.0 + slope * limits.friction)
     sliding = np.where(slips, sliding, trial[:, 0])
     normal = np.clip(sliding, -limits.tension, limits.compression)
-    limit = _shear_limit(limits, normal) if limit is None else limit
+    limit = _shear_limit(limits, normal)
     shear = np.where(slips, limit, size)[:, None] * direction
     return JointState(np.column_stack([normal, shear]), direction, size, limit, slips, normal == sliding)
 
@@ -85,7 +82,7 @@ def _shear_limit(limits: YieldLimits, normal: FloatArray) -> FloatArray:
 def joint_tangents(friction: FloatArray, state: JointState, slope: FloatArray | float = 0.0) -> FloatArray:
     """Change of the forces of every joint with its trial forces, (n_points, components, components).
 
-    friction : (n_points,); zero where limits of shear do not follow the normal forces
+    friction : (n_points,)
     """
     n, size = state.forces.shape
     theta, slips = state.direction, state.slips

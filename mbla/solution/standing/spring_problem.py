@@ -138,21 +138,20 @@ def balanced(problem: SpringProblem, kappa: float, u: FloatArray, joints: Joints
     )
 
 
-def joints_at(problem: SpringProblem, kappa: float, u: FloatArray, limit: FloatArray | None = None) -> Joints:
-    """State of the joints at displacements u, with their own limits of shear or given ones, (n_points,)."""
+def joints_at(problem: SpringProblem, kappa: float, u: FloatArray) -> Joints:
+    """State of the joints at displacements u, (n_rows,)."""
     trial = -(problem.transpose @ u).reshape(-1, problem.components) * problem.stiffnesses
-    state = joint_state(problem.limits, trial, limit=limit)
+    state = joint_state(problem.limits, trial)
     unbalanced = problem.equilibrium_matrix @ state.forces.ravel() + problem.load - kappa * (problem.springs @ u)
     return Joints(state, unbalanced)
 
 
-def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints, lagged: bool) -> sp.csc_matrix:
+def stiffness_at(problem: SpringProblem, kappa: float, joints: Joints) -> sp.csc_matrix:
     """A C Aᵀ + κ W, (n_rows, n_rows)."""
-    diagonal = block_diagonal(joint_stiffness(problem, joints, lagged))
+    diagonal = block_diagonal(joint_stiffness(problem, joints))
     return sp.csc_matrix(problem.equilibrium_matrix @ diagonal @ problem.transpose + kappa * problem.springs)
 
 
-def joint_stiffness(problem: SpringProblem, joints: Joints, lagged: bool) -> FloatArray:
-    """C = −dx/dv of every joint, (n_points, components, components); with limits held where lagged."""
-    friction = np.zeros_like(problem.limits.friction) if lagged else problem.limits.friction
-    return joint_tangents(friction, joints.state) * problem.stiffnesses
+def joint_stiffness(problem: SpringProblem, joints: Joints) -> FloatArray:
+    """C = −dx/dv of every joint, (n_points, components, components)."""
+    return joint_tangents(problem.limits.friction, joints.state) * problem.stiffnesses

@@ -243,7 +243,7 @@ def _elastic_state(problem: SpringProblem, blocks: _Blocks) -> _State | None:
     It is the first step of Newton's method from where nothing has moved. What goes on from another state has none.
     """
     u = np.zeros(len(problem.load))
-    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u), lagged=False)
+    step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u))
     if step is None or not balanced(problem, WEAKEST, step, joints_at(problem, WEAKEST, step)):
         return None
     state = _state(blocks, WEAKEST, step)

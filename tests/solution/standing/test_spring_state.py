@@ -22,7 +22,7 @@ from mbla.solution.standing.spring_problem import (
     spring_problem,
     stiffness_at,
 )
-from mbla.solution.standing.spring_state import convex_minimum, newton_step, spring_state
+from mbla.solution.standing.spring_state import newton_step, spring_state
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, is_diagonal, springs_of, weaken_springs
 from tests.line import BLOCK, WALL, line_of
 from tests.solution.standing_structures import rafters
@@ -35,34 +35,31 @@ def problem_of(text: str, *overrides: str) -> SpringProblem:
     return spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
 
 
-@pytest.mark.parametrize("lagged", [False, True])
-def test_the_tangent_is_that_of_the_law(lagged: bool) -> None:
+def test_the_tangent_is_that_of_the_law() -> None:
     """By differences, at displacements at which joints are open, stick and slide."""
     problem = replace(problem_of(WALL, "parameters.n=3"), shear_stiffness=0.4)
     rng = np.random.default_rng(3)
     u, du = rng.normal(size=(2, len(problem.load)))
-    limit = np.full(len(problem.limits.friction), 0.3) if lagged else None
-    here, there = joints_at(problem, 0.2, u, limit), joints_at(problem, 0.2, u + 1e-7 * du, limit)
+    here, there = joints_at(problem, 0.2, u), joints_at(problem, 0.2, u + 1e-7 * du)
     slips, open_ = here.state.slips, ~here.state.in_contact
     assert 0 < slips.sum() < len(slips)
     assert 0 < open_.sum() < len(open_)
-    tangent = stiffness_at(problem, 0.2, here, lagged)
+    tangent = stiffness_at(problem, 0.2, here)
     assert (here.unbalanced - there.unbalanced) / 1e-7 == pytest.approx(tangent @ du, abs=1e-5)
 
 
-@pytest.mark.parametrize("lagged", [False, True])
 @pytest.mark.parametrize("reductions", ["true", "false"])
-def test_a_step_on_the_pattern_is_newtons_step(reductions: str, lagged: bool) -> None:
+def test_a_step_on_the_pattern_is_newtons_step(reductions: str) -> None:
     """The same as by products of sparse matrices, planar and in space, with joints open, sticking and sliding."""
     program = line_of(WALL, "parameters.n=3", f"analysis.reductions={reductions}").program
     springs = springs_of(program, "dead_load")[0]
     problem = spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
-    here = joints_at(problem, 0.2, np.random.default_rng(3).normal(size=len(problem.load)), None)
+    here = joints_at(problem, 0.2, np.random.default_rng(3).normal(size=len(problem.load)))
     assert is_diagonal(springs)
     late = replace(problem, pattern=LatePattern(program))
-    steps = [newton_step(late, 0.2, here, lagged=lagged) for _ in range(PATTERN_FROM + 1)]
+    steps = [newton_step(late, 0.2, here) for _ in range(PATTERN_FROM + 1)]
     first, last = steps[0], steps[-1]
-    plain = newton_step(problem, 0.2, here, lagged=lagged)
+    plain = newton_step(problem, 0.2, here)
     assert first is not None
     assert last is not None
     assert plain is not None
@@ -81,34 +78,16 @@ def test_a_block_on_springs_settles_as_two_springs_in_parallel(kappa: float) -> 
     assert np.delete(u, 2) == pytest.approx(0, abs=1e-12)
 
 
-def test_held_limits_of_shear_leave_a_minimum_that_is_found() -> None:
-    """From a start far off, and with other limits than those that belong to it: balance under the held limits."""
-    problem = problem_of(rafters(0.6))
-    start = np.random.default_rng(1).normal(size=len(problem.load))
-    limit = joints_at(problem, 1e-3, start).state.limit
-    u = convex_minimum(problem, 1e-3, start, limit)
-    assert np.abs(joints_at(problem, 1e-3, u, limit).unbalanced).max() < 1e-9
-
-
-@pytest.mark.parametrize(("lags", "dashpot_steps"), [(9, 0), (0, 60)], ids=["limits", "dashpots"])
-def test_detours_find_the_state_where_newtons_method_does_not(
-    lags: int, dashpot_steps: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_steps_in_time_find_the_state_where_newtons_method_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two steps of Newton's method do not lead there from rest; close by they do."""
     problem = problem_of(rafters(0.4))
     start = [np.zeros(len(problem.load))]
     direct = spring_state(problem, 1e-3, start)
     assert direct is not None
-    for name, value in (
-        ("standing.spring_state.NEWTON_STEPS", 2),
-        ("standing.spring_state.LAGS", 0),
-        ("standing.spring_state.DASHPOT_STEPS", 0),
-    ):
-        monkeypatch.setattr(f"mbla.solution.{name}", value)
-    assert spring_state(problem, 1e-3, start) is None
-    monkeypatch.setattr("mbla.solution.standing.spring_state.LAGS", lags)
-    monkeypatch.setattr("mbla.solution.standing.spring_state.DASHPOT_STEPS", dashpot_steps)
+    monkeypatch.setattr("mbla.solution.standing.spring_state.NEWTON_STEPS", 2)
     assert spring_state(problem, 1e-3, start) == pytest.approx(direct, abs=1e-9)
+    monkeypatch.setattr("mbla.solution.standing.spring_state.DASHPOT_STEPS", 0)
+    assert spring_state(problem, 1e-3, start) is None
 
 
 def test_the_share_is_what_friction_leaves_over() -> None:
@@ -142,9 +121,9 @@ def counted_steps(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """The stiffness of springs at every step of Newton's method from now on."""
     steps: list[float] = []
 
-    def counted(problem: SpringProblem, kappa: float, joints: Joints, *, lagged: bool) -> FloatArray | None:
+    def counted(problem: SpringProblem, kappa: float, joints: Joints) -> FloatArray | None:
         steps.append(kappa)
-        return newton_step(problem, kappa, joints, lagged=lagged)
+        return newton_step(problem, kappa, joints)
 
     for module in ("standing.spring_state", "standing.weak_spring_continuation"):
         monkeypatch.setattr(f"mbla.solution.{module}.newton_step", counted)
