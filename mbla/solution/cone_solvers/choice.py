@@ -1,10 +1,11 @@
 """Which solver takes a cone program: the one that the deck names, or the one that measurements favour.
 
 - ``mbla``: the interior-point method of :mod:`mbla.solution.cone_solvers.interior_point`, for programs of its shape
-- ``clarabel``: any program; those of other shapes, and those whose admissible set has no inside, under ``mbla`` too
+- ``clarabel``: any program; those of other shapes, those whose admissible set has no inside, and those of which
+  ``mbla`` comes to no answer, under ``mbla`` too
 - ``highs``: linear programs of the associative analysis, where the deck names it
-- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, and ``clarabel`` after it where it comes to no answer; programs with a
-  quadratic cost only with a fast factorisation
+- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation; else
+  ``clarabel``
 
 Measured side by side (schemas/analysis.md): below that size either takes milliseconds and
 clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
@@ -67,8 +68,7 @@ def interior_point_solver(
         )
     if not has_inside or interior_point_method(cone_program, settings.solver) == "clarabel":
         return ClarabelProgram(cone_program, settings, log)
-    own = CondensedProgram(cone_program, settings, log)
-    return own if settings.solver == "mbla" else _OneThenOther(own, settings, log)
+    return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
 
 
 def sharpen(solver: InteriorPointSolver | HighsProgram, tolerance: float) -> bool:

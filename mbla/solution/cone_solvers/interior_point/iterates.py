@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import TypeVar
 
 import numpy as np
 
@@ -206,20 +205,10 @@ class Ended:
     iterations: int
 
 
-Iterate = TypeVar("Iterate")
-
-
-def best_of_run(
-    data: ConeData,
-    run: Run,
-    start: Iterate,
-    step: Callable[[Iterate], tuple[Iterate, float] | None],
-    of_program: Callable[[Iterate], Point],
-) -> Ended:
+def best_of_run(data: ConeData, run: Run, start: Point, step: Callable[[Point], tuple[Point, float] | None]) -> Ended:
     """Iterate until there is an answer or none can be expected; ``step`` gives None on breakdown, and its length."""
-    kept, now, length, outcome = _Kept(), start, 1.0, Outcome.ITERATIONS
+    kept, point, length, outcome = _Kept(), start, 1.0, Outcome.ITERATIONS
     for number in range(run.max_iterations + 1):
-        point = of_program(now)
         measures = measured(data, point)
         run.progress(number, measures, length)
         if not np.isfinite(measures.worst):
@@ -237,11 +226,11 @@ def best_of_run(
             break
         if number == run.max_iterations:
             break
-        moved = step(now)
+        moved = step(point)
         if moved is None:
             outcome = Outcome.NUMERICAL
             break
-        now, length = moved
+        point, length = moved
     return kept.ended(outcome, point, measures, number)
 
 

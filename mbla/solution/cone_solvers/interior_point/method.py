@@ -60,7 +60,7 @@ def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, sta
         if point is None:
             nothing = inside_start(data)
             return Ended(Outcome.NUMERICAL, nothing, measured(data, nothing), 0)
-        return best_of_run(data, run, point, lambda now: _step(data, condensation, now), lambda now: now)
+        return best_of_run(data, run, point, lambda now: _step(data, condensation, now))
 
 
 @dataclass(frozen=True)

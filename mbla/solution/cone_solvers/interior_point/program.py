@@ -17,7 +17,6 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cones import ConeData, cone_data
-from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
 from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Point, Run, warm_start
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
 from mbla.solution.settings import SolverSettings
@@ -41,8 +40,6 @@ STATUSES = {
 }
 """What an outcome says of a program in kinematic form: no admissible mechanism (infeasible) means that the live load
 never brings collapse; an unbounded mechanism means that no equilibrium exists."""
-
-UNDECIDED = (Outcome.STALLED, Outcome.NUMERICAL)
 
 
 @dataclass
@@ -82,10 +79,6 @@ class CondensedProgram:
         if ended is None:
             ended = solve_cone_program(data, condensation, run, self._paused)
             iterations += ended.iterations
-        left = run.max_iterations - iterations
-        if ended.outcome in UNDECIDED and left > 0:
-            again = solve_embedded(data, condensation, replace(run, max_iterations=left))
-            ended, iterations = _better(ended, again), iterations + again.iterations
         self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
         self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
         solution = self._solution(data, ended, iterations, time.perf_counter() - started)
@@ -191,10 +184,3 @@ def fits(program: ConeProgram) -> bool:
 def condensed_size(program: ConeProgram) -> int:
     """Rows of N for a program that fits: its unknowns that are not local."""
     return len(program.cost) - program.n_local
-
-
-def _better(first: Ended, second: Ended) -> Ended:
-    """The second run where it has an answer, or the better iterate."""
-    if second.outcome in UNDECIDED and first.measures.worst < second.measures.worst:
-        return first
-    return second

@@ -16,7 +16,6 @@ from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, cone_data
-from mbla.solution.cone_solvers.interior_point.homogeneous import solve_embedded
 from mbla.solution.cone_solvers.interior_point.iterates import Ended, Outcome, Run
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram, fits
@@ -97,26 +96,6 @@ def test_strengths_far_beyond_the_weights_leave_the_answer_alone() -> None:
     solution = held(program).solve(1, 1.0)
     assert solution.status in (Status.SOLVED, Status.APPROXIMATE), solution.verdict
     assert line.program.scaling.load_factor(solution.objective) == pytest.approx(0.3, rel=1e-5)
-
-
-@pytest.mark.parametrize("quadratic", [False, True], ids=["linear", "quadratic"])
-def test_the_embedding_has_the_same_optimum(quadratic: bool) -> None:
-    """It is run where the method fails only; here it has to do all by itself."""
-    for seed in range(6):
-        known = kinematic(seed, quadratic)
-        data = cone_data(known.program)
-        ended = solve_embedded(data, Condensation(data, "qdldl"), RUN)
-        assert ended.outcome in (Outcome.SOLVED, Outcome.ALMOST), (seed, ended.outcome)
-        assert ended.measures.primal_objective == pytest.approx(known.optimum, abs=1e-5 * (1.0 + abs(known.optimum)))
-
-
-def test_the_embedding_finds_both_rays() -> None:
-    infeasible = small([1.0, 1.0], [[1.0, 0.0], [1.0, 0.0], [0.0, -1.0]], [1.0, 0.5, 0.0], 2)
-    unbounded = small([0.0, -1.0], [[1.0, 0.0], [0.0, -1.0]], [1.0, 0.0], 1)
-    for program, outcome in ((infeasible, Outcome.INFEASIBLE), (unbounded, Outcome.UNBOUNDED)):
-        data = cone_data(program)
-        ended = solve_embedded(data, Condensation(data, "qdldl"), RUN)
-        assert ended.outcome is outcome
 
 
 def test_a_deadline_that_has_passed_ends_the_run() -> None:
