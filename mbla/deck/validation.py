@@ -73,7 +73,7 @@ def _faults(
             by_path[path] = error  # of the branches of a number, the last knows most
     for path, length in lengths.items():
         found = len(_value_at(tree.data, path))
-        yield tree.fault(path, Message("wrong-length", f"needs {length} {_items(tree.data, path)}, has {found}"))
+        yield tree.fault(path, Message("wrong-length", f"needs {length} items, has {found}"))
     for path, error in by_path.items():
         marks = tree.marks_along(path)
         if error["type"] == "reported" or not reported.isdisjoint(marks):
@@ -163,12 +163,13 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         allowed = allowed_keys(root, path[:-1])
         return gone or Message("unknown-key", unknown("key", str(path[-1]), allowed)), True
     if kind in ("too_long", "too_short"):
-        return Message("wrong-length", _length(context, _items(data, path))), False
+        return Message("wrong-length", _length(context)), False
     old = gone_value(path, value) if root is DeckContent else None
     if old is not None:
         return old, False
     if kind in _TYPES:
-        return _TYPES[kind].around(after=_remedy(kind, value)), is_key
+        quotes = kind == "string_type" and isinstance(value, (int, float))
+        return _TYPES[kind].around(after=": write it in quotes" if quotes else ""), is_key
     if kind == "literal_error":
         allowed = [choice.strip("'") for choice in context["expected"].replace(" or ", ", ").split(", ")]
         hint = did_you_mean(value, allowed) if isinstance(value, str) and len(allowed) > 1 else ""
@@ -190,24 +191,8 @@ def _comes_to(data: Any, path: KeyPath, value: Any) -> str:
     return f"; this is {value:.6g}" if computed else ""
 
 
-def _items(data: Any, path: KeyPath) -> str:
-    """What a list of the deck holds, for messages on its length."""
-    first = next(iter(_value_at(data, path)), None)
-    if isinstance(first, (int, float)):
-        return "numbers"
-    return "selectors" if path[-1] == "between" else "items"
-
-
-def _length(context: Any, items: str) -> str:
+def _length(context: Any) -> str:
     least, most, found = context.get("min_length"), context.get("max_length"), context.get("actual_length")
     if least is not None:
-        return f"needs at least {least} {items if least > 1 else 'item'}, has {found}"
-    return f"needs {most} {items}, has {found}"
-
-
-def _remedy(kind: str, value: Any) -> str:
-    if kind == "string_type":
-        return ": write it in quotes" if isinstance(value, (int, float)) else ""
-    if isinstance(value, bool):
-        return ", not true or false"
-    return f", not a {'list' if isinstance(value, list) else 'mapping'}" if isinstance(value, (list, dict)) else ""
+        return f"needs at least {least} item{'s' if least > 1 else ''}, has {found}"
+    return f"needs {most} items, has {found}"

@@ -59,7 +59,7 @@ def build_model(deck: Deck) -> Model:
         grounds=supports.grounds,
         joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
-        notices=(*structure.first_notices, *joint_notices(deck), *roster.notices),
+        notices=(*structure.first_notices, *roster.notices),
         guides=supports.guides,
         interfaces=interfaces,
         bent=structure.bent,
@@ -196,16 +196,6 @@ def build_joint(name: str, law: JointLaw) -> Joint:
         compressive_strength=math.inf if law.compressive_strength is None else law.compressive_strength,
         dilatancy=min(math.tan(math.radians(law.dilatancy)), UNLIMITED),
     )
-
-
-def joint_notices(deck: Deck) -> list[Notice]:
-    """Laws whose friction is taken for less than the deck gives."""
-    steepest = math.degrees(math.atan(UNLIMITED))
-    return [
-        Notice("notice", "friction-limited", f"joint law {name}: its friction is taken for {UNLIMITED:g}")
-        for name, law in deck.content.joints.items()
-        if (law.friction or 0.0) > UNLIMITED or (law.friction_angle or 0.0) > steepest
-    ]
 
 
 def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) -> Blocks:

@@ -63,8 +63,7 @@ def clip_convex(
     start   : (n + 1,)      no corners where there is no common part, one or two where it is a point or a line
     """
     n = len(first_start) - 1
-    # Polygons padded to the next power of two, in groups of the same table size.
-    widths = np.stack([_padded_size(np.diff(first_start)), _padded_size(np.diff(second_start))], axis=1)
+    widths = np.stack([np.diff(first_start), np.diff(second_start)], axis=1)
     counts = np.zeros(n, dtype=np.int64)
     found: list[tuple[IntArray, FloatArray]] = []
     for a, b in np.unique(widths, axis=0):
@@ -84,15 +83,9 @@ def clip_convex(
     return corners, start
 
 
-def _padded_size(counts: IntArray) -> IntArray:
-    return np.asarray(2 ** np.ceil(np.log2(np.maximum(counts, 4))), dtype=np.int64)
-
-
 def _table(points: FloatArray, start: IntArray, rows: IntArray, width: int) -> FloatArray:
-    """Corners (n_rows, width, 2), counter-clockwise, the last corner repeated to fill the row."""
-    counts = np.diff(start)[rows]
-    column = np.minimum(np.arange(width), counts[:, None] - 1)
-    table = points[start[rows, None] + column]
+    """Corners (n_rows, width, 2), counter-clockwise."""
+    table = points[start[rows, None] + np.arange(width)]
     relative = table - table[:, :1]
     following = np.roll(relative, -1, axis=1)
     area = (relative[..., 0] * following[..., 1] - relative[..., 1] * following[..., 0]).sum(axis=1)
@@ -108,7 +101,6 @@ def _clip_tables(subject: FloatArray, window: FloatArray) -> tuple[FloatArray, B
     """
     for edge in range(window.shape[1]):
         begin = window[:, edge]
-        # The repeated corners of a padded row make edges of no length, which cut nothing off.
         direction = window[:, (edge + 1) % window.shape[1]] - begin
         relative = subject - begin[:, None]
         side = direction[:, None, 0] * relative[..., 1] - direction[:, None, 1] * relative[..., 0]

@@ -45,10 +45,7 @@ class LoadCaseSection(Section):
 
 @rule(LoadCaseSection)
 def load_case(case: LoadCaseSection) -> Iterator[Finding]:
-    """A live load must do something; what tilts or travels is live, and there is one of it."""
-    for number, load in enumerate(case.live or []):
-        for below in _without_effect(load):
-            yield Finding("live-load-without-effect", "is a live load with no effect", "live", number, *below)
+    """What tilts or travels is live, and there is one of it."""
     for number, load in enumerate(case.dead or []):
         for kind in given(load, LIVE_ONLY):
             yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
@@ -61,22 +58,3 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
         yield Finding(
             "load-misplaced", "must not stand beside tilt, whose answer is an angle: make it a dead load", "live", other
         )
-
-
-def _without_effect(load: Load) -> Iterator[tuple[str | int, ...]]:
-    """Keys below a load that make it nothing."""
-    if load.factor == 0.0:
-        yield ("factor",)
-    for key in ("gravity", "acceleration", "force", "moment"):
-        value = getattr(load, key)
-        if value == "none" or (value is not None and not any(value)):
-            yield (key,)
-    if load.line is not None and not any(load.line.force_per_length):
-        yield ("line", "force_per_length")
-    if load.travel is not None and not any(load.travel.force):
-        yield ("travel", "force")
-    for number, axle in enumerate((load.travel.axles or []) if load.travel is not None else []):
-        if not any(axle.force):
-            yield ("travel", "axles", number, "force")
-    if load.pressure is not None and not load.pressure.value and not load.pressure.per_depth:
-        yield ("pressure",)

@@ -42,7 +42,9 @@ class JointLaw(Section):
     rigid body; with a support: they do not move) and `open` (no contact).
     """
 
-    friction: NonNegativeNumber | None = Field(None, description="friction coefficient, tan of the friction angle")
+    friction: NonNegativeNumber | None = Field(
+        None, description="friction coefficient, tan of the friction angle; what is above 1e6 counts as that"
+    )
     friction_angle: FrictionAngle | None = Field(None, description="friction angle in degrees")
     cohesion: NonNegativeStress = Field(0.0, description="shear strength without normal stress")
     tensile_strength: NonNegativeStress = Field(0.0, description="normal stress at which the joint opens")

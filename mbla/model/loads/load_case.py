@@ -40,14 +40,15 @@ class _Sum:
     words: tuple[str, ...] = ()
     complete: bool = True
 
-    def plus(self, applied: AppliedLoad | None) -> _Sum:
-        """The same with one load more; None where that left a fault."""
-        if applied is None:
-            return replace(self, complete=False)
-        total, gross = self.total.copy(), self.gross.copy()
-        total[applied.blocks] += applied.wrenches
-        gross[applied.blocks] += np.abs(applied.wrenches)
-        return _Sum(total, gross, (*self.words, applied.words), self.complete)
+    def plus(self, *loads: AppliedLoad | None) -> _Sum:
+        """The same with more loads; None for those that left a fault."""
+        total, gross, words = self.total.copy(), self.gross.copy(), self.words
+        applied = [load for load in loads if load is not None]
+        for load in applied:
+            total[load.blocks] += load.wrenches
+            gross[load.blocks] += np.abs(load.wrenches)
+            words = (*words, load.words)
+        return _Sum(total, gross, words, self.complete and len(applied) == len(loads))
 
 
 @np.errstate(over="ignore", invalid="ignore")  # loads beyond what a double holds are refused as such
@@ -111,14 +112,9 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 
 
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
-    result = _Sum(np.zeros((len(site.fixed), 6)), np.zeros((len(site.fixed), 6)))
-    for entry in entries:
-        if not given(entry.load, LIVE_ONLY):
-            applied = _apply(entry, site)
-            result = result.plus(applied)
-            if applied is not None:
-                _judge_effect(entry, applied, site, live)
-    return result
+    nothing = np.zeros((len(site.fixed), 6))
+    sums = [entry for entry in entries if not given(entry.load, LIVE_ONLY)]
+    return _Sum(nothing, nothing).plus(*(_apply(entry, site, live) for entry in sums))
 
 
 def kind_of(load: Load) -> str:
@@ -126,7 +122,7 @@ def kind_of(load: Load) -> str:
     return next(kind for kind in LOAD_KINDS if getattr(load, kind) is not None)
 
 
-def _apply(entry: Entry, site: LoadSite) -> AppliedLoad | None:
+def _apply(entry: Entry, site: LoadSite, live: bool) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
     load, path, blocks = entry.load, entry.path, None
     if load.on is not None:
@@ -134,10 +130,12 @@ def _apply(entry: Entry, site: LoadSite) -> AppliedLoad | None:
         if blocks is None:
             return None
     applied = LOAD_KINDS[kind_of(load)](load, blocks, path, site)
-    if applied is None or entry.factor == 1.0:
-        return applied
-    words = f"{entry.factor:.6g} times {applied.words}"
-    return AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
+    if applied is not None and entry.factor != 1.0:
+        words = f"{entry.factor:.6g} times {applied.words}"
+        applied = AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
+    if applied is not None:
+        _judge_effect(entry, applied, site, live)
+    return applied
 
 
 def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool) -> None:
