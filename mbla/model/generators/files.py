@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import FloatArray
 from mbla.deck.items.files import MeshItem, TableItem
 from mbla.deck.suggestions import unknown
 from mbla.deck.units import METRES
@@ -19,7 +19,7 @@ from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import LONGEST_REASON, Geometry, GeometryFileError, member_name
 from mbla.model.geometry.repair import repair
 from mbla.model.geometry.surfaces import join_cells
-from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra
+from mbla.model.solids.polyhedra import polyhedra_from_lists, take_polyhedra
 from mbla.model.tables import Table, TableRefused, read_table
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
@@ -140,18 +140,20 @@ def generate_table(item: TableItem, site: Site) -> Generated:
             tables[key] = read_table(file, columns, with_rest=key == "faces")
     if findings:
         raise ItemRefused(*findings)
-    vertices, faces = tables["vertices"], tables["faces"]
-    points = vertices.numbers("xyz")
-    blocks, row_of_vertex = _vertices_by_name(vertices)
-    block_of_face, corners = _faces(faces, blocks, row_of_vertex)
+    blocks = _blocks(tables["vertices"], tables["faces"])
     for key, table in tables.items():
         with _collected(findings, key):
             table.check()
     if findings:
         raise ItemRefused(*findings)
-    owner = np.array([blocks[name] for name in vertices.columns["block"]], dtype=np.int64)
-    polyhedra = _polyhedra(points, owner, np.array(block_of_face, dtype=np.int64), corners, len(blocks))
-    return Generated((Part(polyhedra, member=[member_name(name) for name in blocks]),))
+    points = [list(block.points.values()) for block in blocks.values()]
+    numbers = [{vertex: row for row, vertex in enumerate(block.points)} for block in blocks.values()]
+    faces = [
+        [[number[corner] for corner in face] for face in block.faces]
+        for block, number in zip(blocks.values(), numbers, strict=True)
+    ]
+    members = [member_name(name) for name in blocks]
+    return Generated((Part(polyhedra_from_lists(points, faces), member=members),))
 
 
 @contextmanager
@@ -162,56 +164,38 @@ def _collected(findings: list[Finding], key: str) -> Iterator[None]:
         findings += refused.findings(key)
 
 
-def _vertices_by_name(table: Table) -> tuple[dict[str, int], dict[tuple[str, str], int]]:
-    """Number of each block by its name, and row of each vertex by the names of block and vertex."""
-    blocks: dict[str, int] = {}
-    rows: dict[tuple[str, str], int] = {}
-    for row, key in enumerate(zip(table.columns["block"], table.columns["vertex"], strict=True)):
-        block, vertex = key
-        if not block or not vertex:
-            table.refuse(row, f"{'vertex' if block else 'block'} is empty")
-        elif key in rows:
-            table.refuse(row, f"block {block} has a vertex {vertex} in line {table.lines[rows[key]]}")
-        blocks.setdefault(block, len(blocks))
-        rows.setdefault(key, row)
-    return blocks, rows
+@dataclass(frozen=True)
+class _Block:
+    """Points of a block by the names of its vertices, lines of the table that give them, and corners of its faces."""
+
+    points: dict[str, FloatArray] = field(default_factory=dict)
+    lines: dict[str, int] = field(default_factory=dict)
+    faces: list[list[str]] = field(default_factory=list)
 
 
-def _faces(
-    table: Table, blocks: dict[str, int], row_of_vertex: dict[tuple[str, str], int]
-) -> tuple[list[int], list[list[int]]]:
-    """Block of each face, and its corners as rows of the table of vertices."""
-    owners, corners = [], []
-    for row, (block, names) in enumerate(zip(table.columns["block"], table.rest, strict=True)):
-        missing = [name for name in names if (block, name) not in row_of_vertex]
-        if block not in blocks:
-            table.refuse(row, f"block {block or '(empty)'} has no vertices")
+def _blocks(vertices: Table, faces: Table) -> dict[str, _Block]:
+    """Blocks by name in the order of their first vertices; what is wrong is told by the tables."""
+    blocks: dict[str, _Block] = {}
+    points, names = vertices.numbers("xyz"), zip(vertices.columns["block"], vertices.columns["vertex"], strict=True)
+    for row, (name, vertex) in enumerate(names):
+        block = blocks.setdefault(name, _Block())
+        if not name or not vertex:
+            vertices.refuse(row, f"{'vertex' if name else 'block'} is empty")
+        elif vertex in block.points:
+            vertices.refuse(row, f"block {name} has a vertex {vertex} in line {block.lines[vertex]}")
+        block.points.setdefault(vertex, points[row])
+        block.lines.setdefault(vertex, vertices.lines[row])
+    for row, (name, corners) in enumerate(zip(faces.columns["block"], faces.rest, strict=True)):
+        missing = [corner for corner in corners if corner not in blocks.get(name, _Block()).points]
+        if name not in blocks:
+            faces.refuse(row, f"block {name or '(empty)'} has no vertices")
         elif missing:
-            table.refuse(row, f"block {block} has no vertex {missing[0]}")
-        elif len(names) < 3:
-            table.refuse(row, f"a face has at least three corners, this one has {len(names)}")
+            faces.refuse(row, f"block {name} has no vertex {missing[0]}")
+        elif len(corners) < 3:
+            faces.refuse(row, f"a face has at least three corners, this one has {len(corners)}")
         else:
-            owners.append(blocks[block])
-            corners.append([row_of_vertex[block, name] for name in names])
-    with_faces = set(owners)
-    bare = next((name for name, number in blocks.items() if number not in with_faces), None)
-    if bare is not None and not table.faults:
-        table.faults.append(Message("table-row", f"{table.file}: block {bare} has no faces"))
-    return owners, corners
-
-
-def _polyhedra(
-    points: FloatArray, owner: IntArray, block_of_face: IntArray, corners: list[list[int]], n: int
-) -> Polyhedra:
-    """Vertices and faces sorted by block, each in the order of its table."""
-    order = np.argsort(owner, kind="stable")
-    place = np.empty(len(order), dtype=np.int64)
-    place[order] = np.arange(len(order))
-    faces = [corners[row] for row in np.argsort(block_of_face, kind="stable")]
-    return Polyhedra(
-        vertices=points[order],
-        vertex_start=starts(np.bincount(owner, minlength=n)),
-        loops=place[np.array([corner for face in faces for corner in face], dtype=np.int64)],
-        loop_start=starts(np.array([len(face) for face in faces], dtype=np.int64)),
-        face_start=starts(np.bincount(block_of_face, minlength=n)),
-    )
+            blocks[name].faces.append(corners)
+    bare = next((name for name, block in blocks.items() if not block.faces), None)
+    if bare is not None and not faces.faults:
+        faces.faults.append(Message("table-row", f"{faces.file}: block {bare} has no faces"))
+    return blocks

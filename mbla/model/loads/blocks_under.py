@@ -67,11 +67,8 @@ class Below:
         rings = shapely.linearrings(self.flat(self.blocks.vertices[corners]), indices=ring)
         return np.atleast_1d(shapely.polygons(rings))
 
-    def under(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
-        """The block under each point (n, 3), -1 where there is none, and how far the point lies before its near side.
-
-        That is negative inside a block.
-        """
+    def under(self, points: FloatArray) -> IntArray:
+        """The block under each point (n, 3), -1 where there is none."""
         import shapely
 
         places, near_by = shapely.points(self.flat(points)), {"predicate": "dwithin", "distance": self.hair / 2}
@@ -81,29 +78,23 @@ class Below:
         leads = normals @ self.down
         first = self.blocks.vertices[self.blocks.loops[self.blocks.loop_start[face]]]
         away = np.einsum("ij,ij->i", first - points[row], normals) / leads
-        out = (leads > 0) & (away > BEHIND * self.blocks.sizes[owner])
-        found, above = np.full(len(points), -1), np.zeros(len(points))
-        for each in np.lexsort((owner, np.round(away / self.hair), row))[::-1]:  # the first comes last, and counts
-            if out[each]:
-                found[row[each]], above[row[each]] = owner[each], away[each]
-        near = np.full(len(points), -np.inf)
-        entry = (leads < 0) & (owner == found[row]) & (away <= above[row])
-        np.maximum.at(near, row[entry], away[entry])
-        return found, np.where(np.isfinite(near), near, 0.0)
+        out = np.flatnonzero((leads > 0) & (away > BEHIND * self.blocks.sizes[owner]))
+        order = out[np.lexsort((owner[out], np.round(away[out] / self.hair), row[out]))]
+        found = np.full(len(points), -1)
+        found[row[order][::-1]] = owner[order][::-1]  # of each point the first comes last, and counts
+        return found
 
     def at(self, points: FloatArray) -> IntArray:
         """The block under each point (n, 3), (n,), -1 where there is none; on a joint that with the lower number."""
         first, second = self.hair * plane_axes(self.down[None])[0]
-        around = [self.under(points + one * first + other * second)[0] for one in (-1, 1) for other in (-1, 1)]
+        around = [self.under(points + one * first + other * second) for one in (-1, 1) for other in (-1, 1)]
         none = np.iinfo(np.int64).max
         lowest = np.where(np.stack(around) >= 0, around, none).min(axis=0)
         return np.where(lowest < none, lowest, -1)
 
-    def parts(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
-        """Parts of a line between two points, (3,): ends from 0 to 1 along it, (n + 1,), what lies under them just left
-        and just right of it, (2, n), and how far, (2, n).
-
-        The two sides differ where the line runs along a joint, or along an edge.
+    def parts(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, IntArray]:
+        """Parts of a line between two points, (3,): ends from 0 to 1 along it, (n + 1,), and what lies under them just
+        left and just right of it, (2, n), which differs where the line runs along a joint, or along an edge.
         """
         import shapely
 
@@ -119,7 +110,6 @@ class Below:
         cuts = cuts[np.append(True, np.diff(cuts) > self.hair / np.linalg.norm(end - begin))]
         cuts[-1] = 1.0
         middles = (cuts[:-1] + cuts[1:])[:, None] / 2
-        found = [self.under(each[0] + middles * (each[1] - each[0])) for each in sides]
-        blocks, above = np.stack([each[0] for each in found]), np.stack([each[1] for each in found])
+        blocks = np.stack([self.under(each[0] + middles * (each[1] - each[0])) for each in sides])
         changes = np.append(True, (blocks[:, 1:] != blocks[:, :-1]).any(axis=0))
-        return np.append(cuts[:-1][changes], 1.0), blocks[:, changes], above[:, changes]
+        return np.append(cuts[:-1][changes], 1.0), blocks[:, changes]

@@ -15,11 +15,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
-from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
-
-ABOVE = 0.01
-"""distance of a slanting line load from the blocks under it, relative to block size, from which it is remarked on"""
 
 
 def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
@@ -27,7 +23,7 @@ def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite
     assert load.line is not None  # what makes it this kind
     line, chosen = load.line, np.arange(len(site.blocks)) if blocks is None else blocks
     begin, end = np.array(line.from_), np.array(line.to)
-    ends, carriers, above = _parts(begin, end, np.array(line.towards), chosen, site)
+    ends, carriers = _parts(begin, end, np.array(line.towards), chosen, site)
     bare = np.asarray((carriers < 0).all(axis=0))
     if bare.any() and site.roster.partial:  # what could not be built may well lie there
         return None
@@ -45,7 +41,6 @@ def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite
         f"line load {vector(line.force_per_length)} {site.units.force}/{site.units.length} "
         f"from {vector(line.from_)} to {vector(line.to)} {site.units.length}"
     )
-    _remark_above(line, above[side, part], loaded, words, site)
     wrenches = wrenches_of(forces, points, site.blocks.centroids[loaded])
     unique, total = sum_on_blocks(loaded, wrenches)
     return AppliedLoad(unique, total, f"{words} on {counted(len(unique), 'block')}")
@@ -53,19 +48,19 @@ def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite
 
 def _parts(
     begin: FloatArray, end: FloatArray, towards: FloatArray, chosen: IntArray, site: LoadSite
-) -> tuple[FloatArray, IntArray, FloatArray]:
-    """Ends of the parts of a line, (n + 1,), and the blocks under them left and right of it, (2, n), how far below.
+) -> tuple[FloatArray, IntArray]:
+    """Ends of the parts of a line, (n + 1,), and the blocks under them left and right of it, (2, n).
 
     Bare parts that are narrower than the tolerance of contacts are joints that are not quite closed: they count to the
     part before them, or after them at the beginning.
     """
-    ends, carriers, above = Below(site.blocks, towards, chosen).parts(begin, end)
+    ends, carriers = Below(site.blocks, towards, chosen).parts(begin, end)
     bare = np.asarray((carriers < 0).all(axis=0))
     narrow = site.tolerance * float(site.blocks.sizes[chosen].min()) / float(np.linalg.norm(end - begin))
     for part in np.flatnonzero(bare & (np.diff(ends) <= narrow)):  # few: open joints
         near = next((other for other in (part - 1, part + 1) if 0 <= other < len(bare) and not bare[other]), part)
-        carriers[:, part], above[:, part] = carriers[:, near], above[:, near]
-    return ends, carriers, above
+        carriers[:, part] = carriers[:, near]
+    return ends, carriers
 
 
 def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPath, site: LoadSite) -> None:
@@ -79,13 +74,3 @@ def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPat
         "shorten the line, or look for blocks in another direction with towards"
     )
     site.refuse(Finding("load-beside-structure", message, *path, "line"))
-
-
-def _remark_above(line: LineLoad, above: FloatArray, loaded: IntArray, words: str, site: LoadSite) -> None:
-    """A force not along the direction of the search has a lever arm over the block that it is drawn away from."""
-    if np.linalg.norm(np.cross(line.force_per_length, unit(np.array(line.towards)))) == 0.0:
-        return
-    off = np.where(above > ABOVE * site.blocks.sizes[loaded], above, 0.0)
-    if off.any():
-        message = f"the {words} acts {off.max():.4g} {site.units.length} outside its blocks; its moment is kept"
-        site.warn("line-load-outside-blocks", message)

@@ -118,13 +118,6 @@ def test_an_open_joint_narrower_than_the_tolerance_loses_nothing(tmp_path: Path)
     assert case_of(found).dead_load[:, 2] == pytest.approx([-1.0005, -0.9995])
 
 
-def test_a_slanting_load_far_above_is_remarked_on(tmp_path: Path) -> None:
-    line = "from: [0, 0.1, 1.6], to: [2, 0.1, 1.6], force_per_length: [{x}, 0, -1]"
-    told = [notice.identifier for notice in model(tmp_path, line.format(x=1), [WALL]).notices]
-    assert told == ["line-load-outside-blocks"]
-    assert not model(tmp_path, line.format(x=0), [WALL]).notices
-
-
 def test_rigid_motion_far_from_the_origin(tmp_path: Path) -> None:
     """A slanting line over an arch, turned and moved by 1e3 m: the same share on each voussoir."""
     line = "from: {a}, to: {b}, force_per_length: {q}, towards: {d}"
