@@ -17,9 +17,8 @@ from mbla.model.generators.masonry.additions import (
     PlacedButtress,
     PlacedOpening,
     buttress_leg,
-    check_buttresses,
     check_opening,
-    check_spans,
+    check_wall,
     levels_with_top,
     place_buttress,
     place_opening,
@@ -27,7 +26,7 @@ from mbla.model.generators.masonry.additions import (
 )
 from mbla.model.generators.masonry.bonds import random_levels
 from mbla.model.generators.masonry.courses import units_of
-from mbla.model.generators.masonry.leg import NO_UNIT, Leg, Passage, Slopes
+from mbla.model.generators.masonry.leg import Leg, Passage, Slopes
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
 
 
@@ -101,9 +100,7 @@ def _generate(item: WallItem | WallsItem, lines: Sequence[Line], gables: Mapping
         for number, line in enumerate(lines)
     ]
     for wall in walls:
-        findings += check_spans(wall.openings, wall.line.whole_length, item)
-        findings += check_buttresses(wall.buttresses, wall.openings, item)
-        findings += _check_meetings(item, wall)
+        findings += check_wall(item, wall.openings, wall.buttresses, wall.meets, wall.line.whole_length)
     if isinstance(item, WallsItem):
         findings += _check_gables(item, meets)
     if findings:
@@ -143,21 +140,6 @@ def _leg(item: Masonry, number: int, wall: _Wall, levels: FloatArray, gable: Gab
     apex = leg.length / 2 if gable.apex is None else gable.apex + line.before
     slopes = Slopes(0.0, leg.length, apex, float(levels[-1]), gable.rise)
     return replace(leg, slopes=slopes, levels=levels_with_top(levels, gable.rise, item.unit[2]))
-
-
-def _check_meetings(item: Masonry, wall: _Wall) -> Iterator[Finding]:
-    """Openings and bonded buttresses keep off the squares that walls share; key paths below the item."""
-    room = NO_UNIT * item.unit[0]
-    for other, passage in wall.meets:
-        for opening in wall.openings:
-            for void in opening.voids:
-                reach = void.lean * (void.top - void.bottom) * item.unit[2]
-                if void.left - reach < passage.right - room and void.right + reach > passage.left + room:
-                    yield Finding("wall-shape", f"reaches into wall {other}", "openings", opening.number)
-                    break
-        for placed in wall.buttresses:
-            if placed.buttress.bonded and placed.start < passage.right - room and placed.end > passage.left + room:
-                yield Finding("wall-shape", f"reaches into wall {other}", "buttresses", placed.number)
 
 
 def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ...]]) -> Iterator[Finding]:

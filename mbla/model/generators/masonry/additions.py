@@ -74,35 +74,53 @@ def check_opening(item: Masonry, opening: Opening, tolerance: float) -> Iterator
         yield Finding("wall-shape", "the opening is too narrow to separate two units", "to", 0)
 
 
-def check_spans(placed: Sequence[PlacedOpening], length: float, item: Masonry) -> Iterator[Finding]:
-    """What spans an opening lies within its wall, and on solid courses on both sides; key paths below the item.
+def check_wall(
+    item: Masonry,
+    openings: Sequence[PlacedOpening],
+    buttresses: Sequence[PlacedButtress],
+    meets: Sequence[tuple[int, Passage]],
+    length: float,
+) -> Iterator[Finding]:
+    """What belongs to a wall lies in solid courses, apart from all else; key paths below the item.
 
+    meets  : other walls that run through it, by number
     length : of the wall, both ends of which are ends of its courses
     """
-    for each in placed:
+    room, height = NO_UNIT * item.unit[0], item.unit[2]
+    for each in openings:
+        path = ("openings", each.number)
+        taken = [void.widest(height) for void in each.voids]
+        for number, passage in meets:
+            if any(void.meets(passage.void, room) for void in taken):
+                yield Finding("wall-shape", f"reaches into wall {number}", *path)
         if each.span is None:
             continue
         key = "lintel" if each.opening.lintel is not None else "arch"
-        widest = each.span.lean * (each.span.top - each.span.bottom) * item.unit[2]
-        left, right = each.span.left - widest, each.span.right + widest
-        room = NO_UNIT * item.unit[0]
-        if left < -room or right > length + room:
+        if taken[1].left < -room or taken[1].right > length + room:
             what = "a bearing" if key == "lintel" else "a skewback"
-            yield Finding("wall-shape", f"{what} reaches beyond the end of the wall", "openings", each.number, key)
+            yield Finding("wall-shape", f"{what} reaches beyond the end of the wall", *path, key)
         if each.span.top > item.courses:
-            yield Finding("wall-shape", "reaches above the top course", "openings", each.number, key, "courses")
-        for other in placed:
-            if other is each:
-                continue
-            # with the course that carries it
-            if any(_meet((left, right, each.void.top - 1, each.span.top), void, room) for void in other.voids):
+            yield Finding("wall-shape", "reaches above the top course", *path, key, "courses")
+        carried = replace(taken[1], bottom=each.void.top - 1)  # with the course that carries it
+        for other in openings:
+            if other is not each and any(carried.meets(void, room) for void in other.voids):
                 message = f"meets openings[{other.number}]: it must lie in solid courses, and on one at either side"
-                yield Finding("wall-shape", message, "openings", each.number, key)
-
-
-def _meet(box: tuple[float, float, int, int], void: Void, room: float) -> bool:
-    left, right, bottom, top = box
-    return void.left < right - room and void.right > left + room and void.bottom < top and void.top > bottom
+                yield Finding("wall-shape", message, *path, key)
+    bonded = [each for each in buttresses if each.buttress.bonded]
+    for row, placed in enumerate(bonded):
+        own, found = placed.passage.void, []
+        found += [f"reaches into wall {number}" for number, passage in meets if own.meets(passage.void, room)]
+        found += [
+            f"meets openings[{opening.number}]: move it, or write bonded: false"
+            for opening in openings
+            if any(own.meets(void, -room) for void in opening.voids)
+        ]
+        found += [
+            f"runs through the wall where buttresses[{other.number}] does"
+            for other in bonded[:row]
+            if own.meets(other.passage.void, room)
+        ]
+        yield from (Finding("wall-shape", words, "buttresses", placed.number) for words in found)
 
 
 def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[Part]:
@@ -190,27 +208,6 @@ def place_buttress(item: Masonry, number: int, buttress: Buttress, shift: float 
         courses = item.courses - round(slope_courses(item, buttress))
     start = buttress.at + shift
     return PlacedButtress(number, buttress, start, start + buttress.width, courses)
-
-
-def check_buttresses(
-    placed: Sequence[PlacedButtress], openings: Sequence[PlacedOpening], item: Masonry
-) -> Iterator[Finding]:
-    """Buttresses that run through the wall do so in solid courses, apart from each other; key paths below the item."""
-    room = NO_UNIT * item.unit[0]
-    for each in placed:
-        if not each.buttress.bonded:
-            continue
-        for opening in openings:
-            if any(
-                void.left < each.end + room and void.right > each.start - room and void.bottom < each.courses
-                for void in opening.voids
-            ):
-                message = f"meets openings[{opening.number}]: move it, or write bonded: false"
-                yield Finding("wall-shape", message, "buttresses", each.number)
-        for other in placed[: placed.index(each)]:
-            if other.buttress.bonded and other.start < each.end - room and other.end > each.start + room:
-                words = f"runs through the wall where buttresses[{other.number}] does"
-                yield Finding("wall-shape", words, "buttresses", each.number)
 
 
 def buttress_leg(host: Leg, placed: PlacedButtress) -> Leg:

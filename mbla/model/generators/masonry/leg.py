@@ -56,6 +56,16 @@ class Void:
         low, high = (self.lean * float(levels[n] - levels[self.bottom]) for n in (course, course + 1))
         return Stretch(self.left - low, self.left - high, self.right + low, self.right + high)
 
+    def widest(self, height: float) -> Void:
+        """The upright room that holds it; ``height`` of a course [length]."""
+        reach = self.lean * (self.top - self.bottom) * height
+        return Void(self.left - reach, self.right + reach, self.bottom, self.top)
+
+    def meets(self, other: Void, room: float) -> bool:
+        """Whether it overlaps another by more than some length, in a course at least."""
+        beside = other.left < self.right - room and other.right > self.left + room
+        return beside and other.bottom < self.top and other.top > self.bottom
+
 
 def solid_stretches(outside: Stretch, voids: Iterable[Stretch], least: float) -> Iterator[Stretch]:
     """What remains between the voids, left to right; voids may overlap each other. No stretch is shorter than least."""
@@ -82,6 +92,11 @@ class Passage:
     left: float
     right: float
     courses: int
+
+    @property
+    def void(self) -> Void:
+        """The room that it takes."""
+        return Void(self.left, self.right, 0, self.courses)
 
 
 @dataclass(frozen=True)
