@@ -46,11 +46,6 @@ class Glue:
     solid_of_block: IntArray | None
     held: BoolArray
 
-    @property
-    def sizes(self) -> IntArray:
-        """How many blocks the solids of several blocks have, (n,)."""
-        return solid_sizes(self.solid_of_block)
-
 
 def solid_sizes(solid_of_block: IntArray | None) -> IntArray:
     """How many blocks each of the solids of several blocks has, (n,)."""

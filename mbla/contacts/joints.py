@@ -20,9 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.outlines.overlay import Overlays
 from mbla.deck.sections.contacts import AboutNormal, ContactOverride, ContactsSection
 from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
-from mbla.deck.sections.selectors import Selector
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.selectors import Roster, bodies_selected
@@ -31,19 +31,6 @@ from mbla.model.solids.plane import unit
 BED = math.cos(math.radians(45))
 ROUNDING = 1e-9
 """of cosines: normals are unit vectors computed from coordinates, good to about 1e-15 over the slenderness of faces"""
-
-
-@dataclass(frozen=True)
-class Sites:
-    """What decides about joint laws: ``bodies`` (n, 2), unit ``normals`` (n, 3) and ``centroids`` (n, 3) m.
-
-    prescribed : (n) name of the law that the table of interfaces gives; empty where it gives none; None without a table
-    """
-
-    bodies: IntArray
-    normals: FloatArray
-    centroids: FloatArray
-    prescribed: Sequence[str] | None = None
 
 
 @dataclass(frozen=True)
@@ -73,45 +60,44 @@ class Laws:
         return rows.astype(np.int64), tuple(self.names[law] for law in used)
 
 
-def joints_of_interfaces(model: Model, section: ContactsSection, sites: Sites) -> tuple[Laws, list[Notice]]:
-    """Joint law of each interface, and a warning for each override that fits none."""
+def joints_of_interfaces(
+    model: Model,
+    section: ContactsSection,
+    overlays: Overlays,
+    centroids: FloatArray,
+    prescribed: Sequence[str] | None = None,
+) -> tuple[Laws, list[Notice]]:
+    """Joint law of each interface, and a warning for each override that fits none.
+
+    centroids  : (n, 3) m of the interfaces
+    prescribed : (n) name of the law that the table of interfaces gives; empty where it gives none; None without a table
+    """
     names = (*model.joints, *(name for name in BUILT_IN if name not in model.joints))
-    n_blocks = len(model.blocks)
-    rows = np.full(len(sites.bodies), names.index(section.joint))
+    bodies, n_blocks = overlays.bodies, len(model.blocks)
+    rows = np.full(len(bodies), names.index(section.joint))
     for index, ground in enumerate(model.grounds):
-        rows[sites.bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
+        rows[bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
     settled = np.zeros(len(rows), dtype=bool)
-    if sites.prescribed is not None:
-        settled = np.array([bool(name) for name in sites.prescribed], dtype=bool)
-        rows[settled] = [names.index(name) for name in sites.prescribed if name]
+    if prescribed is not None:
+        settled = np.array([bool(name) for name in prescribed], dtype=bool)
+        rows[settled] = [names.index(name) for name in prescribed if name]
     roster = Roster(model.blocks)
     notices = []
     for number, override in enumerate(section.overrides):
-        fits = _fits(model, roster, sites, override) & ~settled
+        fits = ~settled
+        if override.between is not None:
+            first, second = (bodies_selected(each, roster, len(model.grounds))[bodies] for each in override.between)
+            fits &= (first & second[:, ::-1]).any(axis=1)
+        if override.orientation is not None:
+            fits &= _oriented(overlays.frames[:, 0], override)
+        if override.box is not None:
+            least, greatest = np.array(override.box)
+            fits &= ((centroids >= least) & (centroids <= greatest)).all(axis=1)
         rows[fits] = names.index(override.joint)
         if not fits.any():
             text = f"contacts.overrides[{number}], with joint {override.joint}, fits no contact and has no effect"
             notices.append(Notice("warning", "override-without-contact", text))
     return Laws(rows, names), notices
-
-
-def _fits(model: Model, roster: Roster, sites: Sites, override: ContactOverride) -> BoolArray:
-    fits = np.ones(len(sites.bodies), dtype=bool)
-    if override.between is not None:
-        fits &= _between(model, roster, sites.bodies, override.between)
-    if override.orientation is not None:
-        fits &= _oriented(sites.normals, override)
-    if override.box is not None:
-        least, greatest = np.array(override.box)
-        fits &= ((sites.centroids >= least) & (sites.centroids <= greatest)).all(axis=1)
-    return fits
-
-
-def _between(model: Model, roster: Roster, bodies: IntArray, between: tuple[Selector, Selector]) -> BoolArray:
-    """Interfaces of one body of the first selection with one of the second."""
-    first, second = (bodies_selected(selector, roster, len(model.grounds)) for selector in between)
-    a, b = bodies[:, 0], bodies[:, 1]
-    return np.asarray((first[a] & second[b]) | (second[a] & first[b]))
 
 
 def _oriented(normals: FloatArray, override: ContactOverride) -> BoolArray:

@@ -9,6 +9,7 @@ import shapely
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.glue import solid_sizes
 from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.outlines.corners import Corners
 from mbla.contacts.report import WIDEST, Findings
@@ -132,7 +133,7 @@ def _left_out(model: Model, report: ContactReport, findings: Findings) -> Iterat
         text = f"{counted(report.open_interfaces, 'interface')} with open joints left out: no contact"
         yield Notice("notice", "open-interfaces-left-out", text)
     if number := len(report.glued):
-        words = glue_words(report, findings.glue.sizes)
+        words = glue_words(report, solid_sizes(findings.glue.solid_of_block))
         text = f"{counted(number, 'internal interface')} (glued) left out: {words}"
         yield Notice("notice", "blocks-glued", text)
 

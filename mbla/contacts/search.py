@@ -13,7 +13,7 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.held_twice import counted_once
-from mbla.contacts.joints import Sites, joints_of_interfaces
+from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, drop_covered_near_misses, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
@@ -65,7 +65,8 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
     bodies = movable.overlays.bodies
-    laws, notices = joints_of_interfaces(model, section, _sites(model, movable, order))
+    prescribed = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
+    laws, notices = joints_of_interfaces(model, section, movable.overlays, _centroids(movable), prescribed)
     glue = glue_blocks(model, bodies[laws.glued])
     inside = laws.glued | _inside(model, glue, bodies)
     rows = np.flatnonzero(~laws.open & ~inside)
@@ -150,12 +151,6 @@ def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
     body = np.where(glue.held | model.fixed, -1, body)
     of_bodies = np.append(body, np.full(len(model.grounds), -1))[bodies]
     return np.asarray(of_bodies[:, 0] == of_bodies[:, 1])
-
-
-def _sites(model: Model, patches: Patches, order: IntArray) -> Sites:
-    """What decides about joint laws; ``order`` has the rows of the patches among all that were found or prescribed."""
-    prescribed = None if model.interfaces is None else [model.interfaces.joints[row] for row in order.tolist()]
-    return Sites(patches.overlays.bodies, patches.overlays.frames[:, 0], _centroids(patches), prescribed)
 
 
 def _order(patches: Patches, chosen: BoolArray) -> IntArray:

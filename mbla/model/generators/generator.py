@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -84,9 +84,5 @@ class ItemRefused(Exception):  # noqa: N818 - an answer, not a defect
         super().__init__("; ".join(message for _, message in findings))
 
 
-class Generator(Protocol):
-    """Turns an item of one kind into polyhedra; raises ItemRefused with everything that is wrong with it."""
-
-    def __call__(self, item: Any, site: Site) -> Generated:
-        """The item in its own coordinates."""
-        ...
+Generator: TypeAlias = Callable[[Any, Site], Generated]
+"""Turns an item of one kind into polyhedra in its own coordinates; raises ItemRefused with everything wrong with it."""

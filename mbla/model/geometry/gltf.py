@@ -1,7 +1,7 @@
 """glTF 2.0, as .gltf or .glb: each node with a mesh is kept apart, placed by the transforms of all nodes above it.
 
-By the format's definition lengths are metres and y points upwards. Triangles, strips and fans; what is drawn as points
-or lines is left out, and so is the deformation of morphed and skinned meshes (told in a notice).
+By the format's definition lengths are metres and y points upwards. Lists of triangles are read, which is how blocks are
+exported; what is drawn in another mode is left out with a warning, and meshes are taken as they are undeformed.
 Numbers stand in accessors over views of buffers, which are in the file, beside it, or a text of base 64.
 
 Source: Khronos Group, glTF 2.0 Specification (2021).
@@ -19,7 +19,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json, well_formed
 from mbla.model.geometry.welding import triangle_soup
@@ -27,12 +27,12 @@ from mbla.model.solids.polyhedra import join_polyhedra
 from mbla.model.wording import counted, was
 
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
-TRIANGLES, STRIP, FAN = 4, 5, 6
-"""modes of primitives that are surfaces"""
+TRIANGLES = 4
+"""mode of primitives that are lists of triangles"""
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3}
 """of corners by their numbers, and of points"""
-KNOWN_EXTENSIONS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials", "KHR_lights_punctual")
+KNOWN_EXTENSIONS = ("KHR_texture_transform", "KHR_materials", "KHR_lights_punctual")
 """required extensions that do not change the shape, or need nothing more to be read; beginnings of names"""
 
 
@@ -108,7 +108,7 @@ class _Document:
             raise GeometryFileError("file-unreadable", words) from error
 
     def values(self, number: int, shape: str) -> FloatArray:
-        """Values of an accessor, (count, width); whole numbers that stand for shares are turned into them.
+        """Values of an accessor, (count, width).
 
         shape : ``VEC3`` for points, ``SCALAR`` for whole numbers of corners
 
@@ -117,7 +117,7 @@ class _Document:
         accessor = self.entry("accessors", number)
         kind, width = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[shape]
         count, begin = accessor["count"], accessor.get("byteOffset", 0)
-        if accessor["type"] != shape or (width == 1 and (kind.kind != "u" or accessor.get("normalized"))):
+        if accessor["type"] != shape or kind.kind != ("u" if width == 1 else "f") or accessor.get("normalized"):
             raise ValueError(f"accessor {number} has not {'whole numbers of corners' if width == 1 else 'points'}")
         if "bufferView" not in accessor or "sparse" in accessor or type(count) is not int or min(count, begin) < 0:
             raise ValueError(f"accessor {number} has no view of a buffer of its own for its count of {count}")
@@ -130,21 +130,17 @@ class _Document:
             raise ValueError("a buffer is shorter than the document says")
         if first % kind.itemsize or stride < 1:
             raise ValueError(f"bufferView {accessor['bufferView']} begins at byte {first}, amid a number")
-        rows = np.ndarray((count, width), kind, content, first, (stride, kind.itemsize)).astype(np.float64)
-        if accessor.get("normalized") and kind.kind in "iu":
-            rows = np.maximum(rows / np.iinfo(kind).max, -1.0)
-        return rows
+        return np.ndarray((count, width), kind, content, first, (stride, kind.itemsize)).astype(np.float64)
 
 
 def _geometry(document: _Document) -> Geometry:
     surfaces, names, empty = [], [], list[str]()
-    left_out, deformed = 0, False
+    left_out = 0
     for node, matrix in _placed_nodes(document):
         if "mesh" not in node:
             continue
         mesh = document.entry("meshes", node["mesh"])
-        deformed |= "skin" in node or any("targets" in primitive for primitive in mesh["primitives"])
-        drawn = [each for each in mesh["primitives"] if each.get("mode", TRIANGLES) in (TRIANGLES, STRIP, FAN)]
+        drawn = [each for each in mesh["primitives"] if each.get("mode", TRIANGLES) == TRIANGLES]
         left_out += len(mesh["primitives"]) - len(drawn)
         triangles = np.concatenate([np.empty((0, 3, 3)), *(_triangles(document, each) for each in drawn)])
         name = str(node.get("name") or mesh.get("name") or "")
@@ -155,11 +151,8 @@ def _geometry(document: _Document) -> Geometry:
             empty.append(name)
     notices = [*empty_objects(empty)]
     if left_out:
-        words = f"{counted(left_out, 'set')} of points or lines {was(left_out)} left out: no block"
+        words = f"{counted(left_out, 'primitive')} {was(left_out)} left out: no list of triangles"
         notices.append(Notice("warning", "mesh-cells-left-out", words))
-    if deformed:
-        words = "the file has skinned or morphed meshes: they are taken as they are without deformation"
-        notices.append(Notice("warning", "mesh-deformation-ignored", words))
     return Geometry(join_polyhedra(surfaces), tuple(notices), tuple(names), indexed=False, up="y", unit="m")
 
 
@@ -208,18 +201,7 @@ def _triangles(document: _Document, primitive: dict[str, Any]) -> FloatArray:
         rows = document.values(primitive["indices"], "SCALAR")[:, 0].astype(np.int64)
         if rows.size and rows.max() >= len(points):
             raise ValueError(f"a triangle names a point that does not exist; there are {len(points)}")
-    found: FloatArray = points[rows_of_triangles(rows, primitive.get("mode", TRIANGLES))]
+    if len(rows) % 3:
+        raise ValueError(f"its triangles have {len(rows)} corners, which three do not divide")
+    found: FloatArray = points[rows.reshape(-1, 3)]
     return found
-
-
-def rows_of_triangles(rows: IntArray, mode: int) -> IntArray:
-    """(n, 3) rows of points, from the order of a list, a strip (every other one turned) or a fan."""
-    if mode == TRIANGLES:
-        if len(rows) % 3:
-            raise ValueError(f"its triangles have {len(rows)} corners, which three do not divide")
-        return rows.reshape(-1, 3)
-    if mode == FAN:
-        return np.stack([rows[1:-1], rows[2:], np.full(max(len(rows) - 2, 0), rows[0])], axis=1)
-    strip = np.stack([rows[:-2], rows[1:-1], rows[2:]], axis=1)
-    strip[1::2] = strip[1::2, [0, 2, 1]]
-    return strip

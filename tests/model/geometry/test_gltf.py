@@ -118,32 +118,11 @@ def test_primitives_of_a_mesh_make_one_surface(tmp_path: Path) -> None:
     assert boxes(geometry) == [pytest.approx([1, 0.5, 0.5, 0.5])]
 
 
-def test_strips_and_fans() -> None:
-    from mbla.model.geometry.gltf import FAN, STRIP, rows_of_triangles
-
-    assert rows_of_triangles(np.arange(5), STRIP).tolist() == [[0, 1, 2], [1, 3, 2], [2, 3, 4]]
-    assert rows_of_triangles(np.arange(5), FAN).tolist() == [[1, 2, 0], [2, 3, 0], [3, 4, 0]]
-
-
-def test_quantized_positions(tmp_path: Path) -> None:
-    content = np.concatenate([POINTS, np.zeros((8, 1))], axis=1).astype(np.int16) * 32767
-    data = content.astype("<i2").tobytes() + TRIANGLES.tobytes()
-    accessors = [
-        {"bufferView": 0, "componentType": 5122, "normalized": True, "count": 8, "type": "VEC3"},
-        {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
-    ]
-    views = [{"buffer": 0, "byteLength": 64, "byteStride": 8}, {"buffer": 0, "byteOffset": 64, "byteLength": 72}]
-    buffers = [{"byteLength": len(data), "uri": "data:;base64," + _base64(data)}]
-    keys = {"accessors": accessors, "bufferViews": views, "buffers": buffers}
-    geometry = written(tmp_path, document([{"mesh": 0}], extensionsRequired=["KHR_mesh_quantization"], **keys))
-    assert boxes(geometry) == [pytest.approx([1, 0.5, 0.5, 0.5])]
-
-
 def test_points_and_lines_are_left_out_with_a_notice(tmp_path: Path) -> None:
     base = document([{"mesh": 0}])
     base["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 1})
     geometry = written(tmp_path, base)
-    assert [notice.message for notice in geometry.notices] == ["1 set of points or lines was left out: no block"]
+    assert [notice.message for notice in geometry.notices] == ["1 primitive was left out: no list of triangles"]
 
 
 @pytest.mark.parametrize(
@@ -232,7 +211,7 @@ def test_a_file_without_scenes_shows_the_nodes_that_are_no_children(tmp_path: Pa
     assert boxes(written(tmp_path, base)) == [pytest.approx([1, 0.5, 0.5, 3.5])]
 
 
-def test_objects_without_triangles_and_meshes_that_deform_are_told(tmp_path: Path) -> None:
+def test_objects_without_triangles_are_told(tmp_path: Path) -> None:
     primitive = document([])["meshes"][0]["primitives"][0]
     meshes = [
         {"name": "cube", "primitives": [primitive | {"targets": [{"POSITION": 0}]}]},
@@ -244,6 +223,5 @@ def test_objects_without_triangles_and_meshes_that_deform_are_told(tmp_path: Pat
     assert geometry.names == ("cube",)
     assert [str(notice.message) for notice in geometry.notices] == [
         "1 object was left out, without faces: nothing",
-        "1 set of points or lines was left out: no block",
-        "the file has skinned or morphed meshes: they are taken as they are without deformation",
+        "1 primitive was left out: no list of triangles",
     ]
