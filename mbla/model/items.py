@@ -19,7 +19,7 @@ from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.generators import KINDS, amount_of, amounts, generator_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.model import Ground
-from mbla.model.solids.blocks import NONE, Blocks, join_labels, labels_of
+from mbla.model.solids.blocks import Blocks, join_labels, labels_of
 from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
@@ -46,17 +46,6 @@ class CollectedItems:
     partial: frozenset[str]
 
 
-@dataclass(frozen=True)
-class _Placed:
-    """A part of an item in one of its copies; ``copy`` is -1 where there is but one."""
-
-    part: Part
-    item: int
-    group: str
-    material: str
-    copy: int
-
-
 def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     """Raw polyhedra of all items with what they bring along.
 
@@ -68,7 +57,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
         with all faults, where no item can be built; where all of them together make too much
     """
     _refuse_amounts(deck)
-    placed: list[_Placed] = []
+    placed: list[tuple[int, str, Part]] = []
     grounds: list[Ground] = []
     notices: list[Notice] = []
     partial: set[str] = set()
@@ -98,18 +87,28 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
                 joint = ground.joint or deck.contacts.joint
                 grounds.append(Ground(ground.point, ground.normal, joint, n_blocks + ground.blocks, "ground"))
             for part in own.parts:
-                label = copy if len(copies) > 1 else NONE
-                placed.append(_Placed(part, number, group + part.suffix, part.material or item.material, label))
+                positions = dict(part.labels)
+                if len(copies) > 1:
+                    positions["copy"] = np.full(len(part.polyhedra), copy)
+                placed.append((number, group, replace(part, material=part.material or item.material, labels=positions)))
                 n_blocks += len(part.polyhedra)
     if not placed:
         raise DeckError(faults)
-    labels = _labels(deck, placed)
-    counts = [len(each.part.polyhedra) for each in placed]
+    parts = [part for _, _, part in placed]
+    counts = [len(part.polyhedra) for part in parts]
+    groups = tuple(group + part.suffix for _, group, part in placed for _ in range(len(part.polyhedra)))
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    labels = Labels(
+        groups,
+        indices_in_groups(groups),
+        np.repeat([densities[part.material or ""] for part in parts], counts),
+        join_labels([labels_of(len(part.polyhedra), part.member, part.labels) for part in parts]),
+    )
     return CollectedItems(
-        polyhedra=join_polyhedra([each.part.polyhedra for each in placed]),
+        polyhedra=join_polyhedra([part.polyhedra for part in parts]),
         labels=labels,
-        items=np.repeat([each.item for each in placed], counts),
-        fixed=np.repeat([each.part.fixed for each in placed], counts),
+        items=np.repeat([number for number, _, _ in placed], counts),
+        fixed=np.repeat([part.fixed for part in parts], counts),
         grounds=tuple(_named(ground, labels) for ground in grounds),
         notices=tuple(notices),
         partial=frozenset(partial),
@@ -159,16 +158,6 @@ def _refuse_amounts(deck: Deck) -> None:
         )
     if faults:
         raise DeckError(faults)
-
-
-def _labels(deck: Deck, placed: Sequence[_Placed]) -> Labels:
-    """Names and densities of the blocks of all parts."""
-    counts = [len(each.part.polyhedra) for each in placed]
-    groups = tuple(each.group for each, count in zip(placed, counts, strict=True) for _ in range(count))
-    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    within = [labels_of(len(each.part.polyhedra), each.part.member, each.part.labels, each.copy) for each in placed]
-    of_parts = [densities[each.material] for each in placed]
-    return Labels(groups, indices_in_groups(groups), np.repeat(of_parts, counts), join_labels(within))
 
 
 def _named(ground: Ground, labels: Labels) -> Ground:

@@ -30,9 +30,9 @@ def roster(partial: frozenset[str] = frozenset()) -> Roster:
 
 def _within(cube: int) -> BlockLabels:
     if cube % 2:
-        return labels_of(1, "", {}, -1)
+        return labels_of(1, "", {})
     member = "lintel" if cube == 4 else "pier"
-    return labels_of(1, member, {"course": np.array([int(cube == 4)])}, int(cube > 4))
+    return labels_of(1, member, {"course": np.array([int(cube == 4)]), "copy": np.array([int(cube > 4)])})
 
 
 def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, list[Fault]]:

@@ -65,11 +65,15 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
         under[acting] = below.at(points[acting])
         positions.append(TravelPosition(name, number, len(vehicle), points, distances, forces, under))
         bare += [(number, points[axle]) for axle in np.flatnonzero(acting & (under < 0))[:1]]
+    if bare and not site.roster.partial:
+        (first, point), more = bare[0], len(bare) - 1
+        words = (
+            f"position {first} of {len(vehicle)}, at {vector(point)} {site.units.length},"
+            f"{f' and {more} more lie' if more else ' lies'} over no block; change the path, or look for blocks in "
+            "another direction with towards"
+        )
+        site.refuse(Finding("load-beside-structure", words, *entry.path, "travel"))
     if bare:
-        if not site.roster.partial:
-            site.refuse(
-                Finding("load-beside-structure", _bare_in_words(bare, len(vehicle), site), *entry.path, "travel")
-            )
         return None
     return [PositionLoad(position, _applied(position, site)) for position in positions]
 
@@ -117,11 +121,3 @@ def vehicle_on_path(travel: Travel) -> list[tuple[FloatArray, FloatArray, BoolAr
         )
         found.append((points, distances, acting))
     return found
-
-
-def _bare_in_words(bare: list[tuple[int, FloatArray]], count: int, site: LoadSite) -> str:
-    first, point = bare[0]
-    others = f" and {len(bare) - 1} more" if len(bare) > 1 else ""
-    where = f"position {first} of {count}, at {vector(point)} {site.units.length},{others}"
-    verb = "lies" if len(bare) == 1 else "lie"
-    return f"{where} {verb} over no block; change the path, or look for blocks in another direction with towards"

@@ -95,12 +95,11 @@ def no_labels(count: int) -> BlockLabels:
     return BlockLabels(("",) * count, np.full((count, len(POSITIONS)), NONE, dtype=np.int64))
 
 
-def labels_of(count: int, member: str | Sequence[str], positions: Mapping[str, IntArray], copy: int) -> BlockLabels:
+def labels_of(count: int, member: str | Sequence[str], positions: Mapping[str, IntArray]) -> BlockLabels:
     """Labels of the blocks of one part of an item.
 
     member    : of all blocks, or of each
     positions : (count,) by name
-    copy      : number of the repetition; -1 where the item is not repeated
 
     Raises
     ------
@@ -110,7 +109,6 @@ def labels_of(count: int, member: str | Sequence[str], positions: Mapping[str, I
     labels = no_labels(count)
     for name, values in positions.items():
         labels.positions[:, POSITIONS.index(name)] = values
-    labels.positions[:, POSITIONS.index("copy")] = copy
     members = (member,) * count if isinstance(member, str) else tuple(member)
     if len(members) != count:
         raise ValueError(f"{len(members)} members for {count} blocks")

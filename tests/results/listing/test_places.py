@@ -30,7 +30,7 @@ def test_blocks_by_their_groups(blocks: list[int], words: str) -> None:
 # ---  ---------------------------------------------------------------------------------------------------------------
 
 
-WALL = labels_of(4, ["pier", "lintel", "pier", ""], {"course": np.array([0, 5, 2, 3])}, copy=-1)
+WALL = labels_of(4, ["pier", "lintel", "pier", ""], {"course": np.array([0, 5, 2, 3])})
 
 
 def test_members_are_counted_and_positions_given_as_ranges() -> None:
@@ -40,7 +40,7 @@ def test_members_are_counted_and_positions_given_as_ranges() -> None:
 
 def test_many_members_are_not_all_named() -> None:
     names = [f"stone_{number}" for number in range(20)]
-    words = label_words(labels_of(20, names, {}, copy=-1), np.arange(20))
+    words = label_words(labels_of(20, names, {}), np.arange(20))
     assert words.startswith("members stone_0 (1), stone_1 (1)")
     assert words.endswith("stone_7 (1) and 12 more")
 

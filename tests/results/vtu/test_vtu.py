@@ -141,7 +141,7 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
 
 
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
-    labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])}, -1)
+    labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])})
     blocks = replace(results.model.blocks, labels=labels)
     written(path, blocks_mesh(Scene(replace(results.model, blocks=blocks), results.contacts, None)))
     data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
