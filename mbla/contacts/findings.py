@@ -35,7 +35,7 @@ def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, Messa
     held = held_model(model, contacts)
     if held.fixed.all():
         return [(("contacts",), Message("nothing-can-move", "every block is glued to a support: nothing can move"))]
-    found = [*_held_guides(model, contacts), *_guides_at_odds(held, contacts), *_glued_settlements(model, contacts)]
+    found = [*_held_otherwise(model, contacts), *_glued_settlements(model, contacts)]
     if found:
         return found
     solids = solids_of(held, contacts)
@@ -52,30 +52,21 @@ def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, Messa
     ]
 
 
-def _held_guides(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
+def _held_otherwise(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
+    """Guided blocks that glue holds to a support, or to a block that may move in another way."""
     stuck = np.intersect1d(model.guides.blocks, contacts.report.held)
+    label, blocks = contacts.solid_of_block, model.blocks
     if len(stuck):
-        yield (
-            ("supports",),
-            Message(
-                "support-held-twice",
-                f"{named(stuck, model.blocks.name)} may move in some way, but glue holds it to a support",
-            ),
-        )
-
-
-def _guides_at_odds(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
-    label = contacts.solid_of_block
-    if label is None or not len(model.guides):
-        return
-    volumes = np.bincount(label, model.blocks.volumes)
-    moments = [np.bincount(label, model.blocks.volumes * axis) / volumes for axis in model.blocks.centroids.T]
-    arms = model.blocks.centroids - np.stack(moments, axis=1)[label]
-    pair = guides_at_odds(model.guides, label, arms)
-    if pair is not None:
-        first, second = (model.blocks.name(block) for block in pair)
-        message = f"{first} and {second} are glued to one rigid body, but may move in different ways: guide one of them"
-        yield ("supports",), Message("support-held-twice", message)
+        words = f"{named(stuck, blocks.name)} may move in some way, but glue holds it to a support"
+        yield ("supports",), Message("support-held-twice", words)
+    elif label is not None and len(model.guides):
+        volumes = np.bincount(label, blocks.volumes)
+        moments = [np.bincount(label, blocks.volumes * axis) / volumes for axis in blocks.centroids.T]
+        pair = guides_at_odds(model.guides, label, blocks.centroids - np.stack(moments, axis=1)[label])
+        if pair is not None:
+            first, second = map(blocks.name, pair)
+            words = f"{first} and {second} are glued to one rigid body, but may move in different ways: guide one"
+            yield ("supports",), Message("support-held-twice", words)
 
 
 def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:

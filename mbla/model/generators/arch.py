@@ -20,7 +20,6 @@ from mbla.errors import Finding
 from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
     Section,
-    Thickness,
     build_section,
     check_rise,
     check_width,
@@ -53,8 +52,8 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
         where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the springings
     """
     springing = item.thickness if item.springing_thickness is None else item.springing_thickness
-    thickness = Thickness(item.thickness, springing, 0.5 if item.line == "centre" else 0.0)
-    section = build_section(_curve(item), item.voussoirs, item.rings, thickness)
+    inside = 0.5 if item.line == "centre" else 0.0
+    section = build_section(_curve(item), item.voussoirs, item.rings, item.thickness, springing, inside)
     shear = float(np.tan(np.radians(item.skew)))
     voussoirs = _voussoirs(item, section, shear)
     if item.springers == "blocks":

@@ -21,15 +21,6 @@ from mbla.model.solids.polyhedra import in_space
 
 
 @dataclass(frozen=True)
-class Thickness:
-    """Of an arch [length]: at crown and springings, and the share of it that lies inside the curve (0 or 1/2) [-]."""
-
-    crown: float
-    springing: float
-    inside: float = 0.0
-
-
-@dataclass(frozen=True)
 class Section:
     """An arch in its plane.
 
@@ -61,8 +52,10 @@ class Section:
         return np.concatenate([corners[:half], self.apex[None, boundary], corners[half:]])
 
 
-def build_section(curve: Curve, voussoirs: int, rings: int, thickness: Thickness) -> Section:
-    """Section over a curve.
+def build_section(
+    curve: Curve, voussoirs: int, rings: int, crown: float, springing: float, inside: float = 0.0
+) -> Section:
+    """Section over a curve; thickness at crown and springings [length], and the share of it inside the curve [-].
 
     Raises
     ------
@@ -70,14 +63,14 @@ def build_section(curve: Curve, voussoirs: int, rings: int, thickness: Thickness
         where the voussoirs are too few to be blocks, or joints cross each other within the thickness
     """
     _check_count(curve, voussoirs)
-    mean = (thickness.crown + thickness.springing) / 2
-    parameters = curve.divide(voussoirs, (0.5 - thickness.inside) * mean)
-    here = _thickness_at(curve, parameters, thickness)
-    shares = np.linspace(0.0, 1.0, rings + 1) - thickness.inside
+    parameters = curve.divide(voussoirs, (0.5 - inside) * (crown + springing) / 2)
+    lengths = curve.lengths(parameters)
+    here = crown + (springing - crown) * np.abs(2 * lengths / lengths[-1] - 1)  # grows evenly from the middle
+    shares = np.linspace(0.0, 1.0, rings + 1) - inside
     joints = curve.points(parameters, here[:, None] * shares)
     apex = None
     if curve.crest is not None and voussoirs % 2:
-        apex = curve.points(np.array([curve.crest]), thickness.crown * shares[None])[0]
+        apex = curve.points(np.array([curve.crest]), crown * shares[None])[0]
     section = Section(joints, curve.forwards(parameters), apex)
     _check_joints(section)
     return section
@@ -97,15 +90,6 @@ def voussoir_polygons(section: Section) -> tuple[list[FloatArray], IntArray, Int
         polygons += row
     number, ring_of = np.arange(section.n_voussoirs), np.arange(section.rings)
     return polygons, np.tile(number, section.rings), np.repeat(ring_of, section.n_voussoirs)
-
-
-def _thickness_at(curve: Curve, parameters: FloatArray, thickness: Thickness) -> FloatArray:
-    """Thickness [length] at joints, growing evenly with the length from the middle of the curve."""
-    if thickness.crown == thickness.springing:
-        return np.full(len(parameters), thickness.crown)
-    lengths = curve.lengths(parameters)
-    share = np.abs(2 * lengths / lengths[-1] - 1)
-    return np.asarray(thickness.crown + (thickness.springing - thickness.crown) * share, dtype=np.float64)
 
 
 def _check_count(curve: Curve, voussoirs: int) -> None:

@@ -22,7 +22,6 @@ from mbla.model.generators.arch_sections import (
     LEVEL,
     Section,
     SpringingJoint,
-    Thickness,
     build_section,
     check_rise,
     check_width,
@@ -126,7 +125,7 @@ def _frame(item: BridgeItem) -> _Frame:
 def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Section:
     """Arch of one span; what is wrong with it is said of its own number of voussoirs."""
     try:
-        return build_section(curve, voussoirs, item.rings, Thickness(item.thickness, item.thickness))
+        return build_section(curve, voussoirs, item.rings, item.thickness, item.thickness)
     except ItemRefused as refused:
         if isinstance(item.voussoirs, int):
             raise

@@ -148,44 +148,25 @@ def _coincident_vertices(polyhedra: Polyhedra, extents: Extents) -> list[tuple[i
     return [(int(order[i]), int(order[i + 1])) for i in chosen]
 
 
-def edge_defects(polyhedra: Polyhedra, edges: Edges) -> list[Defect]:
+def edge_defects(polyhedra: Polyhedra, edges: Edges) -> Iterator[Defect]:
     """Polyhedra with edges that have one face, or more than two."""
-    defects = []
     for block in np.unique(edges.block[edges.face_count != 2]).tolist():
         rows = np.flatnonzero(edges.block == block)
         crowded = rows[edges.face_count[rows] > 2]
-        lone = rows[edges.face_count[rows] == 1]
-        twice = _face_listed_twice(polyhedra, block) if len(crowded) else None
-        if twice is not None:
-            message = f"faces {twice[0]} and {twice[1]} have the same corners: each face is listed once"
-            defects.append(Defect(block, Message("bad-polyhedron", message), twice[1]))
-        elif len(crowded):
+        if len(crowded):
             words = f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"
-            defects.append(Defect(block, Message("bad-polyhedron", words)))
-        else:
-            face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
-            words = _edges_in_words(polyhedra, edges, block, lone)
-            defects.append(
-                Defect(block, Message("open-polyhedron", f"is not closed: {words} one face only, face {face}"))
-            )
-    return defects
+            yield Defect(block, Message("bad-polyhedron", words))
+            continue
+        lone = rows[edges.face_count[rows] == 1]
+        face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
+        words = f"is not closed: {_edges_in_words(polyhedra, edges, block, lone)} one face only, face {face}"
+        yield Defect(block, Message("open-polyhedron", words))
 
 
 def _edges_in_words(polyhedra: Polyhedra, edges: Edges, block: int, rows: IntArray) -> str:
     tail, head = edges.ends[rows[0]] - polyhedra.vertex_start[block]
     first = f"the edge between vertices {tail} and {head}"
     return f"{first} has" if len(rows) == 1 else f"{len(rows)} edges, first {first.replace('the edge', 'that')}, have"
-
-
-def _face_listed_twice(polyhedra: Polyhedra, block: int) -> tuple[int, int] | None:
-    seen: dict[frozenset[int], int] = {}
-    first = int(polyhedra.face_start[block])
-    for face in range(first, int(polyhedra.face_start[block + 1])):
-        corners = frozenset(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist())
-        if corners in seen:
-            return seen[corners], face - first
-        seen[corners] = face - first
-    return None
 
 
 def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray, extents: Extents) -> list[Defect]:
