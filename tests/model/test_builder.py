@@ -105,7 +105,7 @@ def test_all_faults_come_at_once(tmp_path: Path) -> None:
     with pytest.raises(DeckError) as caught:
         build_model(found)
     assert [fault.key for fault in caught.value.faults] == [
-        "blocks[0].polyhedron.faces[3]",
+        "blocks[0].polyhedron",
         "blocks[1].mesh.file",
         "load_cases.push.live[0].on.index",
     ]

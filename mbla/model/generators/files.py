@@ -146,7 +146,7 @@ def generate_table(item: TableItem, site: Site) -> Generated:
             table.check()
     if findings:
         raise ItemRefused(*findings)
-    points = [list(block.points.values()) for block in blocks.values()]
+    points = [np.array(list(block.points.values())) for block in blocks.values()]
     numbers = [{vertex: row for row, vertex in enumerate(block.points)} for block in blocks.values()]
     faces = [
         [[number[corner] for corner in face] for face in block.faces]
