@@ -100,11 +100,3 @@ def test_a_right_hand_side_changes_alone(solved_before: bool) -> None:
     solver.update(rhs=2.0 * program.rhs)
     assert np.array_equal(solver.cone_program.cost, program.cost)
     assert solver.solve(2, live).objective * live == pytest.approx(1.0, rel=1e-6)
-
-
-def test_only_a_neighbour_of_the_same_size_is_started_from() -> None:
-    program, live = sliding()
-    solver = CondensedProgram(program, SETTINGS, silent)
-    solution = solver.solve(1, live)
-    with pytest.raises(ValueError, match="same unknowns and rows"):
-        solver.start_near(replace(solution, x=solution.x[:-1]))

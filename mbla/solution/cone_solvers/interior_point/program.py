@@ -83,7 +83,7 @@ class CondensedProgram:
         self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
         solution = self._solution(data, ended, iterations, time.perf_counter() - started)
         if ended.outcome is Outcome.SOLVED:
-            self.start_near(solution)
+            self._near = solution.x, solution.z  # where the next program of this object starts
         return solution
 
     def sharpen(self, tolerance: float) -> bool:
@@ -97,17 +97,6 @@ class CondensedProgram:
         self.settings = replace(self.settings, tolerance=tolerance)
         self._paused, self._near = self._solved, None
         return True
-
-    def start_near(self, solution: ConeSolution) -> None:
-        """Start the next time from the solution of a neighbouring program with the same unknowns and rows.
-
-        After a solution the next program of the same object starts from it without being told.
-
-        Raises ValueError where it has other numbers of unknowns or rows.
-        """
-        if solution.x.shape != self.cone_program.cost.shape or solution.z.shape != self.cone_program.rhs.shape:
-            raise ValueError("a neighbouring program has the same unknowns and rows")
-        self._near = solution.x, solution.z
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
         """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
