@@ -7,12 +7,7 @@ programs and stays off.
 
 Signs: HiGHS has cost = matrixᵀ y for its row duals y, so z = −y. Its interior-point method proves neither
 infeasibility nor unboundedness by a ray, and asking simplex for one takes long on large programs. So whatever it says
-in these cases is settled by a program of its own that always has a solution::
-
-    min rhs·z    s.t.  matrixᵀ z = 0,  0 ≤ z ≤ 1 (−1 ≤ z ≤ 1 on equations)              infeasible if negative
-    min cost·x   s.t.  matrix x = 0 on equations, ≤ 0 on half-lines,  −1 ≤ x ≤ 1         unbounded if negative
-
-A verdict for which neither has a ray is none.
+in these cases is settled by clarabel, whose verdicts come with rays; one that it does not share is none.
 
 HiGHS tells its callbacks neither objective nor residuals, so there is one line in the log for each program, its
 residuals computed here.
@@ -25,12 +20,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.errors import SolverError
 from mbla.process.signals import held_signals
 from mbla.program.kinematic import ConeProgram
+from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
@@ -64,10 +59,6 @@ WITHOUT_VALUE = (Status.UNBOUNDED, Status.NO_EQUILIBRIUM)
 LEAST_TOLERANCE = 1e-10
 """HiGHS takes no smaller feasibility tolerance."""
 
-RAY = 1e-7
-"""Objective of a ray whose entries are at most 1, over the largest cost, below which it may be noise: ten times the
-feasibility tolerance of ``accuracy: standard``."""
-
 
 @dataclass(frozen=True)
 class _Run:
@@ -78,18 +69,6 @@ class _Run:
     row_duals: FloatArray
     objective: float
     iterations: int
-
-
-@dataclass(frozen=True)
-class _LinearProgram:
-    """min cost·x subject to row_lower ≤ matrix x ≤ row_upper, column_lower ≤ x ≤ column_upper."""
-
-    cost: FloatArray
-    matrix: sp.csc_array
-    row_lower: FloatArray
-    row_upper: FloatArray
-    column_lower: FloatArray
-    column_upper: FloatArray
 
 
 @dataclass
@@ -118,7 +97,7 @@ class HighsProgram:
         """
         self._check_finite()
         self._started = time.perf_counter()
-        run = self._run(_as_linear(self.cone_program))
+        run = self._run()
         if run.status not in STATUS_MAP:
             raise SolverError("solver-status", f"HiGHS returned a status that is not known: {run.status}")
         solution = self._solution(run, STATUS_MAP[run.status])
@@ -140,12 +119,12 @@ class HighsProgram:
         if not all(np.isfinite(part).all() for part in (program.cost, program.matrix.data, program.rhs)):
             raise SolverError("program-not-finite", "the linear program holds numbers that are not finite")
 
-    def _run(self, linear: _LinearProgram) -> _Run:
+    def _run(self) -> _Run:
         import highspy
 
         highs: Any = highspy.Highs()  # type: ignore[no-untyped-call]
         self._set_options(highs)
-        highs.passModel(_model(highspy, linear))
+        highs.passModel(_model(highspy, self.cone_program))
         with held_signals() as signalled:
 
             def interrupt(event: Any) -> None:
@@ -201,34 +180,16 @@ class HighsProgram:
 
     def _with_ray(self, solution: ConeSolution) -> ConeSolution:
         """The verdict that a ray proves; NUMERICAL_ERROR where there is none, or the limit that stopped its search."""
-        iterations = solution.iterations
-        for status, linear in ((Status.UNBOUNDED, self._dual_ray()), (Status.NO_EQUILIBRIUM, self._primal_ray())):
-            run = self._run(linear)
-            iterations += run.iterations
-            solution = replace(solution, iterations=iterations, seconds=time.perf_counter() - self._started)
-            if STATUS_MAP.get(run.status) in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
-                return replace(solution, status=STATUS_MAP[run.status])
-            largest = float(np.abs(linear.cost).max(initial=0.0))
-            if run.status == "kOptimal" and run.objective < -RAY * largest:
-                proved = replace(solution, status=status)
-                return replace(proved, z=run.columns) if status is Status.UNBOUNDED else replace(proved, x=run.columns)
-        return replace(solution, status=Status.NUMERICAL_ERROR)
-
-    def _dual_ray(self) -> _LinearProgram:
-        program = self.cone_program
-        rows, columns = program.matrix.shape
-        lower = np.zeros(rows)
-        lower[: program.n_equations] = -1.0
-        none = np.zeros(columns)
-        return _LinearProgram(program.rhs, sp.csc_array(program.matrix.T), none, none, lower, np.ones(rows))
-
-    def _primal_ray(self) -> _LinearProgram:
-        program = self.cone_program
-        rows, columns = program.matrix.shape
-        lower = np.full(rows, -np.inf)
-        lower[: program.n_equations] = 0.0
-        box = np.ones(columns)
-        return _LinearProgram(program.cost, program.matrix, lower, np.zeros(rows), -box, box)
+        ray = ClarabelProgram(self.cone_program, self.settings, lambda record: None).solve_once(1, 0.0)
+        said = (*WITHOUT_VALUE, Status.TIME_LIMIT, Status.ITERATION_LIMIT)
+        return replace(
+            solution,
+            status=ray.status if ray.status in said else Status.NUMERICAL_ERROR,
+            x=ray.x,
+            z=ray.z,
+            iterations=solution.iterations + ray.iterations,
+            seconds=time.perf_counter() - self._started,
+        )
 
     def _write_log(self, solution: ConeSolution, program: int, to_load_factor: float) -> None:
         data, x, z = self.cone_program, solution.x, solution.z
@@ -249,23 +210,17 @@ class HighsProgram:
         self.log(record)
 
 
-def _as_linear(program: ConeProgram) -> _LinearProgram:
-    rows, columns = program.matrix.shape
-    row_lower = np.full(rows, -np.inf)
+def _model(highspy: Any, program: ConeProgram) -> Any:
+    (rows, columns), model = program.matrix.shape, highspy.HighsLp()
+    row_lower, free = np.full(rows, -np.inf), np.full(columns, np.inf)
     row_lower[: program.n_equations] = program.rhs[: program.n_equations]
-    free = np.full(columns, np.inf)
-    return _LinearProgram(program.cost, program.matrix, row_lower, program.rhs, -free, free)
-
-
-def _model(highspy: Any, linear: _LinearProgram) -> Any:
-    model = highspy.HighsLp()
-    model.num_row_, model.num_col_ = linear.matrix.shape
-    model.col_cost_ = linear.cost
-    model.col_lower_, model.col_upper_ = linear.column_lower, linear.column_upper
-    model.row_lower_, model.row_upper_ = linear.row_lower, linear.row_upper
+    model.num_row_, model.num_col_ = rows, columns
+    model.col_cost_ = program.cost
+    model.col_lower_, model.col_upper_ = -free, free
+    model.row_lower_, model.row_upper_ = row_lower, program.rhs
     model.a_matrix_.format_ = highspy.MatrixFormat.kColwise
-    model.a_matrix_.num_row_, model.a_matrix_.num_col_ = linear.matrix.shape
-    model.a_matrix_.start_ = linear.matrix.indptr
-    model.a_matrix_.index_ = linear.matrix.indices
-    model.a_matrix_.value_ = linear.matrix.data
+    model.a_matrix_.num_row_, model.a_matrix_.num_col_ = rows, columns
+    model.a_matrix_.start_ = program.matrix.indptr
+    model.a_matrix_.index_ = program.matrix.indices
+    model.a_matrix_.value_ = program.matrix.data
     return model

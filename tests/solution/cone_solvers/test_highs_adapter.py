@@ -156,11 +156,12 @@ def test_the_deck_s_solver_is_taken_and_cones_are_refused_in_words() -> None:
     assert not is_linear(cones)
 
 
-def test_a_search_for_a_ray_that_is_stopped_says_by_what(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("status", [Status.TIME_LIMIT, Status.ITERATION_LIMIT])
+def test_a_search_for_a_ray_that_is_stopped_says_by_what(status: Status, monkeypatch: pytest.MonkeyPatch) -> None:
     held = highs(linear_program())
     solution = held.solve(1, 1.0)
-    run = held._run(held._dual_ray())
-    monkeypatch.setattr(HighsProgram, "_run", lambda held, linear: replace(run, status="kTimeLimit"))
+    ended = replace(solution, status=status, iterations=3)
+    monkeypatch.setattr(ClarabelProgram, "solve_once", lambda *arguments: ended)
     stopped = held._with_ray(solution)
-    assert stopped.status is Status.TIME_LIMIT
-    assert stopped.iterations == solution.iterations + run.iterations
+    assert stopped.status is status
+    assert stopped.iterations == solution.iterations + 3
