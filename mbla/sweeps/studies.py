@@ -1,9 +1,10 @@
-"""Sweeps that a command makes of a deck by itself, without a sweep file: over an angle, and over settings."""
+"""Sweeps that a command makes of a deck by itself, without a sweep file, over one parameter: an angle, or a setting."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from mbla.deck import Deck
 from mbla.process.run_options import RunOptions
@@ -30,17 +31,26 @@ def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions)
     return SweepOptions(folder, engine, resume=resume, force=run.force, goes_on="the same command goes on")
 
 
-def study_plan(
+def prepared_study(
     deck: Deck,
+    name: str,
     fixed: Sequence[str],
     cases: Sequence[str],
     results: Sequence[str],
     folder: Path,
+    column: SweepColumn,
+    points: Mapping[Any, Mapping[str, Plain]],
+    conclude: Callable[[SweepTable], Conclusion],
     time_limit: float | None = None,
     timed: bool = False,
-) -> Plan:
-    """The plan of the points of a deck that was read with the overrides ``fixed``."""
-    return Plan(
+) -> Prepared:
+    """The sweep over one parameter of a deck that was read with the overrides ``fixed``.
+
+    column             : of the parameter
+    points             : for each of its values, values by key path of the deck
+    time_limit, timed  : as of ``Plan``
+    """
+    plan = Plan(
         deck=str(deck.path.resolve()),
         fingerprint=fingerprint_of(deck.path, fixed),
         fixed=tuple(fixed),
@@ -53,27 +63,13 @@ def study_plan(
         program=program_identity(),
         timed=timed,
     )
-
-
-def prepared_study(
-    deck: Deck,
-    name: str,
-    plan: Plan,
-    column: SweepColumn,
-    values: Sequence[Plain],
-    settings: Sequence[Mapping[str, Plain]],
-    conclude: Callable[[SweepTable], Conclusion],
-) -> Prepared:
-    """The sweep over one parameter, ``column``, with its values and what each sets in the deck."""
-    points = tuple(
-        Point(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(zip(values, settings, strict=True), 1)
-    )
+    made = tuple(Point(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(points.items(), 1))
     return Prepared(
         name=name,
         deck=deck.path.name,
         title=deck.title,
-        design=Design((column,), (Dimension(column.dimension, len(points)),), points, (tuple(values),)),
-        keys=tuple(key_hash(plan.fingerprint, own, ()) for own in settings),
+        design=Design((column,), (Dimension(column.dimension, len(made)),), made, (tuple(points),)),
+        keys=tuple(key_hash(plan.fingerprint, own, ()) for own in points.values()),
         columns=result_columns(plan.results, plan.cases, deck.units),
         plan=plan,
         files=TableFiles(),

@@ -2,5 +2,5 @@
 
     deck ──> question ──> points ──> domain ──> table, diagram
 
-``study.py`` puts the parts together and tells; ``picture.py`` draws.
+``study.py`` puts the parts together, tells and draws.
 """

@@ -20,6 +20,7 @@ carried is convex in the space of the load parameters.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -85,33 +86,43 @@ def points_of(table: SweepTable, question: Question) -> Points:
 
 @dataclass(frozen=True)
 class Domain:
-    """Polygons about the safe domain of associative flow, counter-clockwise, corners (n, 2).
+    """Polygons of shapely about the safe domain of associative flow.
 
     inner   : convex hull of safe points
     outer   : intersection of half-planes, within the sector of the angles; empty where there is no half-plane
     cut_off : the outer polygon ends at an edge that no mechanism draws
     crossed : largest relative distance of a safe point beyond a half-plane; 0 where none is
-    planes  : (m, 3) p_x, p_y, k of the half-planes
+    closed  : the angles go all around
     """
 
-    inner: FloatArray
-    outer: FloatArray
+    inner: Any
+    outer: Any
     cut_off: bool
     crossed: float
-    planes: FloatArray
+    closed: bool
 
     @property
     def gap(self) -> float:
         """Area between the polygons over the area of the outer one; nan where it is not bounded."""
-        if self.cut_off or len(self.outer) < 3:
-            return float("nan")
-        return 1.0 - area(self.inner) / area(self.outer)
+        bounded = not self.cut_off and self.outer.area > 0.0
+        return 1.0 - self.inner.area / self.outer.area if bounded else float("nan")
+
+    @property
+    def everywhere(self) -> float | None:
+        """What associative flow carries at least at every angle, those between the points among them.
+
+        The distance of the inner polygon's nearest side from the origin; None where it does not lie around the origin,
+        or where a bound is in doubt.
+        """
+        origin = shapely.Point(0.0, 0.0)
+        around = self.closed and not self.crossed and self.inner.contains(origin) and self.inner.area > 0.0
+        return float(self.inner.exterior.distance(origin)) if around else None
 
 
 def domain_of(points: Points, question: Question) -> Domain | None:
     """The domain that points in the plane of two loads prove; None where none of them has bounds."""
     safe = points.static >= 0.0
-    if not safe.any():
+    if not question.pair or not safe.any():
         return None
     corners = points.static[safe, None] * points.ways[safe]
     if points.stands:
@@ -120,7 +131,7 @@ def domain_of(points: Points, question: Question) -> Domain | None:
     corners = np.vstack([corners, far * points.ways[points.factors.of(Answer.UNBOUNDED)]])
     bounded = np.isfinite(points.kinematic) & np.isfinite(points.powers).all(axis=1)
     planes = np.column_stack([points.powers, points.kinematic])[bounded]
-    outer = far * SQUARE
+    outer = far * np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
     if not question.closed and question.angles[-1] - question.angles[0] <= 180.0:  # the sector of the angles
         (first, last) = points.ways[0], points.ways[-1]
         outer = clipped(clipped(outer, np.array([first[1], -first[0], 0.0])), np.array([-last[1], last[0], 0.0]))
@@ -130,23 +141,19 @@ def domain_of(points: Points, question: Question) -> Domain | None:
     size = np.maximum(np.maximum(np.abs(planes[:, 2]), np.abs(along)), 1e-300)
     crossed = float(((along - planes[:, 2]) / size).max(initial=0.0))
     return Domain(
-        inner=convex_hull(corners),
-        outer=outer if len(planes) else np.zeros((0, 2)),
+        inner=shapely.MultiPoint(corners).convex_hull,
+        outer=shapely.Polygon(outer if len(planes) and len(outer) > 2 else None),
         cut_off=bool((np.abs(outer) > 0.99 * far).any()),
         crossed=crossed if crossed > CROSSED else 0.0,
-        planes=planes,
+        closed=question.closed,
     )
 
 
-SQUARE = np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
-
-
-def convex_hull(points: FloatArray) -> FloatArray:
-    """Corners of the convex hull of points (n, 2), counter-clockwise; its two ends where it has no area."""
-    hull = shapely.convex_hull(shapely.multipoints(points))
-    if hull.geom_type != "Polygon":
-        return np.asarray(shapely.get_coordinates(hull))
-    return np.asarray(shapely.get_coordinates(shapely.orient_polygons(hull))[:-1])
+def corners_of(shape: Any) -> FloatArray:
+    """Corners (n, 2) of a polygon, counter-clockwise, each once; the ends of what has no area."""
+    if shape.geom_type != "Polygon":
+        return np.asarray(shapely.get_coordinates(shape))
+    return np.asarray(shapely.get_coordinates(shapely.orient_polygons(shape))[:-1])
 
 
 def clipped(polygon: FloatArray, plane: FloatArray) -> FloatArray:
@@ -159,20 +166,3 @@ def clipped(polygon: FloatArray, plane: FloatArray) -> FloatArray:
         if (now < 0.0 < then) or (then < 0.0 < now):
             corners.append(here + (there - here) * (now / (now - then)))
     return np.array(corners).reshape(-1, 2)
-
-
-def area(polygon: FloatArray) -> float:
-    """Area of a polygon with corners (n, 2)."""
-    return float(shapely.area(shapely.Polygon(polygon))) if len(polygon) > 2 else 0.0
-
-
-def everywhere(domain: Domain, *, closed: bool) -> float | None:
-    """What associative flow carries at least at every angle, those between the points among them.
-
-    The distance of the inner polygon's nearest side from the origin; None where it does not lie around the origin, or
-    where a bound is in doubt.
-    """
-    if not closed or domain.crossed or len(domain.inner) < 3:
-        return None
-    polygon, origin = shapely.Polygon(domain.inner), shapely.Point(0.0, 0.0)
-    return float(shapely.distance(polygon.exterior, origin)) if polygon.contains(origin) else None

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,7 +24,6 @@ import numpy as np
 
 from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck
-from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.model.loads.load_case import kind_of
@@ -38,6 +37,12 @@ DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
 MOST_POINTS = 3600
 QUARTER = 90.0
+TURNED = ("gravity", "acceleration", "force")
+"""kinds of loads that are turned: those that are a vector"""
+ONE_WAY = 1e-9
+"""sine of the angle between two horizontal parts up to which they point one way: rounding of expressions in decks"""
+SAME_LOAD = 1e-12
+"""difference of two dead loads, relative to the larger, that is rounding of how the deck writes them"""
 
 
 @dataclass(frozen=True)
@@ -47,11 +52,9 @@ class Question:
     kind     : ``direction`` or ``two_loads``
     case     : load case that is solved at each point
     axes     : what the coordinates of the diagram are, in words: load factor times cosine, times sine of the angle
-    names    : the same for columns
     pair     : load cases of the deck as it is solved whose live loads add up, times cosine and sine, to that of each
                point; empty where they do not
-    angles   : degrees, one for each point
-    settings : values by key path of the deck, one mapping for each point
+    settings : of each point by its angle in degrees, values by key path of the deck
     fixed    : ``key.path=value`` texts for every point, after those of the command line
     closed   : the last point is followed by the first
     words    : what is turned or added, in a sentence
@@ -60,16 +63,24 @@ class Question:
     kind: str
     case: str
     axes: tuple[str, str]
-    names: tuple[str, str]
     pair: tuple[str, ...]
-    angles: tuple[float, ...]
-    settings: tuple[Mapping[str, Plain], ...]
+    settings: Mapping[float, Mapping[str, Plain]]
     fixed: tuple[str, ...]
     closed: bool
     words: str
 
+    @property
+    def angles(self) -> tuple[float, ...]:
+        """Degrees, one for each point."""
+        return tuple(self.settings)
 
-def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
+    @property
+    def names(self) -> list[str]:
+        """What the axes are, for columns: the last word of each."""
+        return [axis.split()[-1] for axis in self.axes]
+
+
+def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1.0) -> Question:
     """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
 
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
@@ -87,7 +98,11 @@ def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
     if options.loads is None:
         if options.start is not None or options.end is not None:
             raise UsageError("interact-option", "--from and --to apply with --loads; directions go all around")
-        return _direction(deck, _case(deck, options.case or ""), _count(options.directions, DIRECTIONS, 1))
+        cases = list(deck.content.load_cases)
+        if not options.case and len(cases) > 1:
+            words = f"the deck has several load cases: choose one with --case, of {', '.join(cases)}"
+            raise UsageError("load-case-not-chosen", words)
+        return _direction(deck, options.case or cases[0], _count(options.directions, DIRECTIONS, 1))
     if options.case:
         raise UsageError("interact-option", "--case and --loads: one or the other; --loads names the two load cases")
     start = 0.0 if options.start is None else options.start
@@ -96,8 +111,19 @@ def question_of(deck: Deck, options: Any, ratio: float = 1.0) -> Question:
         raise UsageError(
             "interact-option", f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
         )
-    angles = angles_between(start, end, _count(options.directions, ANGLES, 2), ratio)
-    return _two_loads(deck, model, tuple(options.loads), angles, closed=closes(start, end))
+    count, pair = _count(options.directions, ANGLES, 2), tuple(options.loads)
+    shares = _two_loads(deck, model, pair)
+    return Question(
+        kind=TWO_LOADS,
+        case=_free_name(deck, "interact"),
+        axes=(f"factor of {pair[0]}", f"factor of {pair[1]}"),
+        pair=pair,
+        settings={angle: shares(angle) for angle in angles_between(start, end, count, ratio())},
+        fixed=(),
+        closed=closes(start, end),
+        words=f"live loads of {pair[0]} times cos and of {pair[1]} times sin of the angle act together, with the dead "
+        "load that both have; load factor times cos and sin are the factors of the two at collapse",
+    )
 
 
 def _count(given: int | None, usual: int, least: int) -> int:
@@ -107,17 +133,15 @@ def _count(given: int | None, usual: int, least: int) -> int:
     return count
 
 
-def angles_between(start: float, end: float, count: int, ratio: float = 1.0) -> tuple[float, ...]:
+def angles_between(start: float, end: float, count: int, ratio: float = 1.0) -> list[float]:
     """Angles from ``start`` to ``end``, both among them; the last one left out where it is a full circle on.
 
     ratio : of the sine's unit to that of the cosine: the angles are at equal distances where both axes of a diagram
             are drawn in these units
     """
-    closed = closes(start, end)
     first, last = stretched(start, 1 / ratio), stretched(end, 1 / ratio)
-    between = np.linspace(first, last, count, endpoint=not closed).tolist()
-    ends = {0: start} if closed else {0: start, count - 1: end}
-    return tuple(ends.get(number, stretched(angle, ratio)) for number, angle in enumerate(between))
+    between = np.linspace(first, last, count, endpoint=not closes(start, end)).tolist()
+    return [round(stretched(angle, ratio), 12) for angle in between]
 
 
 def closes(start: float, end: float) -> bool:
@@ -137,37 +161,25 @@ def stretched(degrees: float, ratio: float) -> float:
 # --- loads ------------------------------------------------------------------------------------------------------------
 
 
-def _case(deck: Deck, case: str) -> str:
-    """The load case, which need not be named where the deck has but one."""
-    cases = list(deck.content.load_cases)
-    if not case and len(cases) > 1:
-        raise UsageError(
-            "load-case-not-chosen", f"the deck has several load cases: choose one with --case, of {', '.join(cases)}"
-        )
-    return case or cases[0]
+def _live_loads(deck: Deck, case: str) -> list[Entry]:
+    """The live loads of a case, those that named loads stand for among them, with the products of their factors.
 
-
-def _section(deck: Deck, case: str) -> LoadCaseSection:
-    """A load case whose live loads are a sum of loads; raises UsageError for any other."""
+    Raises UsageError where there is no such case, and where its live loads are no sum of loads.
+    """
     cases = deck.content.load_cases
     if case not in cases:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
     if cases[case].settlement is not None:
         raise UsageError("interact-load", f"load case {case}: a support gives way, there is no live load")
-    loads = [entry.load for entry in live_entries(deck, case)]
-    if any(load.travel is not None or load.tilt is not None for load in loads):
+    entries = list(entries_of(cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
+    if any(entry.load.travel is not None or entry.load.tilt is not None for entry in entries):
         raise UsageError(
             "interact-load", f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
         )
-    return cases[case]
+    return entries
 
 
-def live_entries(deck: Deck, case: str) -> list[Entry]:
-    """The live loads of a case, those that named loads stand for among them, with the products of their factors."""
-    return list(entries_of(deck.content.load_cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
-
-
-def written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str, Any]:
+def _written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str, Any]:
     """A load as a deck writes it, in the deck's units, expressions evaluated, with another factor and other values.
 
     A table is named relative to the main file of the deck, from where a setting looks for it.
@@ -179,31 +191,22 @@ def written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[str
     return text | {"factor": factor} | changes
 
 
-def free_name(deck: Deck, name: str) -> str:
+def _free_name(deck: Deck, name: str) -> str:
     """The name with as many strokes as make it one that no load case of the deck has."""
     while name in deck.content.load_cases:
         name += "_"
     return name
 
 
-# --- direction --------------------------------------------------------------------------------------------------------
-
-TURNED = ("gravity", "acceleration", "force")
-"""kinds of loads that are turned: those that are a vector"""
-ONE_WAY = 1e-9
-"""sine of the angle between two horizontal parts up to which they point one way: rounding of expressions in decks"""
-
-
 def _direction(deck: Deck, case: str, count: int) -> Question:
-    """Azimuths around the circle for one load case."""
-    _section(deck, case)
+    """Azimuths around the circle for one load case; raises UsageError where nothing can be turned."""
+    entries = _live_loads(deck, case)
     if deck.content.symmetry:
         raise UsageError(
             "interact-load",
             "symmetry: the deck gives half of the structure, and what pushes one half out of the plane would push its "
             "image the other way; the load factor over direction needs the whole structure",
         )
-    entries = live_entries(deck, case)
     vectors = [_vector(case, entry) for entry in entries]
     parts = [complex(x, y) for x, y, _ in vectors]
     pushes = [part * entry.factor for entry, part in zip(entries, parts, strict=True) if part]
@@ -220,25 +223,23 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
         for entry, part, (_, _, z) in zip(entries, parts, vectors, strict=True):
             to = part * complex(*horizontal(azimuth, 1.0))
             change = {kind_of(entry.load): [to.real + 0.0, to.imag + 0.0, z]}
-            found.append(written(deck, entry, entry.factor, **change))
+            found.append(_written(deck, entry, entry.factor, **change))
         return found
 
     pair: tuple[str, ...] = ()
     if not any(z for _, _, z in vectors):  # powers of both say what a mechanism bounds all around
-        pair = free_name(deck, "interact_0"), free_name(deck, "interact_90")
-    azimuths = angles_between(0.0, FULL_CIRCLE, count)
+        pair = _free_name(deck, "interact_0"), _free_name(deck, "interact_90")
+    both = zip(pair, (0.0, QUARTER), strict=False)
     begins = "azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"
     return Question(
         kind=DIRECTION,
         case=case,
-        axes=("along x", "along y") if absolute else ("as the deck directs it", "a quarter turn on"),
-        names=("x", "y") if absolute else ("0", "90"),
+        axes=("factor along x", "factor along y") if absolute else ("factor at azimuth 0", "factor at azimuth 90"),
         pair=pair,
-        angles=azimuths,
-        settings=tuple({f"load_cases.{case}.live": live(azimuth)} for azimuth in azimuths),
-        fixed=override_texts(
-            {f"load_cases.{name}": {"live": live(azimuth)} for name, azimuth in zip(pair, (0.0, QUARTER), strict=False)}
-        ),
+        settings={
+            azimuth: {f"load_cases.{case}.live": live(azimuth)} for azimuth in angles_between(0.0, FULL_CIRCLE, count)
+        },
+        fixed=override_texts({f"load_cases.{name}": {"live": live(azimuth)} for name, azimuth in both}),
         closed=True,
         words=f"load case {case}: the horizontal part of its live load is turned; {begins}",
     )
@@ -257,18 +258,12 @@ def _vector(case: str, entry: Entry) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-# --- two loads --------------------------------------------------------------------------------------------------------
-
-SAME_LOAD = 1e-12
-"""difference of two dead loads, relative to the larger, that is rounding of how the deck writes them"""
-
-
-def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...], angles: tuple[float, ...], *, closed: bool) -> Question:
-    """Angles between two load cases; raises UsageError where they have no sum, or not the same dead load."""
+def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...]) -> Callable[[float], Mapping[str, Plain]]:
+    """What an angle sets; raises UsageError where two load cases have no sum, or not the same dead load."""
     first, second = pair
     if first == second:
         raise UsageError("interact-option", f"--loads {first} {second}: name two different load cases")
-    section, _ = _section(deck, first), _section(deck, second)
+    entries = {name: _live_loads(deck, name) for name in pair}
     one, other = ({case.name: case.dead_load for case in model.load_cases}[name] for name in pair)
     if not np.abs(one - other).max(initial=0.0) <= SAME_LOAD * np.abs([one, other]).max(initial=0.0):
         raise UsageError(
@@ -277,28 +272,15 @@ def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...], angles: tuple[fl
             "give both the same dead load",
         )
     own: dict[str, Plain] = {}
-    if section.dead is not None:
-        place = ("load_cases", first, "dead")
-        dead = [Entry(load, (*place, number), load.factor) for number, load in enumerate(section.dead)]
-        own["dead"] = [written(deck, entry, entry.factor) for entry in dead]
+    if (dead := deck.content.load_cases[first].dead) is not None:
+        places = [Entry(load, ("load_cases", first, "dead", number), load.factor) for number, load in enumerate(dead)]
+        own["dead"] = [_written(deck, entry, entry.factor) for entry in places]
+    case = f"load_cases.{_free_name(deck, 'interact')}"
 
-    def live(angle: float) -> list[Plain]:
+    def setting(angle: float) -> Mapping[str, Plain]:
         """Both live loads; one whose share is zero is left out."""
         shares = zip(pair, horizontal(angle, 1.0), strict=True)
-        entries = ((share, entry) for name, share in shares if share for entry in live_entries(deck, name))
-        return [written(deck, entry, share * entry.factor) for share, entry in entries]
+        acting = ((share, entry) for name, share in shares if share for entry in entries[name])
+        return {case: {**own, "live": [_written(deck, entry, share * entry.factor) for share, entry in acting]}}
 
-    name = free_name(deck, "interact")
-    return Question(
-        kind=TWO_LOADS,
-        case=name,
-        axes=(f"factor of {first}", f"factor of {second}"),
-        names=(first, second),
-        pair=(first, second),
-        angles=angles,
-        settings=tuple({f"load_cases.{name}": {**own, "live": live(angle)}} for angle in angles),
-        fixed=(),
-        closed=closed,
-        words=f"live loads of {first} times cos and of {second} times sin of the angle act together, with the dead "
-        "load that both have; load factor times cos and sin are the factors of the two at collapse",
-    )
+    return setting

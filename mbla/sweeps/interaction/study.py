@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,17 +11,21 @@ import numpy as np
 
 from mbla.deck import Deck
 from mbla.process.run_options import RunOptions
-from mbla.results.listing.text import counted, number, percent, sentence, table
+from mbla.results.listing.text import number, percent, sentence, table
+from mbla.results.pictures.diagrams import dress, hollow, open_diagrams
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import BLUE, GHOST, INK, SKY
 from mbla.results.record.json_values import as_json
 from mbla.results.record.keys import Key
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.command import Finished, Prepared, Report, run_sweep
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.engine.engine import EngineOptions
-from mbla.sweeps.interaction.domain import Domain, Points, domain_of, everywhere, points_of
-from mbla.sweeps.interaction.picture import draw_diagram
-from mbla.sweeps.interaction.question import DIRECTION, QUARTER, TWO_LOADS, Question, question_of
-from mbla.sweeps.studies import heading_lines, prepared_study, study_options, study_plan
+from mbla.sweeps.interaction.domain import Domain, Points, corners_of, domain_of, points_of
+from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question, question_of
+from mbla.sweeps.pictures.sheet import MARKS, count_words, mark_handles
+from mbla.sweeps.plan import Task
+from mbla.sweeps.studies import heading_lines, prepared_study, study_options
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 from mbla.sweeps.tables.write_tables import Conclusion
 
@@ -31,10 +34,11 @@ RESULTS = (
     *("standing.verdict", "mechanism.class"),
 )
 """columns, beside the powers of a pair of loads"""
+AZIMUTH = SweepColumn("azimuth", "degree", "azimuth of the live load", "float", "azimuth", "azimuth")
+ANGLE = SweepColumn("angle", "degree", "of two loads: A times cosine, B times sine", "float", "parameter", "angle")
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
 """exit codes of points that have no verified answer"""
 CONTRADICTION, NO_FACTOR = 4, 5
-ASSOCIATIVE = "associative"
 SAME = 1e-5
 """relative difference up to which load factors are one: to which a solved one may be uncertain"""
 MOST_ANGLES = 4
@@ -51,35 +55,29 @@ def interact(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     FileError
         Files are in the way or cannot be written.
     """
-    question = question_of(deck, options)
-    name = "_".join(("interact", *(question.pair if question.kind == TWO_LOADS else ())))
+    name = "_".join(("interact", *(options.loads or ())))
     chosen = study_options(deck, run, name, EngineOptions(workers=options.jobs))
     assert chosen.folder is not None
-    if question.kind == TWO_LOADS:
-        question = question_of(deck, options, factor_ratio(deck, run, options, chosen.folder))
+    question = question_of(deck, options, lambda: factor_ratio(deck, run, options.loads))
     return run_sweep(prepared_diagram(deck, run, question, chosen.folder), chosen, report)
 
 
 def prepared_diagram(deck: Deck, run: RunOptions, question: Question, folder: Path) -> Prepared:
     """The sweep over the angle of a question."""
     results = (*RESULTS, *(f"powers.{name}" for name in question.pair))
-    plan = study_plan(deck, (*run.overrides, *question.fixed), (question.case,), results, folder)
-    angle = SweepColumn(
-        *("azimuth", "degree", "azimuth of the live load", "float", "azimuth", "azimuth")
-        if question.kind == DIRECTION
-        else ("angle", "degree", "of two loads: A times cosine, B times sine", "float", "parameter", "angle")
-    )
+    fixed = (*run.overrides, *question.fixed)
+    column = AZIMUTH if question.kind == DIRECTION else ANGLE
     conclude = partial(conclusion_of, deck, question)
-    return prepared_study(deck, "interact", plan, angle, question.angles, question.settings, conclude)
+    return prepared_study(
+        deck, "interact", fixed, (question.case,), results, folder, column, question.settings, conclude
+    )
 
 
-def factor_ratio(deck: Deck, run: RunOptions, options: Any, folder: Path) -> float:
+def factor_ratio(deck: Deck, run: RunOptions, pair: Sequence[str]) -> float:
     """Load factor of the second load alone over that of the first; 1 where either has none."""
-    alone = copy(options)
-    alone.start, alone.end, alone.directions = 0.0, QUARTER, 2
-    prepared = prepared_diagram(deck, run, question_of(deck, alone), folder)
-    runner = PointRunner(prepared.plan)
-    first, second = (runner.run(task).results.get("load_factor") for task in prepared.tasks)
+    alone = prepared_study(deck, "", run.overrides, pair, ("load_factor",), Path(), ANGLE, {}, lambda _: Conclusion())
+    results = PointRunner(alone.plan).run(Task("", 0, {})).results
+    first, second = (results.get(f"{name}.load_factor") or 0.0 for name in pair)
     usable = isinstance(first, float) and isinstance(second, float) and min(first, second) > 0
     return second / first if usable else 1.0  # type: ignore[operator]
 
@@ -87,21 +85,20 @@ def factor_ratio(deck: Deck, run: RunOptions, options: Any, folder: Path) -> flo
 def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusion:
     """What follows from the points."""
     points = points_of(table, question)
-    domain = domain_of(points, question) if question.pair else None
-    words = [question.words, *_factor_words(question, points), *_domain_words(deck, question, domain)]
-    factors = [
-        (SweepColumn(f"factor_{name}", "", f"{axis}: load factor times {part}", "float", "result"), places)
-        for name, axis, part, places in zip(
-            question.names, question.axes, ("cosine", "sine"), points.places.T, strict=True
-        )
-    ]
+    domain = domain_of(points, question)
+    words = [question.words, *_factor_words(question, points), *_domain_words(question, domain)]
+    factors = []
+    for axis, name, places in zip(question.axes, question.names, points.places.T, strict=True):
+        factors.append((SweepColumn(f"factor_{name}", "", f"{axis} at collapse", "float", "result"), places))
     lines = [*heading_lines(deck), *sentence(question.words), "", *_point_table(question, points, table), ""]
     for text in (*words[1:], *_reasons(question, table)):
         lines += sentence(text)
+    title = [deck.title, *words[:2]]
+    rule = deck.analysis.flow_rule.replace("_", "-")
     return Conclusion(
         columns=factors,
         record={"interaction": _record(question, points, domain, words)},
-        pictures={"interact": partial(draw_diagram, deck, question, points, domain, words[:2])},
+        pictures={"interact": partial(draw_diagram, title, rule, question, points, domain)},
         lines=lines,
         exit_code=_exit_code(table, points, domain),
     )
@@ -125,11 +122,9 @@ def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
     if not points.factors.good.any():
         return {}
     ends = {"least": float(np.nanmin(points.known)), "greatest": float(np.nanmax(points.known))}
-    angles = {word: np.abs(points.known - end) <= SAME * abs(end) for word, end in ends.items()}
-    return {
-        word: {"load_factor": end, "angles": np.array(question.angles)[angles[word]].tolist()}
-        for word, end in ends.items()
-    }
+    near = {word: np.abs(points.known - end) <= SAME * abs(end) for word, end in ends.items()}
+    angles = {word: np.array(question.angles)[own].tolist() for word, own in near.items()}
+    return {word: {"load_factor": end, "angles": angles[word]} for word, end in ends.items()}
 
 
 # --- words ------------------------------------------------------------------------------------------------------------
@@ -140,12 +135,11 @@ def _point_table(question: Question, points: Points, results: SweepTable) -> lis
     unsure = np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)).tolist()
     told = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
     status = [str.upper(text or state) if doubt else text or state for text, state, doubt in told]
-    figures = {"load factor": points.known}
-    if question.kind == TWO_LOADS:
-        figures |= dict(zip(question.axes, points.places.T, strict=True))
+    both = question.kind == TWO_LOADS
+    figures = {"load factor": points.known, **(dict(zip(question.axes, points.places.T, strict=True)) if both else {})}
     figures |= {"static bound": points.static, "kinem. bound": points.kinematic}
     columns: dict[str, Sequence[str]] = {
-        "angle" if question.kind == TWO_LOADS else "azimuth": [f"{angle:.6g}" for angle in question.angles],
+        "angle" if both else "azimuth": [f"{angle:.6g}" for angle in question.angles],
         **{name: [number(value) for value in values.tolist()] for name, values in figures.items()},
         "mechanism": [text or "" for text in results["mechanism.class"].tolist()],
         "status": [text.replace("_", " ") for text in status],
@@ -174,7 +168,7 @@ def _angles(angles: Sequence[float]) -> str:
     return f"{', '.join(f'{angle:.6g}' for angle in angles[:MOST_ANGLES])}{more} degrees"
 
 
-def _domain_words(deck: Deck, question: Question, domain: Domain | None) -> list[str]:
+def _domain_words(question: Question, domain: Domain | None) -> list[str]:
     """What the bounds of all points say of the domain of associative flow."""
     if not question.pair:
         return ["no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"]
@@ -185,16 +179,13 @@ def _domain_words(deck: Deck, question: Question, domain: Domain | None) -> list
             "ERROR OF VERIFICATION: the safe domain of associative flow is convex, yet a point that is proved safe "
             f"lies beyond the bound of a mechanism by {domain.crossed:.1e} of it: please report it with the deck"
         ]
-    words = "the safe domain of associative flow is convex, and so are the points within their bounds"
-    if np.isfinite(domain.gap):
-        mechanisms = counted(len(domain.planes), "mechanism")
-        words += f"; between the hull of the safe points and the half-planes of {mechanisms} "
-        words += f"{percent(max(domain.gap, 0.0))} % of its area stay open"
-    least = everywhere(domain, closed=question.closed)
-    more = [] if least is None else [f"at angles between the points too, it carries at least {number(least)}"]
-    if deck.analysis.flow_rule != ASSOCIATIVE:
-        more.append(f"load factors by {deck.analysis.flow_rule} flow lie inside of it; their curve may have dents")
-    return [words, *more]
+    words = [
+        "the safe domain of associative flow is convex, and so are the points within their bounds; what those leave "
+        f"open between safe points and mechanisms is {percent(domain.gap)} % of its area"
+    ]
+    if domain.everywhere is not None:
+        words.append(f"at angles between the points too, it carries at least {number(domain.everywhere)}")
+    return words
 
 
 def _reasons(question: Question, results: SweepTable) -> list[str]:
@@ -211,6 +202,14 @@ def _reasons(question: Question, results: SweepTable) -> list[str]:
 
 def _record(question: Question, points: Points, domain: Domain | None, words: Sequence[str]) -> dict[str, Any]:
     ends = _extremes(question, points)
+    proved = None if domain is None else {
+        "inner": corners_of(domain.inner) + 0.0,
+        "outer": corners_of(domain.outer) + 0.0,
+        "cut_off": domain.cut_off,
+        "gap": domain.gap,
+        "crossed": domain.crossed,
+        "least_everywhere": domain.everywhere,
+    }  # fmt: skip
     record = {
         "kind": question.kind,
         "case": question.case if question.kind == DIRECTION else None,
@@ -219,16 +218,7 @@ def _record(question: Question, points: Points, domain: Domain | None, words: Se
         "closed": question.closed,
         "least": ends.get("least"),
         "greatest": ends.get("greatest"),
-        "domain": None
-        if domain is None
-        else {
-            "inner": domain.inner + 0.0,
-            "outer": domain.outer + 0.0,
-            "cut_off": domain.cut_off,
-            "gap": domain.gap,
-            "crossed": domain.crossed,
-            "least_everywhere": everywhere(domain, closed=question.closed),
-        },
+        "domain": proved,
         "words": words,
     }
     return dict(as_json(record))
@@ -254,3 +244,56 @@ INTERACT_RECORD: tuple[Key, ...] = tuple(
         ("words", "list", "what was asked and what follows, in sentences"),
     )
 )
+
+
+# --- picture ----------------------------------------------------------------------------------------------------------
+
+SIZE = (1200, 1240)
+"""pixels: a square diagram, words above and a legend below"""
+ROOM = 1.12
+"""edge of the diagram over the farthest point"""
+
+
+def draw_diagram(
+    title: Sequence[str], rule: str, question: Question, points: Points, domain: Domain | None, path: Path
+) -> None:
+    """Load factors in the plane of the two factors, joined where neighbours have one, and the proved polygons.
+
+    What has no verified load factor is marked: at what it has, at the origin where it does not stand, else at the edge.
+    Nothing is called safe on bounds that contradict each other.
+
+    Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
+    """
+    mark = "ERROR OF VERIFICATION: bounds contradict each other" if domain is not None and domain.crossed else ""
+    rays = [points.ways * values[:, None] for values in (points.factors.values, points.static, points.kinematic)]
+    places = np.nan_to_num(np.vstack([np.zeros(2), *rays]))
+    reach = ROOM * np.abs(places).max(axis=0)
+    reach = np.where(reach > 1e-9 * reach.max(), reach, reach.max() or 1.0)
+    reach = np.full(2, reach.max()) if question.kind == DIRECTION else reach
+    low = np.where(places.min(axis=0) > -1e-9 * reach, -0.02 * reach, -reach)
+    with open_diagrams(path, PictureOptions(size=SIZE), [*title, count_words(points.factors)], mark) as sheet:
+        page, axes = sheet.page, sheet.frames(1)[0, 0]
+        dress(page, axes, *question.axes)
+        axes.set(xlim=(low[0], reach[0]), ylim=(low[1], reach[1]))
+        axes.set_aspect("equal" if question.kind == DIRECTION else "auto")
+        axes.axhline(0.0, color=GHOST, zorder=1)
+        axes.axvline(0.0, color=GHOST, zorder=1)
+        handles = []
+        if domain is not None and domain.inner.area and not domain.crossed:
+            axes.fill(*corners_of(domain.inner).T, facecolor=SKY, alpha=0.35, edgecolor="none", zorder=2)
+            handles.append(page.box("safe by static bounds (associative flow)", facecolor=SKY, alpha=0.35))
+        if domain is not None and domain.outer.area:
+            axes.plot(*domain.outer.exterior.xy, color=BLUE, linestyle="--", zorder=3)
+            handles.append(page.line("bound by mechanisms (associative flow)", color=BLUE, linestyle="--"))
+        style = {"color": INK, "marker": "o", "markersize": 5.0 * page.scale}
+        axes.plot(*(np.vstack([points.places, points.places[: question.closed]])).T, zorder=4, **style)
+        handles.append(page.line(f"load factor, {rule} flow", **style))
+        values = points.factors.values[:, None]
+        at_edge = points.ways / (np.abs(points.ways) / reach).max(axis=1)[:, None]
+        marked = np.where(np.isfinite(values), points.ways * values, at_edge)
+        marked[points.factors.of(Answer.NO_EQUILIBRIUM)] = 0.0
+        for answer, look in MARKS.items():
+            own = points.factors.of(answer)
+            if own.any():
+                axes.plot(*marked[own].T, zorder=7, clip_on=False, **hollow(page, look.marker, look.colour))
+        sheet.add_legend([*handles, *mark_handles(page, points.factors.answer)])

@@ -14,7 +14,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from math import prod
-from typing import Any
 
 from mbla.deck import Deck, read_deck
 from mbla.deck.content import DeckContent
@@ -44,8 +43,6 @@ LADDER: tuple[tuple[str, Mapping[str, Plain]], ...] = (
 """settings after the presets"""
 LIMITS = ("max_iterations", "time_limit")
 """knobs without a default that are limits of effort, none of accuracy"""
-MODEL_KEYS = ("flow_rule", "contact_model")
-"""keys of the analysis section that choose what is modelled"""
 NO_MODEL = {"analysis", "output", "expected", "title"}
 MOST = 200
 """settings in one study"""
@@ -76,20 +73,17 @@ def ladder_of(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[R
 
     Raises UsageError where two have one name, and where nothing that was named applies.
     """
-    reference = _preset(deck, fixed, "reference")
-    if named:
-        rungs = [reference, *(rung for rung in named if rung.name != REFERENCE)]
-    else:  # the reference early, so that a time limit that ends the ladder leaves something to compare
-        rungs = [_preset(deck, fixed, "standard"), reference, _preset(deck, fixed, "draft")]
+    rungs = [_preset(deck, fixed, "reference"), *(rung for rung in named if rung.name != REFERENCE)]
+    if not named:  # the reference early, so that a time limit that ends the ladder leaves something to compare
+        rungs = [_preset(deck, fixed, "standard"), *rungs, _preset(deck, fixed, "draft")]
         rungs += [Rung(name, settings) for name, settings in LADDER]
     names = [rung.name for rung in rungs]
     if twice := [name for name in names if names.count(name) > 1]:
         raise UsageError("tradeoff-option", f"{twice[0]}: two settings of that name")
     seen: dict[str, str] = {}
     fitted = [_fitted(deck, fixed, rung, seen) for rung in rungs]
-    asked = [rung for rung in fitted if rung.name in {own.name for own in named}]
-    if asked and all(rung.unfit for rung in asked):
-        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in asked)
+    if len(fitted) > 1 and all(rung.unfit for rung in fitted[1:]):
+        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in fitted[1:])
         raise UsageError("tradeoff-option", f"no setting that was asked for applies to the deck: {why}")
     return fitted
 
@@ -98,13 +92,11 @@ def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
     """One word, free of the knobs that the deck sets by itself; the reference with the true friction cone."""
     own: dict[str, Plain] = {"accuracy": word}
     if word == "reference" and deck.analysis.friction_cone == "polyhedral":
-        own["friction_cone"] = "circular"
-        if deck.analysis.solver == "highs":
-            own["solver"] = "auto"
+        own |= {"friction_cone": "circular"} | ({"solver": "auto"} if deck.analysis.solver == "highs" else {})
     without = given_knobs(deck, fixed)
     if not without:
         return Rung(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})
-    section: Mapping[str, Any] = effective_tree(deck.path, fixed).data["analysis"]
+    section = effective_tree(deck.path, fixed).data["analysis"]
     kept: dict[str, Plain] = {key: value for key, value in section.items() if key not in without}
     return Rung(f"accuracy: {word}", {"analysis": kept | own}, without)
 
@@ -133,7 +125,9 @@ def _fitted(deck: Deck, fixed: Sequence[str], rung: Rung, seen: dict[str, str]) 
 
 def other_model(deck: DeckContent, changed: DeckContent) -> str:
     """What makes it another model, as ``flow_rule, contacts``; empty where it is the same."""
-    keys = [key for key in MODEL_KEYS if getattr(deck.analysis, key) != getattr(changed.analysis, key)]
+    keys = [
+        key for key in ("flow_rule", "contact_model") if getattr(deck.analysis, key) != getattr(changed.analysis, key)
+    ]
     own, its = (content.model_dump(mode="json", exclude=NO_MODEL) for content in (deck, changed))
     return ", ".join([*keys, *(key for key in own if own[key] != its.get(key))])
 
@@ -144,7 +138,7 @@ def other_model(deck: DeckContent, changed: DeckContent) -> str:
 def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
     """Settings of the two options, none if neither is given; raises UsageError for a text that is none."""
     choices = [_choice(text) for text in knobs]
-    count = len(settings) + (prod(len(choice) for choice in choices) if knobs else 0)
+    count = len(settings) + (prod(map(len, choices)) if knobs else 0)
     if count > MOST:
         raise UsageError("tradeoff-option", f"--knob: {count} settings, more than {MOST}; name fewer values")
     return [*(_combination(chosen) for chosen in product(*choices) if chosen), *map(_named, settings)]
@@ -152,10 +146,10 @@ def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
 
 def _choice(text: str) -> list[tuple[str, Plain]]:
     """Key path and value for each value, as YAML has it."""
-    key, equals, listed = text.partition("=")
+    key, _, listed = text.partition("=")
     document = read_yaml(SourceText("--knob", f"values: [{listed}]", line=1), 0)
     values: list[Plain] = [] if document.faults else document.data["values"]
-    if not equals or not key.strip() or not values or None in values:
+    if not key.strip() or not values or None in values:
         raise UsageError("tradeoff-option", f"--knob {text}: must be KEY.PATH=VALUE,VALUE,...")
     return [(key.strip(), value) for value in values]
 
@@ -166,9 +160,9 @@ def _combination(chosen: Sequence[tuple[str, Plain]]) -> Rung:
 
 
 def _named(text: str) -> Rung:
-    name, colon, rest = text.partition(":")
+    name, _, rest = text.partition(":")
     texts = rest.split()
-    if not colon or not name.strip() or not texts or not all("=" in each for each in texts):
+    if not name.strip() or not texts or not all("=" in each for each in texts):
         raise UsageError(
             "tradeoff-option",
             f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",

@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,11 @@ from mbla.model import build_model
 from mbla.model.model import LoadCase, Model, select_cases
 from mbla.process.run_options import RunOptions
 from mbla.results.diff.cases import ZERO, least_factor
-from mbla.results.listing.answers import reaction_unit, status_name
+from mbla.results.listing.answers import answer_head, status_name
 from mbla.results.listing.text import number, sentence, small, table
+from mbla.results.pictures.diagrams import dress, open_diagrams
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.page import BLUE, GHOST, VERMILION, WARNING
 from mbla.results.record.json_values import as_json
 from mbla.results.record.scene import Values
 from mbla.solution.solution import Status
@@ -28,29 +32,28 @@ from mbla.sweeps.command import Finished, Report, run_sweep
 from mbla.sweeps.engine.engine import NOT_BEGUN, EngineOptions
 from mbla.sweeps.engine.supervised import STOPPED
 from mbla.sweeps.plan import DONE
-from mbla.sweeps.studies import heading_lines, prepared_study, study_options, study_plan
+from mbla.sweeps.studies import heading_lines, prepared_study, study_options
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 from mbla.sweeps.tables.write_tables import Conclusion
 from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, ladder_of, named_rungs
-from mbla.sweeps.tradeoff.picture import draw_trade
-from mbla.sweeps.tradeoff.trade import VERDICTS, Advice, CaseTrade, advice
+from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, advice, trade_of
 
 RESIDUALS = (
     *("equilibrium_residual", "yield_violation", "tension_violation", "penetration", "complementarity_residual"),
     *("slip_residual", "power_balance"),
 )
 """what tells how badly forces and velocities fit the joint law"""
-ANSWERS = {
-    "load factor": ("load_factor", "static_bound", "kinematic_bound"),
-    "angle": ("angle", "angle_bounds.0", "angle_bounds.1"),
-    "reaction": ("reaction.value", "reaction.lower_bound", "reaction.upper_bound"),
-}
+FACTOR = ("load_factor", "static_bound", "kinematic_bound")
+ANGLE = ("angle", "angle_bounds.0", "angle_bounds.1")
+REACTION = ("reaction.value", "reaction.lower_bound", "reaction.upper_bound")
 """columns of the answer and its bounds, by what a load case asks for"""
 RESULTS = (
-    *("status", "verified", "flow_rule", *(path for paths in ANSWERS.values() for path in paths)),
+    *("status", "verified", "flow_rule", *FACTOR, *ANGLE, *REACTION),
     *("gap", *RESIDUALS, "iterations", "time.total", "time.solver"),
 )
 SETTING = SweepColumn("setting", "", "name of the setting", "text", "parameter", "setting")
+VERDICTS = (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
+"""statuses that are an answer without a figure, once verified"""
 
 
 def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -> Finished:
@@ -73,12 +76,10 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     contacts_of(deck, model)  # what is wrong with it is told before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
     rungs = ladder_of(deck, run.overrides, named)
-    plan = study_plan(deck, run.overrides, tuple(cases), RESULTS, chosen.folder, options.run_limit, timed=True)
-    fit = [rung for rung in rungs if not rung.unfit]
+    points = {rung.name: rung.settings for rung in rungs if not rung.unfit}
     conclude = partial(conclusion_of, deck, model, tuple(cases.values()), rungs, options.wanted_error)
-    settings = [rung.settings for rung in fit]
-    prepared = prepared_study(deck, "tradeoff", plan, SETTING, [rung.name for rung in fit], settings, conclude)
-    return run_sweep(prepared, chosen, report)
+    asked = (run.overrides, tuple(cases), RESULTS, chosen.folder, SETTING, points, conclude)
+    return run_sweep(prepared_study(deck, "tradeoff", *asked, options.run_limit, timed=True), chosen, report)
 
 
 def conclusion_of(
@@ -87,72 +88,56 @@ def conclusion_of(
     """What follows from the points, which are the settings that apply."""
     trades = [_trade(model, case, [rung for rung in rungs if not rung.unfit], results) for case in cases]
     advices = [advice([trade], wanted) for trade in trades]
-    advices += [advice(trades, wanted)] if len(trades) > 1 else []
+    together = [advice(trades, wanted)] if len(trades) > 1 else []
     columns: list[tuple[SweepColumn, Values]] = []
     for trade in trades:
         before = f"{trade.name}." if len(trades) > 1 else ""
-        distance = SweepColumn(f"{before}distance", "", "relative distance from the reference", "float", "result")
-        front = SweepColumn(f"{before}front", "", "on the Pareto front of time and distance", "bool", "result")
-        columns.append((distance, trade.distance))
-        columns.append((front, trade.front))
-    pairs = list(zip(trades, advices, strict=False))
+        words = "relative distance from the reference"
+        columns.append((SweepColumn(f"{before}distance", "", words, "float", "result"), trade.distance))
+        words = "on the Pareto front of time and distance"
+        columns.append((SweepColumn(f"{before}front", "", words, "bool", "result"), trade.front))
     return Conclusion(
         columns=columns,
-        record={"tradeoff": _record(trades, advices, rungs, wanted)},
+        record={"tradeoff": _record(trades, [*advices, *together], rungs, wanted)},
         pictures={
-            f"tradeoff_{trade.name}": partial(draw_trade, deck.title, trade, one.sentence) for trade, one in pairs
+            f"tradeoff_{trade.name}": partial(draw_trade, deck.title, trade, one.sentence)
+            for trade, one in zip(trades, advices, strict=True)
         },
-        lines=_lines(deck, trades, advices, rungs, results),
+        lines=_lines(deck, trades, [*advices, *together], rungs, results),
         exit_code=_exit_code(trades, results),
     )
 
 
 def _exit_code(trades: Sequence[CaseTrade], results: SweepTable) -> int:
     """7: the time limit came before the reference; 4: no reference is verified; else 0."""
-    settings = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
-    if any(name == REFERENCE and reason in (STOPPED, NOT_BEGUN) for name, reason in settings):
+    if np.isin(results["reason"][results["setting"] == REFERENCE], (STOPPED, NOT_BEGUN)).any():
         return LimitError.exit_status
-    return 0 if all(trade.reference_verified for trade in trades) else SolverError.exit_status
+    return 0 if all(trade.certain for trade in trades) else SolverError.exit_status
 
 
 def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTable) -> CaseTrade:
-    kind, unit, least = _kind(model, case)
+    """What each setting gave for one load case."""
     columns = {column.path: column for column in results.of_role("result") if column.case == case.deck_name}
 
     def figures(path: str) -> FloatArray:
         return numbers_of(columns[path], results[columns[path].name])
 
-    def texts(path: str) -> list[str]:
-        return [value or "" for value in results[columns[path].name].tolist()]
+    def texts(path: str) -> np.ndarray[Any, np.dtype[Any]]:
+        return np.array([value or "" for value in results[columns[path].name].tolist()], dtype=object)
 
-    answer, lower, upper = map(figures, ANSWERS[kind])
-    residual = np.fmax.reduce([figures(path) for path in RESIDUALS])
-    associative = np.array(texts("flow_rule")) == "associative"
-    accuracy = np.nan_to_num(np.where(associative, figures("gap"), residual))
-    status = np.array(texts("status"), dtype=object)
-    answered = (figures("verified") == 1.0) & np.isin(status, (Status.SOLVED.value, *(each.value for each in VERDICTS)))
-    as_asked = (status == Status.APPROXIMATE.value) & (results["state"] == DONE)
-    return CaseTrade(
-        name=case.deck_name,
-        what=f"{kind} [{unit}]" if unit else kind,
-        rungs=tuple(rungs),
-        status=status,
-        verified=np.asarray(answered | as_asked, dtype=bool),
-        answer=answer,
-        accuracy=np.where(np.isnan(answer), np.nan, accuracy),
-        residual=residual,
-        lower=lower,
-        upper=upper,
-        seconds=figures("time.total"),
-        least=least,
-    )
-
-
-def _kind(model: Model, case: LoadCase) -> tuple[str, str, float]:
-    """What a load case answers, its unit, and the size below which differences are relative to this."""
     if case.settlement is not None:
-        return "reaction", reaction_unit(model, case.settlement), ZERO * case.settlement.unit
-    return ("angle", "degree", 0.0) if case.tilt is not None else ("load factor", "", least_factor(model, case))
+        paths, least = REACTION, ZERO * case.settlement.unit
+    else:
+        paths, least = (FACTOR, least_factor(model, case)) if case.tilt is None else (ANGLE, 0.0)
+    answer, status = figures(paths[0]), texts("status")
+    residual = np.fmax.reduce([figures(path) for path in RESIDUALS])
+    accuracy = np.nan_to_num(np.where(texts("flow_rule") == "associative", figures("gap"), residual))
+    accuracy[np.isnan(answer)] = np.nan
+    answered = (figures("verified") == 1.0) & np.isin(status, [each.value for each in (Status.SOLVED, *VERDICTS)])
+    verified = answered | (status == Status.APPROXIMATE.value) & (results["state"] == DONE)
+    shown = {"lower": figures(paths[1]), "upper": figures(paths[2]), "resid.": residual}
+    arrays = (status, verified, answer, accuracy, figures("time.total"))
+    return trade_of(case.deck_name, answer_head(model, case), rungs, *arrays, least, shown)
 
 
 # --- words ------------------------------------------------------------------------------------------------------------
@@ -170,7 +155,12 @@ def _lines(
     """A table for each load case, what does not apply or failed, and the advice."""
     lines = heading_lines(deck)
     for trade in trades:
-        lines += ["", *sentence(f"load case {trade.name}: {reference_words(trade)}"), *_table(trade)]
+        words = "no setting gave a result, so there is no reference"
+        if trade.reference is not None:
+            unsure = "" if trade.certain else ", which is NOT VERIFIED"
+            words = f"errors are relative to {trade.rungs[trade.reference].name}{unsure}, good to "
+            words += small(trade.resolution)
+        lines += ["", *sentence(f"load case {trade.name}: {words}"), *_table(trade)]
     lines += ["", *sentence(LEGEND), ""]
     failed = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
     why: dict[str, list[str]] = {}
@@ -185,25 +175,15 @@ def _lines(
     return lines
 
 
-def reference_words(trade: CaseTrade) -> str:
-    """What the errors are distances from, and how small ones it can tell."""
-    if trade.reference is None:
-        return "no setting gave a result, so there is no reference"
-    unsure = "" if trade.reference_verified else ", which is NOT VERIFIED"
-    return f"errors are relative to {trade.rungs[trade.reference].name}{unsure}, good to {small(trade.resolution)}"
-
-
 def _table(trade: CaseTrade) -> list[str]:
-    head = ["setting", "time", trade.what, "error", "lower", "upper", "resid.", ""]
+    head = ["setting", "time", trade.what, "error", *trade.shown, ""]
     rows = [
         [
             ("* " if trade.front[n] else "  ") + rung.name,
             "-" if math.isnan(trade.seconds[n]) else f"{trade.seconds[n]:.3f}",
             number(trade.answer[n]),
-            "ref." if n == trade.reference else _error(trade, n),
-            number(trade.lower[n]),
-            number(trade.upper[n]),
-            small(trade.residual[n]),
+            "ref." if n == trade.reference else _error(trade.distance[n], trade.resolution),
+            *((small if name == "resid." else number)(figures[n]) for name, figures in trade.shown.items()),
             _mark(trade, n),
         ]
         for n, rung in enumerate(trade.rungs)
@@ -212,9 +192,9 @@ def _table(trade: CaseTrade) -> list[str]:
     return table(head, rows) if rows else []
 
 
-def _error(trade: CaseTrade, n: int) -> str:
-    """The distance; ``<1e-9`` where it is less than can be told."""
-    return f"<{small(trade.resolution)}" if trade.distance[n] < trade.resolution else small(trade.distance[n])
+def _error(distance: float, resolution: float) -> str:
+    """``<1e-9`` where it is less than can be told."""
+    return f"<{small(resolution)}" if distance < resolution else small(distance)
 
 
 def _mark(trade: CaseTrade, n: int) -> str:
@@ -236,7 +216,7 @@ def _record(
             "name": trade.name,
             "answer": trade.what,
             "reference": None if trade.reference is None else trade.rungs[trade.reference].name,
-            "reference_verified": trade.reference_verified,
+            "reference_verified": trade.certain,
             "resolution": trade.resolution,
             "front": [rung.name for rung, best in zip(trade.rungs, trade.front, strict=True) if best],
             "advice": one,
@@ -244,3 +224,33 @@ def _record(
         for trade, one in zip(trades, advices, strict=False)
     ]
     return dict(as_json({"wanted_error": wanted, "settings": rungs, "cases": cases, "advice": advices[-1]}))
+
+
+# --- picture ----------------------------------------------------------------------------------------------------------
+
+
+def draw_trade(title: str, trade: CaseTrade, advised: str, path: Path) -> None:
+    """Error over time on logarithmic scales, the Pareto front marked, of the runs of the deck's own model.
+
+    Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
+    """
+    rows = [n for n in np.flatnonzero(np.isfinite(trade.distance + trade.seconds)) if not trade.rungs[n].model]
+    mark = "" if trade.certain else "NOT VERIFIED: no run is verified that the others could be held against"
+    with open_diagrams(path, PictureOptions(), [title, f"load case {trade.name}", advised], mark) as sheet:
+        if not rows:
+            return
+        page, axes = sheet.page, sheet.frames(1)[0, 0]
+        dress(page, axes, "time of one load case [s]", "relative distance from the reference")
+        times, errors = trade.seconds, np.maximum(trade.distance, trade.resolution)
+        axes.set(xscale="log", xlim=(times[rows].min() / 2, times[rows].max() * 2))
+        axes.set(yscale="log", ylim=(trade.resolution / 2, errors[rows].max() * 2))
+        axes.axhline(trade.resolution, color=GHOST, linestyle="--")
+        front = sorted(np.flatnonzero(trade.front), key=lambda n: times[n])
+        axes.plot(times[front], errors[front], color=VERMILION, drawstyle="steps-post")
+        handles = [page.line("Pareto front", color=VERMILION), page.line("resolution", color=GHOST, linestyle="--")]
+        for number, n in enumerate(rows, 1):
+            colour = VERMILION if trade.front[n] else BLUE if trade.sound[n] else WARNING
+            look = {"marker": f"${number}$", "color": colour, "linestyle": "none"}
+            axes.plot(times[n], errors[n], markersize=(9 if number < 10 else 14) * page.scale, **look)
+            handles.append(page.line(trade.rungs[n].name + ("" if trade.sound[n] else ", not verified"), **look))
+        sheet.add_legend(handles)

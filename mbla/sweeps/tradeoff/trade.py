@@ -9,9 +9,8 @@ no other model, is ever on the front or advised: the difference of another model
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -24,13 +23,9 @@ from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung
 NAN = math.nan
 ROUNDING = 1e-12
 """least resolution: rounding of figures that are the same"""
-VERDICTS = (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
-"""statuses that are an answer without a figure, once verified"""
-SAME_TIME = 0.1
-"""share of time that another run of the same may differ by: a preset is preferred to a single knob within it"""
-SAME_SECONDS = 0.03
-"""seconds that it may differ by however short it is, as the system does other things meanwhile"""
-PRESETS = ("accuracy: standard", "accuracy: draft", "accuracy: reference")
+SAME_TIME, SAME_SECONDS = 0.1, 0.03
+"""share of time, and seconds, by which another run of the same may differ: a preset is preferred to a knob in both"""
+PRESETS = ("accuracy: standard", "accuracy: draft", REFERENCE)
 """the one that needs no word in the deck first"""
 
 
@@ -38,15 +33,18 @@ PRESETS = ("accuracy: standard", "accuracy: draft", "accuracy: reference")
 class CaseTrade:
     """What each setting gave for one load case, a travelling load by its worst position; (n,), nan for no figure.
 
-    what     : load factor, or angle or reaction with its unit
-    status   : of the load case; empty where it was not solved
-    verified : as sharply as the setting asks for, or that there is no load factor
-    answer   : load factor, angle of a tilting table, or reaction of a support that gives way
-    accuracy : what the answer is good to, relatively: the gap of the bounds, or the largest residual
-    residual : the largest
-    lower, upper : proved bounds of associative flow, in the unit of the answer
-    seconds  : of the load case by the clock
-    least    : size below which differences of answers are relative to this
+    what       : load factor, or angle or reaction with its unit
+    status     : of the load case; empty where it was not solved
+    verified   : as sharply as the setting asks for, or that there is no load factor
+    answer     : load factor, angle of a tilting table, or reaction of a support that gives way
+    seconds    : of the load case by the clock
+    reference  : number of the setting that the others are held against; None where none has an answer
+    certain    : the reference is verified
+    resolution : distances below this are none that can be told; nan without a reference
+    distance   : relative, from the reference; 0 where both confirm that there is no figure, nan where only one has one
+    sound      : verified, of the deck's own model, and comparable: may be on the front and be advised
+    front      : sound, and no other is at least as good in time and distance and better in one
+    shown      : further figures of the table by their heads
     """
 
     name: str
@@ -55,69 +53,64 @@ class CaseTrade:
     status: np.ndarray[Any, np.dtype[Any]]
     verified: BoolArray
     answer: FloatArray
-    accuracy: FloatArray
-    residual: FloatArray
-    lower: FloatArray
-    upper: FloatArray
     seconds: FloatArray
-    least: float = 0.0
+    reference: int | None
+    certain: bool
+    resolution: float
+    distance: FloatArray
+    sound: BoolArray
+    front: BoolArray
+    shown: Mapping[str, FloatArray] = field(default_factory=dict)
 
-    @cached_property
-    def reference(self) -> int | None:
-        """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
-        own = (self.status != "") & self._same_model
-        sharp = np.flatnonzero(own & self._sharp)
-        named = [number for number in sharp if self.rungs[number].name == REFERENCE]
-        found = named or list(sharp) or list(np.flatnonzero(own & np.isfinite(self.answer)))
-        return min(map(int, found), key=lambda number: np.nan_to_num(self.accuracy[number], nan=np.inf), default=None)
 
-    @cached_property
-    def reference_verified(self) -> bool:
-        """Whether others may be held against the reference."""
-        return self.reference is not None and bool(self._sharp[self.reference])
+def trade_of(
+    name: str,
+    what: str,
+    rungs: Sequence[Rung],
+    status: np.ndarray[Any, np.dtype[Any]],
+    verified: BoolArray,
+    answer: FloatArray,
+    accuracy: FloatArray,
+    seconds: FloatArray,
+    least: float = 0.0,
+    shown: Mapping[str, FloatArray] | None = None,
+) -> CaseTrade:
+    """The settings held against each other; arrays (n,) as of ``CaseTrade``.
 
-    @property
-    def resolution(self) -> float:
-        """Distances below this are none that can be told; nan without a reference."""
-        if self.reference is None:
-            return NAN
-        return max(ROUNDING, float(np.nan_to_num(self.accuracy[self.reference])))
+    accuracy : (n,) what the answer is good to, relatively: the gap of the bounds, or the largest residual
+    least    : size below which differences of answers are relative to this
+    """
+    own = np.array([not rung.model for rung in rungs])
+    sharp = verified & own & (status != Status.APPROXIMATE.value)
+    reference = _reference(rungs, sharp, own & (status != "") & np.isfinite(answer), accuracy)
+    certain = reference is not None and bool(sharp[reference])
+    resolution, distance, sound = NAN, np.full(len(rungs), NAN), np.zeros(len(rungs), dtype=bool)
+    if reference is not None:
+        resolution = max(ROUNDING, float(np.nan_to_num(accuracy[reference])))
+        value = answer[reference]
+        size = np.where(answer == value, 1.0, max(abs(value), least) or np.abs(answer))
+        alike = verified & verified[reference] & np.isnan(answer) & (status == status[reference])
+        distance = np.where(alike, 0.0, NAN) if np.isnan(value) else np.abs(answer - value) / size
+        sound = verified & own & np.isfinite(distance)
+    front = sound & certain & ~_beaten(np.where(sound, seconds, np.inf), np.fmax(distance, resolution))
+    figures = (status, verified, answer, seconds, reference, certain, resolution, distance, sound, front)
+    return CaseTrade(name, what, tuple(rungs), *figures, shown or {})
 
-    @cached_property
-    def distance(self) -> FloatArray:
-        """Relative, from the reference; 0 where both confirm that there is no figure, nan where only one has one."""
-        if self.reference is None:
-            return np.full(len(self.rungs), NAN)
-        answer, both = self.answer[self.reference], self.verified & self.verified[self.reference]
-        if np.isnan(answer):
-            return np.where(both & np.isnan(self.answer) & (self.status == self.status[self.reference]), 0.0, NAN)
-        size = np.where(self.answer == answer, 1.0, max(abs(answer), self.least) or np.abs(self.answer))
-        return np.asarray(np.abs(self.answer - answer) / size)
 
-    @property
-    def sound(self) -> BoolArray:
-        """Verified, of the deck's own model, and comparable with the reference: may be on the front and be advised."""
-        return np.asarray(self.verified & self._same_model & np.isfinite(self.distance))
+def _reference(rungs: Sequence[Rung], sharp: BoolArray, answered: BoolArray, accuracy: FloatArray) -> int | None:
+    """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
+    for number in np.flatnonzero(sharp).tolist():
+        if rungs[number].name == REFERENCE:
+            return int(number)
+    found = np.flatnonzero(sharp if sharp.any() else answered)
+    return int(found[np.nan_to_num(accuracy[found], nan=np.inf).argmin()]) if len(found) else None
 
-    @property
-    def front(self) -> BoolArray:
-        """Sound settings than which no other is at least as good in time and distance and better in one."""
-        if not self.reference_verified:
-            return np.zeros(len(self.rungs), dtype=bool)
-        seconds = np.where(self.sound, self.seconds, np.inf)
-        errors = np.where(self.sound, np.maximum(self.distance, self.resolution), np.inf)
-        as_good = (seconds[:, None] <= seconds) & (errors[:, None] <= errors)
-        better = (seconds[:, None] < seconds) | (errors[:, None] < errors)
-        return np.asarray(self.sound & ~(as_good & better).any(axis=0))
 
-    @cached_property
-    def _sharp(self) -> BoolArray:
-        """Verified and not only as sharply as a draft asks for."""
-        return np.asarray(self.verified & (self.status != Status.APPROXIMATE.value))
-
-    @property
-    def _same_model(self) -> BoolArray:
-        return np.array([not rung.model for rung in self.rungs])
+def _beaten(seconds: FloatArray, errors: FloatArray) -> BoolArray:
+    """Settings than which another one is at least as good in both, (n,), and better in one."""
+    as_good = (seconds[:, None] <= seconds) & (errors[:, None] <= errors)
+    better = (seconds[:, None] < seconds) | (errors[:, None] < errors)
+    return np.asarray((as_good & better).any(axis=0))
 
 
 @dataclass(frozen=True)
@@ -131,12 +124,12 @@ class Advice:
 
 def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     """For some load cases together: a setting must be sound and near enough under every one of them."""
-    unsure = [trade.name for trade in trades if not trade.reference_verified]
-    if unsure:
-        return _none(f"no setting is verified for {', '.join(unsure)}")
+    unsure = [trade.name for trade in trades if not trade.certain]
     coarse = max(trade.resolution for trade in trades)
-    if coarse > wanted:
-        return _none(f"an error of {wanted:g} is asked for, and the reference itself is good to {small(coarse)}")
+    if unsure or coarse > wanted:
+        why = f"an error of {wanted:g} is asked for, and the reference itself is good to {small(coarse)}"
+        why = f"no setting is verified for {', '.join(unsure)}" if unsure else why
+        return Advice(None, NAN, f"No setting can be advised: {why}.")
     errors = np.max([np.where(trade.sound, trade.distance, np.inf) for trade in trades], axis=0)
     seconds = np.where(errors <= wanted, np.sum([trade.seconds for trade in trades], axis=0), np.inf)
     fastest = int(seconds.argmin())  # the reference is always among those that are near enough
@@ -150,7 +143,3 @@ def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     return Advice(
         rung, took, f"For an error of {wanted:g} take {words} ({took:.3g} s, within {reached} of the reference)."
     )
-
-
-def _none(why: str) -> Advice:
-    return Advice(None, NAN, f"No setting can be advised: {why}.")

@@ -10,7 +10,7 @@ import pytest
 
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.design.directions import horizontal
-from mbla.sweeps.interaction.domain import area, everywhere
+from mbla.sweeps.interaction.domain import corners_of
 from tests.sweeps.interaction.hand_made import area_of_circle, solved
 
 EXACT = 1e-6
@@ -23,9 +23,9 @@ def test_a_block_slides_alike_in_all_directions(tmp_path: Path, flow_rule: str) 
     assert found.points.known == pytest.approx([0.3] * 8, rel=EXACT)
     assert set(found.table["mechanism.class"].tolist()) == {"sliding"}
     assert not found.domain.crossed
-    assert (area(found.domain.inner), area(found.domain.outer)) == pytest.approx(area_of_circle(8, 0.3), rel=1e-5)
+    assert (found.domain.inner.area, found.domain.outer.area) == pytest.approx(area_of_circle(8, 0.3), rel=1e-5)
     assert found.domain.gap == pytest.approx(1 - math.cos(math.pi / 8) ** 2, rel=1e-4)
-    assert everywhere(found.domain, closed=True) == pytest.approx(0.3 * math.cos(math.pi / 8), rel=1e-5)
+    assert found.domain.everywhere == pytest.approx(0.3 * math.cos(math.pi / 8), rel=1e-5)
     assert found.conclusion.exit_code == 0
 
 
@@ -34,8 +34,8 @@ def test_a_block_turns_over_its_edges_and_corners(tmp_path: Path) -> None:
     found = solved(tmp_path, ["parameters.by=1.4"], case="push", directions=12)
     for factor, way in zip(found.points.known, np.abs(found.points.ways), strict=True):
         assert factor == pytest.approx(min(b / (2 * s) for b, s in zip((1.0, 1.4), way, strict=True) if s), rel=EXACT)
-    assert np.abs(found.domain.outer).max(axis=0) == pytest.approx([0.5, 0.7], rel=1e-5)
-    assert area(found.domain.outer) == pytest.approx(1.0 * 1.4, rel=1e-5)
+    assert np.abs(corners_of(found.domain.outer)).max(axis=0) == pytest.approx([0.5, 0.7], rel=1e-5)
+    assert found.domain.outer.area == pytest.approx(1.0 * 1.4, rel=1e-5)
     assert found.conclusion.record["interaction"]["least"]["angles"] == [0.0, 180.0]
 
 
@@ -46,7 +46,7 @@ def test_the_interaction_polygon_of_two_loads(tmp_path: Path) -> None:
         cosine, sine = horizontal(angle, 1.0)
         assert factor == pytest.approx(min(0.4 / (cosine + sine), 0.5 / (cosine + 2 * sine)), rel=EXACT)
         assert power @ (cosine, sine) == pytest.approx(1.0)
-    corners = {(round(float(x), 5) + 0.0, round(float(y), 5) + 0.0) for x, y in found.domain.outer}
+    corners = {(round(float(x), 5) + 0.0, round(float(y), 5) + 0.0) for x, y in corners_of(found.domain.outer)}
     assert corners == {(0.0, 0.0), (0.4, 0.0), (0.3, 0.1), (0.0, 0.25)}
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.sweeps.interaction.picture import ROOM
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS
+from mbla.sweeps.interaction.study import ROOM
 from tests.sweeps.drawn import names_in_legend, places
 from tests.sweeps.interaction.hand_made import both_bounds, made
 from tests.sweeps.interaction.test_conclusions import FREE

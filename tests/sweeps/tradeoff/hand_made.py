@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mbla.sweeps.tradeoff import trade
 from mbla.sweeps.tradeoff.ladder import Rung
 from mbla.sweeps.tradeoff.trade import CaseTrade
 
@@ -43,18 +44,9 @@ def ladder() -> list[Row]:
 
 def trade_of(rows: list[Row], name: str = "push", least: float = 0.0) -> CaseTrade:
     """The trade of one load case."""
-    figures = {
-        key: np.array([getattr(one, key) for one in rows]) for key in ("answer", "seconds", "accuracy", "verified")
-    }
-    none = np.full(len(rows), np.nan)
-    return CaseTrade(
-        name=name,
-        what="load factor",
-        rungs=tuple(one.rung for one in rows),
-        status=np.array([one.status for one in rows], dtype=object),
-        residual=none,
-        lower=none,
-        upper=none,
-        least=least,
-        **figures,
+    answer, accuracy, seconds, verified = (
+        np.array([getattr(one, key) for one in rows]) for key in ("answer", "accuracy", "seconds", "verified")
     )
+    status = np.array([one.status for one in rows], dtype=object)
+    rungs = [one.rung for one in rows]
+    return trade.trade_of(name, "load factor", rungs, status, verified, answer, accuracy, seconds, least)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.results.pictures.page import BLUE, VERMILION, WARNING
-from mbla.sweeps.tradeoff.picture import draw_trade
+from mbla.sweeps.tradeoff.study import draw_trade
 from tests.sweeps.drawn import names_in_legend, places
 from tests.sweeps.tradeoff.hand_made import ladder, trade_of
 

@@ -32,7 +32,7 @@ def test_distances_and_front_of_the_ladder() -> None:
     trade = trade_of(ladder())
     assert trade.reference is not None
     assert trade.rungs[trade.reference].name == "accuracy: reference"
-    assert trade.reference_verified
+    assert trade.certain
     assert trade.resolution == 1e-9
     assert trade.distance.tolist() == pytest.approx([2e-5, 0.0, 1e-3, 4e-5, 0.0, 0.0], abs=1e-12)
     assert names_on_front(trade) == {"accuracy: standard", "accuracy: reference", "accuracy: draft"}
@@ -85,7 +85,7 @@ def test_the_sharpest_verified_takes_the_place_of_a_reference_that_is_not() -> N
     trade = trade_of(runs)
     assert trade.reference is not None
     assert trade.rungs[trade.reference].name == "solver: mbla"
-    assert trade.reference_verified
+    assert trade.certain
 
 
 def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
@@ -95,7 +95,7 @@ def test_without_a_verified_run_there_is_no_front_and_no_advice() -> None:
         row("flow_rule: associative", 0.6, 0.1, model="flow_rule"),
     ]
     trade = trade_of(runs)
-    assert not trade.reference_verified
+    assert not trade.certain
     assert not names_on_front(trade)
     assert trade.distance[1] == pytest.approx(0.02)
     assert "no setting is verified for push" in advice([trade], 0.1).sentence
@@ -107,7 +107,7 @@ def test_a_draft_as_sharp_as_it_asks_for_is_advised_but_is_no_reference() -> Non
     assert names_on_front(trade_of(runs)) == {"accuracy: reference", "accuracy: draft"}
     assert rung_of(advice([trade_of(runs)], 1e-2)) == "accuracy: draft"
     alone = trade_of([draft])
-    assert not alone.reference_verified
+    assert not alone.certain
     assert not names_on_front(alone)
     assert rung_of(advice([alone], 1e-2)) == ""
 
