@@ -19,14 +19,10 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import block_matrix, chosen_limits, restricted
-from mbla.program.reductions.scene import Scene
+from mbla.program.reductions.scene import SYMMETRIC, Scene
 
 FEW = 1000
 """Points of which all distances are compared: loading scipy's tree of points takes longer."""
-
-SYMMETRIC = 1e-9
-"""Relative to block size, and to the mean load of a block: deviation from symmetry that counts as rounding. The load
-factor moves by no more than about that much."""
 
 
 @dataclass(frozen=True)
@@ -81,10 +77,14 @@ def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
     """
     reflect = np.eye(3) - 2.0 * np.outer(normal, normal)
     middle = scene.centroids.mean(axis=0)
-    block_of = _matched(scene.centroids - middle, (scene.centroids - middle) @ reflect, scene.length, scene.arms)
+    block_of = _matched(
+        scene.centroids - middle,
+        (scene.centroids - middle) @ reflect,
+        scene.symmetric * np.maximum(scene.arms, scene.length),
+    )
     if block_of is None or np.any(block_of[block_of] != np.arange(len(block_of))):
         return None
-    if np.abs(scene.arms[block_of] / scene.arms - 1.0).max(initial=0.0) > SYMMETRIC:
+    if np.abs(scene.arms[block_of] / scene.arms - 1.0).max(initial=0.0) > scene.symmetric:
         return None
     velocity_map = np.zeros((6, 6))
     velocity_map[:3, :3], velocity_map[3:, 3:] = reflect, -reflect
@@ -93,10 +93,10 @@ def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
     return _with_points(scene, normal, reflect, middle, block_of, velocity_map)
 
 
-def _matched(there: FloatArray, image: FloatArray, length: float, sizes: FloatArray) -> IntArray | None:
+def _matched(there: FloatArray, image: FloatArray, apart: FloatArray | float) -> IntArray | None:
     """Row of ``there`` at each row of ``image``, each used once; None where one has no partner."""
     distance, row = _nearest(there, image)
-    if np.any(distance > SYMMETRIC * np.maximum(sizes, length)) or len(np.unique(row)) < len(row):
+    if np.any(distance > apart) or len(np.unique(row)) < len(row):
         return None
     return row
 
@@ -149,9 +149,11 @@ def _with_points(
     here = _features(scene.points - middle, scene.bodies, scene.frames[:, 0], scene.length)
     there = _features(images, image_bodies, scene.frames[:, 0] @ reflect, scene.length)
     own = _middles_of_interfaces(scene) - middle
-    point_of = _matched_points(np.hstack([here, own / scene.length]), np.hstack([there, own @ reflect / scene.length]))
+    point_of = _matched_points(
+        np.hstack([here, own / scene.length]), np.hstack([there, own @ reflect / scene.length]), scene.symmetric
+    )
     if point_of is None:  # an interface that comes in pieces, its image in one
-        point_of = _matched_points(here, there)
+        point_of = _matched_points(here, there, scene.symmetric)
     if point_of is None:
         return None
     limits = scene.program.limits
@@ -161,14 +163,14 @@ def _with_points(
     same_side = (scene.bodies[point_of] == image_bodies).all(axis=1)
     sign = np.where(same_side, 1.0, -1.0)[:, None, None]
     force_maps = sign * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
-    if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > SYMMETRIC:
+    if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > scene.symmetric:
         return None
     return Mirror(normal, block_of, point_of, velocity_map, force_maps)
 
 
-def _matched_points(here: FloatArray, there: FloatArray) -> IntArray | None:
+def _matched_points(here: FloatArray, there: FloatArray, apart: float) -> IntArray | None:
     """Row of ``here`` at each row of ``there``, which is its image in turn; None where there are none such."""
-    point_of = _matched(here, there, 1.0, np.ones(len(here)))
+    point_of = _matched(here, there, apart)
     return None if point_of is None or np.any(point_of[point_of] != np.arange(len(point_of))) else point_of
 
 

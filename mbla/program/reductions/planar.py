@@ -20,7 +20,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.process.sharing import once
 from mbla.program.program import Program
-from mbla.program.reductions.mirror import SYMMETRIC, Mirror, in_plane_motions
+from mbla.program.reductions.mirror import Mirror, in_plane_motions
 from mbla.program.reductions.restrict import block_matrix, restricted
 from mbla.program.reductions.scene import Scene
 from mbla.program.yield_conditions.limits import YieldLimits
@@ -32,7 +32,7 @@ BEHIND = 1e-8
 def is_planar(scene: Scene, mirror: Mirror) -> bool:
     """Every block its own image, every joint seen edge-on."""
     itself = bool(np.all(mirror.block_of == np.arange(len(mirror.block_of))))
-    return itself and float(np.abs(scene.frames[:, 0] @ mirror.normal).max(initial=0.0)) <= SYMMETRIC
+    return itself and float(np.abs(scene.frames[:, 0] @ mirror.normal).max(initial=0.0)) <= scene.symmetric
 
 
 def planar_program(scene: Scene, mirror: Mirror) -> Program:

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.program import Program
-from mbla.program.reductions.mirror import SYMMETRIC, Mirror, half_of, mirror_about, mirror_candidates
+from mbla.program.reductions.mirror import Mirror, half_of, mirror_about, mirror_candidates
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import guided_program, tidy
@@ -173,7 +173,7 @@ def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
     for *direction, offset in given:
         along = float(normal @ np.array(direction))
         away = abs(float(np.array(direction) @ middle) - offset)
-        if abs(abs(along) - 1.0) <= SYMMETRIC and away <= OFF_PLANE * part.length:
+        if abs(abs(along) - 1.0) <= part.symmetric and away <= OFF_PLANE * part.length:
             return True
     return False
 

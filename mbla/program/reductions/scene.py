@@ -32,6 +32,13 @@ COPLANAR = 1e-9
 STRAIGHT_ON = 1e3 * COPLANAR
 """Sine of a turn that counts as none."""
 
+SYMMETRIC = 1e-9
+"""Relative to block size, and to the mean load of a block: deviation from symmetry that counts as rounding. The load
+factor moves by no more than about that much."""
+
+ROUNDED = 16.0 * float(np.finfo(np.float64).eps)
+"""Rounding of a coordinate, relative to the distance from the origin: it moves faces and turns their normals."""
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -64,6 +71,12 @@ class Scene:
     def length(self) -> float:
         """Mean size of a block."""
         return float(self.arms.mean())
+
+    @property
+    def symmetric(self) -> float:
+        """Deviation from symmetry that counts as rounding, relative to block size: more where coordinates are large."""
+        far = float(np.abs(self.points).max(initial=0.0))
+        return max(SYMMETRIC, ROUNDED * far / float(self.arms.min()))
 
     def loads(self) -> tuple[FloatArray, FloatArray]:
         """Dead and live load, (n_free, 6) each, non-dimensional."""

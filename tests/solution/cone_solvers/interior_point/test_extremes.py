@@ -155,17 +155,13 @@ def test_limits_of_iterations_and_time_have_their_own_status() -> None:
 
 @pytest.mark.long
 def test_twenty_thousand_planar_blocks() -> None:
-    """141 by 141 units, 60,000 unknowns: 106 iterations and 1 GB; proved from above, and from below or not.
+    """141 by 141 units, 60,000 unknowns, in some 70 iterations: solved, with bounds 5e-7 apart.
 
-    Its forces reach 3,000 mean weights of a block. Mended they are out of balance by 1e-8 of such a weight, where a
-    proof takes 1e-9; at 120 by 120 they are not, and the bounds are 1e-8 apart. A missing bound is said.
+    The factor was recorded from another run of the method, with bounds of its own: the two pairs enclose it.
     """
     line = line_of(WALL, "parameters.n=141", *OWN)
     assert len(line.model.free) > 19_900
-    solution, checks, status = verified(line)
-    assert checks.kinematic_bound == pytest.approx(0.422675503, rel=1e-7)
-    if status is Status.SOLVED:
-        assert checks.gap <= 1e-6
-    else:
-        assert status is Status.NOT_VERIFIED
-        assert "could not be brought together" in solution.reason
+    _, checks, status = verified(line)
+    assert status is Status.SOLVED
+    assert checks.gap <= 1e-6
+    assert checks.static_bound <= 0.422675503 <= checks.kinematic_bound
