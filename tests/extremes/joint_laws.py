@@ -19,6 +19,8 @@ def frictions() -> Iterator[Scene]:
             value, overrides = float(mu), (f"parameters.mu={mu}", ruled(rule))
             name = f"{worded(rule)}, friction {mu}"
             said = ("load-factor-rounding",) if value <= 1e-6 else ()
+            if mu == "1.0e-9":  # next to which what the programs leave is more than all that friction carries
+                said = (*said, "not_verified")
             yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5), diagnosis=said)
             if value <= 0.1:
                 long = mu not in ("0", "1.0e-9")

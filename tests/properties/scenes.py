@@ -136,8 +136,11 @@ def _shown(case: CaseResult, factor: float) -> float:
 
 
 def bounds_of(case: CaseResult) -> tuple[float, float]:
-    """Proved bounds of the associative figure as ``value_of`` has it; of a tilting table its own."""
+    """Proved bounds of the associative figure as ``value_of`` has it; of a tilting table its own.
+
+    The angle is known as well as the load factor of 1 that its last program has: the bounds of that lie around 1.
+    """
     if case.load_case.tilt is not None and not case.load_case.tilt.tangent:
-        return value_of(case), value_of(case)
+        return value_of(case) * case.checks.static_bound, value_of(case) * case.checks.kinematic_bound
     lower, upper = (_shown(case, bound) for bound in (case.checks.static_bound, case.checks.kinematic_bound))
     return lower, upper
