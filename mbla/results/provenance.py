@@ -7,7 +7,6 @@ is imported where there is one: ``mbla check`` solves none, and answers sooner.
 
 from __future__ import annotations
 
-import os
 import platform
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,7 +20,6 @@ from mbla.deck import Deck, read_deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.text.include import confined
 from mbla.errors import FileError, Notice
-from mbla.model.geometry.geometry import companions
 from mbla.model.model import Model
 from mbla.process.stopwatch import Stopwatch
 from mbla.program.build import program_notices
@@ -121,15 +119,13 @@ def deck_record(deck: Deck) -> DeckRecord:
 
 
 def _side_files(deck: Deck) -> Iterator[tuple[str, bytes]]:
-    """Name and content of each file that the deck names, and of those that belong to it."""
+    """Name and content of each file that the deck names."""
     for side in deck.side_files:
         file = deck.resolve_file(side.key, side.value)
-        for each in (file, *companions(file)):
-            beside = Path(os.path.relpath(each, file.parent)) if each != file else Path(Path(side.name).name)
-            try:
-                yield (Path(side.name).parent / beside).as_posix(), each.read_bytes()
-            except OSError as error:
-                raise FileError("file-unreadable", f"{each}: cannot be read: {error.strerror or error}") from error
+        try:
+            yield Path(side.name).as_posix(), file.read_bytes()
+        except OSError as error:
+            raise FileError("file-unreadable", f"{file}: cannot be read: {error.strerror or error}") from error
 
 
 def deck_of(record: DeckRecord, folder: Path, *, expected: bool) -> Deck:

@@ -17,7 +17,6 @@ from mbla.deck.text.include import read_files
 from mbla.deck.text.overrides import apply_override
 from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError
-from mbla.model.geometry.geometry import companions
 
 WITHOUT_EFFECT = ("title", "output", "expected", "include")
 """keys that do not change what a deck gives; what `include` names is merged in"""
@@ -62,12 +61,8 @@ def deck_fingerprint(deck: Deck, tree: Tree) -> str:
 
 
 def file_hashes(named: Iterable[tuple[KeyPath, str]], resolve_file: Resolve) -> list[str]:
-    """Place and hash of each file, with those that belong to it, in the order of places."""
-    lines = []
-    for path, name in named:
-        file = resolve_file(path, name)
-        lines += [f"{key_text(path)} {_file_hash(each)}" for each in (file, *companions(file))]
-    return sorted(lines)
+    """Place and hash of each file, in the order of places."""
+    return sorted(f"{key_text(path)} {_file_hash(resolve_file(path, name))}" for path, name in named)
 
 
 def canonical(value: Any) -> str:

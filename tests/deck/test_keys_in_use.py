@@ -59,4 +59,4 @@ def test_every_built_in_joint_law_is_in_a_deck(contents: list[DeckContent]) -> N
 
 def test_every_kind_of_geometry_file_is_in_a_deck(contents: list[DeckContent]) -> None:
     used = {Path(item.mesh.file).suffix.lower() for each in contents for item in each.blocks if item.mesh is not None}
-    assert set(READERS) - {".glb"} == used  # .glb is .gltf in one binary file: tests/model/geometry/test_gltf.py
+    assert set(READERS) == used

@@ -17,7 +17,7 @@ from tests.analytic.planar import arch_load_factor, polygon_arch
 from tests.decks.folder import BENCHMARKS, DECKS
 
 ARCHES = [path for name, path in BENCHMARKS.items() if name.startswith("arch_from_")]
-SINGLE = ("stl", "gltf")
+SINGLE = ("stl",)
 """kinds of files with coordinates in single precision"""
 
 

@@ -91,7 +91,6 @@ parameters: {mu: {key: joints.dry.friction, values: [0.3, 0.5]}}
 EXPECTED = {
     "tutorials/block": 0,
     "benchmarks/formats/arch_from_dxf": 0,
-    "benchmarks/formats/arch_from_gltf": 0,
     "benchmarks/formats/arch_from_vtu": 0,
     "benchmarks/closed_forms/dome_of_slices_falls": 5,
     "benchmarks/published/ferris_wall_3": 0,

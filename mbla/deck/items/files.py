@@ -19,19 +19,19 @@ class MeshItem(Item):
 
     file: str = Field(
         min_length=1,
-        description="OBJ, PLY, STL, VTU, Gmsh .msh, Abaqus/CalculiX .inp, glTF (.gltf, .glb), COMPAS .json, or a DXF "
+        description="OBJ, PLY, STL, VTU, Gmsh .msh, Abaqus/CalculiX .inp, COMPAS .json, or a DXF "
         "drawing with extrude; relative to the deck",
     )
     units: Literal["m", "mm", "cm", "ft", "in"] | None = Field(
         None,
-        description="unit of length of the file, converted to the deck's; metres for glTF, that of the header for "
+        description="unit of length of the file, converted to the deck's; that of the header for "
         "DXF, and the deck's own for others unless given",
     )
     scale: PositiveNumber = Field(1.0, description="factor on the file's coordinates, besides the conversion of units")
     up: Literal["z", "y"] | None = Field(
         None,
         description="axis of the file that points upwards; with y the file's x, y, z become x, z, -y of the deck. "
-        "y for glTF, z for others unless given",
+        "z unless given",
     )
     members: Annotated[list[str], Field(min_length=1)] | None = Field(
         None, description="objects, groups, layers or sets of the file to take, by name; all unless given"

@@ -98,23 +98,18 @@ def _placed(geometry: Geometry, item: MeshItem, site: Site) -> FloatArray:
         assert item.extrude is not None  # refused before
         return np.asarray(vertices * np.array([factor, item.extrude, factor]))
     vertices = vertices * factor
-    return np.asarray(vertices @ UPRIGHT.T) if (item.up or geometry.up) == "y" else vertices
+    return np.asarray(vertices @ UPRIGHT.T) if item.up == "y" else vertices
 
 
 def _taken_for_granted(item: MeshItem, geometry: Geometry, site: Site, vertices: FloatArray) -> list[Notice]:
-    """What the format or the header of the file decided, with the size that follows."""
-    assumed = []
-    if item.units is None and geometry.unit is not None:
-        assumed.append(f"coordinates in {geometry.unit}")
-    if item.up is None and geometry.up == "y":
-        assumed.append("y upwards")
-    if not assumed or not len(vertices):
+    """What the header of the file decided, with the size that follows."""
+    if item.units is not None or geometry.unit is None or not len(vertices):
         return []
     x, y, z = np.ptp(vertices, axis=0)
     size = f"{x:.4g} x {y:.4g} x {z:.4g} {site.length} along x, y, z"
-    keys = " and ".join(key for key, word in (("units", "in "), ("up", "upwards")) if any(word in a for a in assumed))
     words = (
-        f"{' and '.join(assumed)}, as the file has it; its blocks measure {size} in the deck; {keys} may say otherwise"
+        f"coordinates in {geometry.unit}, as the file has it; its blocks measure {size} in the deck; "
+        "units may say otherwise"
     )
     return [Notice("notice", "mesh-placed", words)]
 

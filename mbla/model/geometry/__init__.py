@@ -11,7 +11,6 @@ import numpy as np
 from mbla.model.geometry.compas_json import read_compas_json
 from mbla.model.geometry.dxf import read_dxf
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
-from mbla.model.geometry.gltf import read_gltf
 from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.meshio_files import read_msh, read_vtu
 from mbla.model.geometry.obj import read_obj
@@ -26,12 +25,11 @@ READERS: dict[str, Callable[[Path], Geometry]] = {
     ".vtu": read_vtu,
     ".msh": read_msh,
     ".inp": read_inp,
-    ".gltf": read_gltf,
-    ".glb": read_gltf,
     ".json": read_compas_json,
     ".dxf": read_dxf,
 }
 """by extension, in lower case"""
+NOT_READ = (".gltf", ".glb")
 
 
 LARGEST_FILE = 1024**3
@@ -74,6 +72,9 @@ def read_geometry(path: Path) -> Geometry:
         for unknown extensions, files that cannot be read, malformed ones, and files without blocks
     """
     reader = READERS.get(path.suffix.lower())
+    if path.suffix.lower() in NOT_READ:
+        words = "glTF is not read: export it as OBJ, with an object for each block"
+        raise GeometryFileError("geometry-not-read", words)
     if reader is None:
         raise GeometryFileError("geometry-not-read", f"unknown kind of geometry file; known are {', '.join(READERS)}")
     geometry = _read_within_memory(reader, path)

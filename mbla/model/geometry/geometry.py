@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-import struct
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Literal
-from urllib.parse import unquote
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +39,7 @@ def well_formed(kind: str) -> Iterator[None]:
         yield
     except RecursionError:
         raise malformed(kind, "its JSON is nested too deeply") from None
-    except (LookupError, TypeError, ValueError, AttributeError, OverflowError, struct.error) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise malformed(kind, f"lacks {error}" if isinstance(error, KeyError) else str(error)) from error
 
 
@@ -55,8 +52,7 @@ class Geometry:
     names     : name of each polyhedron in the file, empty where it has none; or no entry at all
     cells     : each polyhedron is a volume cell, and so a block; else surfaces, whose closed parts are the blocks
     indexed   : faces share vertices by number, so that two vertices at one place are worth a remark
-    up        : axis of the file that points upwards, where its format says so
-    unit      : unit of length of the file, where its format or its header says so
+    unit      : unit of length of the file, where its header says so
     planar    : outlines of a drawing in x and z, each extended from y = 0 to y = 1; the deck gives the thickness
     """
 
@@ -65,7 +61,6 @@ class Geometry:
     names: tuple[str, ...] = ()
     cells: bool = False
     indexed: bool = True
-    up: Literal["z", "y"] = "z"
     unit: str | None = None
     planar: bool = False
 
@@ -151,17 +146,3 @@ def member_name(text: str) -> str:
     if not name and text.strip():
         name = "_"
     return ("_" + name if name[:1] in (".", "-") else name)[:LONGEST]
-
-
-def companions(path: Path) -> list[Path]:
-    """Files that are read with a geometry file, in its order; none where it cannot be read, which its reader tells."""
-    if path.suffix.lower() != ".gltf":
-        return []
-    try:
-        document = json.loads(path.read_bytes())
-        names = [
-            unquote(each["uri"]) for each in document["buffers"] if not each.get("uri", "data:").startswith("data:")
-        ]
-        return [file for name in names if (file := (path.parent / name).resolve()).is_file()]
-    except (OSError, RecursionError, ValueError, TypeError, KeyError, AttributeError):
-        return []

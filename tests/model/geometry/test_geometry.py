@@ -6,7 +6,6 @@ What of a file becomes no block is told, or is a reason to refuse it.
 from __future__ import annotations
 
 import contextlib
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import pytest
 
 from mbla.model import geometry
 from mbla.model.geometry import LEAST_MEMORY, MEMORY_PER_BYTE, READERS, read_geometry
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, companions, member_name, parse_json
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, member_name, parse_json
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.model.shapes import box, build_raw, raw
@@ -93,24 +92,6 @@ def test_a_folder_by_the_name_of_a_file_cannot_be_read(tmp_path: Path, suffix: s
     assert caught.value.message.identifier == "file-unreadable"
 
 
-def test_buffers_of_a_gltf(tmp_path: Path) -> None:
-    """Those in files beside it; not those inside it, and not what is missing, which its reader tells."""
-    (tmp_path / "two parts.bin").write_bytes(b"x")
-    uris = ["two%20parts.bin", "data:application/octet-stream;base64,AA==", "none.bin"]
-    buffers = [*({"uri": uri, "byteLength": 1} for uri in uris), {"byteLength": 1}]
-    path = tmp_path / "vault.gltf"
-    path.write_text(json.dumps({"asset": {"version": "2.0"}, "buffers": buffers}), encoding="utf-8")
-    assert companions(path) == [tmp_path.resolve() / "two parts.bin"]
-
-
-def test_none_for_others_and_for_what_cannot_be_read(tmp_path: Path) -> None:
-    for name, text in (("a.obj", "v 0 0 0"), ("b.gltf", "no"), ("c.gltf", "[]"), ("d.gltf", '{"buffers": 3}')):
-        (tmp_path / name).write_text(text, encoding="utf-8")
-        assert companions(tmp_path / name) == []
-    (tmp_path / "folder.gltf").mkdir()
-    assert companions(tmp_path / "folder.gltf") == []
-
-
 @pytest.mark.parametrize(
     ("text", "name"),
     [
@@ -128,7 +109,7 @@ def test_names_as_a_deck_can_write_them(text: str, name: str) -> None:
     assert member_name(text) == name
 
 
-@pytest.mark.parametrize("kind", ["obj", "stl", "gltf", "compas"])
+@pytest.mark.parametrize("kind", ["obj", "stl", "compas"])
 def test_an_object_without_faces_is_named(tmp_path: Path, kind: str) -> None:
     stones = arch()
     stones[3] = no_faces(stones[3], np.random.default_rng(0))

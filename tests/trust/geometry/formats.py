@@ -205,32 +205,6 @@ def inp_cells(stones: list[Stone]) -> Files:
     return _inp(np.concatenate([stone.corners for stone in stones]), cards)
 
 
-def gltf(stones: list[Stone]) -> Files:
-    """A node for each stone: positions in double precision are not allowed, so they are in single; a buffer beside."""
-    parts, views, accessors, meshes = [], [], [], []
-    offset = 0
-    for stone in stones:
-        with np.errstate(over="ignore"):
-            places = stone.corners.astype("<f4")
-        rows = np.array(triangles(stone), dtype="<u4").ravel()
-        for values, kind, shape, count in ((places, 5126, "VEC3", len(places)), (rows, 5125, "SCALAR", len(rows))):
-            views.append({"buffer": 0, "byteOffset": offset, "byteLength": values.nbytes})
-            accessors.append({"bufferView": len(views) - 1, "componentType": kind, "count": count, "type": shape})
-            parts.append(values.tobytes())
-            offset += values.nbytes
-        meshes.append({"primitives": [{"attributes": {"POSITION": len(views) - 2}, "indices": len(views) - 1}]})
-    document = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": list(range(len(stones)))}],
-        "nodes": [{"name": stone.name, "mesh": n} for n, stone in enumerate(stones)],
-        "meshes": meshes,
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": offset, "uri": "stones.bin"}],
-    }
-    return {"stones.gltf": (json.dumps(document, indent=1) + "\n").encode(), "stones.bin": b"".join(parts)}
-
-
 def compas(stones: list[Stone]) -> Files:
     """A list of meshes as COMPAS 2 writes them."""
     meshes = []
@@ -307,7 +281,6 @@ FORMATS = {
         Format("msh cells", _mesh("msh"), msh_cells, shapes=False),
         Format("inp", _mesh("inp"), inp_surface, polygons=False),
         Format("inp cells", _mesh("inp"), inp_cells, shapes=False),
-        Format("gltf", _mesh("gltf", "up: z", "units: m"), gltf, polygons=False, single=True),
         Format("compas", _mesh("json"), compas),
         Format("dxf", _mesh("dxf", "extrude: 1", "units: m"), dxf, shapes=False, by_number=False, flat=True),
         Format("table of vertices", TABLE, vertices_first, mended=False),

@@ -386,19 +386,19 @@ MUTATIONS = (
         "corner of an immense number",
         _one(_first_corner(10**30)),
         REFUSED,
-        suits=lambda kind: kind.shapes and kind.by_number and not kind.binary and kind.name != "gltf",
+        suits=lambda kind: kind.shapes and kind.by_number and not kind.binary,
     ),
     Mutation(
         "corner of a number below the first",  # in OBJ -1 has a meaning
         _one(_first_corner(-5000)),
         REFUSED,
-        suits=lambda kind: kind.shapes and kind.by_number and kind.name != "gltf",
+        suits=lambda kind: kind.shapes and kind.by_number,
     ),
     Mutation(
         "corner of the number before the first",
         _one(_first_corner(-1)),
         REFUSED,
-        suits=lambda kind: kind.shapes and kind.by_number and kind.name not in ("gltf", "obj"),
+        suits=lambda kind: kind.shapes and kind.by_number and kind.name != "obj",
     ),
     Mutation("coordinate nan", _one(_coordinate(np.nan)), REFUSED, anything),
     Mutation("coordinate inf", _one(_coordinate(np.inf)), REFUSED, anything),

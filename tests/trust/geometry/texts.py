@@ -14,7 +14,7 @@ from tests.trust.geometry.stones import Stone
 
 Damage = Callable[[bytes, Generator], bytes]
 
-CHECKED = ("obj", "stl", "ply", "vtu", "vtu cells", "msh", "compas", "gltf", "table of vertices", "table of faces")
+CHECKED = ("obj", "stl", "ply", "vtu", "vtu cells", "msh", "compas", "table of vertices", "table of faces")
 """formats in which a line less or more is noticed; an element less of a CalculiX file is not"""
 
 

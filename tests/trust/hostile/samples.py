@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import base64
 import io
-import json
-import struct
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -60,38 +57,6 @@ def written_by_meshio(extension: str, cells: Sequence[tuple[str, list[list[int]]
         return path.read_bytes()
 
 
-def gltf_document() -> dict[str, object]:
-    """A document of the cube with its buffer in it."""
-    points, rows = np.array(POINTS, "<f4").tobytes(), np.array(TRIANGLES, "<u2").tobytes()
-    data = base64.b64encode(points + rows).decode()
-    return {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"name": "stone", "mesh": 0, "children": [1]}, {"translation": [2, 0, 0], "mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": len(points)},
-            {"buffer": 0, "byteOffset": len(points), "byteLength": len(rows)},
-        ],
-        "buffers": [{"byteLength": len(points) + len(rows), "uri": f"data:application/octet-stream;base64,{data}"}],
-    }
-
-
-def _glb() -> bytes:
-    document = gltf_document()
-    buffer = np.array(POINTS, "<f4").tobytes() + np.array(TRIANGLES, "<u2").tobytes()
-    document["buffers"] = [{"byteLength": len(buffer)}]
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(buffer), 0x004E4942) + buffer
-    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
-
-
 def _dxf() -> bytes:
     drawing = ezdxf.new()  # type: ignore[attr-defined]
     stone = drawing.blocks.new("stone")
@@ -118,8 +83,6 @@ MESHES: dict[str, bytes] = {
     "vtu": written_by_meshio("vtu", HEXAHEDRA, binary=False),
     "msh": written_by_meshio("msh", HEXAHEDRA, file_format="gmsh", binary=False),
     "inp": _of_cube(inp_surface),
-    "gltf": json.dumps(gltf_document()).encode(),
-    "glb": _glb(),
     "json": _of_cube(compas),
     "dxf": _dxf(),
 }

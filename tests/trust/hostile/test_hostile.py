@@ -28,7 +28,6 @@ FEW = (
     "a pipe",
     "including itself",
     "10^10 boxes",
-    "gltf: nodes that double 60 times",
     "msh: a point tag of 10^10",
     "sweep: 10^15 random points",
 )
