@@ -26,9 +26,10 @@ the law to 1e-9, vaults by a tenth more with every four to eight pairs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import repeat
 
 import numpy as np
 
@@ -56,6 +57,8 @@ class Alternation:
     records : a line for every program
     work, programs : iterations so far, and programs
     late    : whether one of them ran into the time limit
+    ended   : the last program that had no solution
+    given   : (n_points,) normal forces of the last motion program
     """
 
     program: Program
@@ -66,55 +69,76 @@ class Alternation:
     work: int = 0
     programs: int = 0
     late: bool = False
+    ended: ConeSolution | None = None
+    given: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @cached_property
     def _forces(self) -> tuple[KinematicForm, InteriorPointSolver]:
-        form = kinematic_form(self.program, self.program.limits)
+        form = self.forces_form()
         return form, interior_point_solver(form.cone_program, self.settings, self.log)
 
     @cached_property
     def _motion(self) -> tuple[KinematicForm, InteriorPointSolver]:
-        form = kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
+        form = self.motion_form()
         return form, interior_point_solver(form.cone_program, self.settings, self.log)
 
-    def states(self, normal: FloatArray, tilt: float = 0.0) -> Iterator[LawState]:
-        """States of pairs of programs without end, or until one of them has no solution.
+    def forces_form(self) -> KinematicForm:
+        """The associative program, whose dual variables are the forces."""
+        return kinematic_form(self.program, self.program.limits)
+
+    def motion_form(self) -> KinematicForm:
+        """The program of the motion against given friction."""
+        return kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
+
+    def states(self, normal: FloatArray, tilts: Iterable[float] = repeat(0.0)) -> Iterator[LawState]:
+        """States of pairs of programs, one for each tilt, or until one of them has no solution.
 
         normal : (n_points,) normal forces to start from
-        tilt   : τ
+        tilts  : τ of each pair
         """
         velocities = self.motion_for(normal)
-        while velocities is not None:
-            found = self.forces_for(velocities, tilt)
-            if found is None:
+        for tilt in tilts:
+            found = None if velocities is None else self.forces_for(velocities, tilt)
+            if velocities is None or found is None:
                 return
             forces, load_factor = found
             before = velocities
             velocities = self.motion_for(forces[:, 0])
             motions = (before,) if velocities is None else (before, velocities)
-            yield min(
-                (law_state(self.program, self.slope, forces, u, load_factor) for u in motions),
-                key=lambda state: state.residual,
-            )
+            yield min((self.state(forces, u, load_factor) for u in motions), key=lambda state: state.residual)
+
+    def state(self, forces: FloatArray, velocities: FloatArray, load_factor: float) -> LawState:
+        """The state of forces, (n_points, components), and velocities, (n_rows,), with its residual."""
+        return law_state(self.program, self.slope, forces, velocities, load_factor)
 
     def motion_for(self, normal: FloatArray) -> FloatArray | None:
         """Velocities, (n_rows,), against the friction of normal forces, (n_points,); None without a solution."""
+        self.given = normal
         form, solver = self._motion
-        solver.update(cost=form.cost_for(self._lagged(normal)))
+        solver.update(cost=self.motion_cost(form, normal))
         solution = self._solved(solver, "motion")
         if solution is None:
             return None
         u = form.velocities(solution.x)
-        return np.asarray(u / float(self.program.live_load @ u))
+        return np.asarray(u / float(form.program.live_load @ u))
+
+    def motion_cost(self, form: KinematicForm, normal: FloatArray) -> FloatArray:
+        """Cost of the motion program, (n_unknowns,), with the friction of normal forces, (n_points,)."""
+        return form.cost_for(self._lagged(normal))
 
     def forces_for(self, velocities: FloatArray, tilt: float) -> tuple[FloatArray, float] | None:
         """Forces, (n_points, components), and load factor for velocities, (n_rows,); None without a solution."""
         form, solver = self._forces
-        v = (self.program.equilibrium_matrix.T @ velocities).reshape(-1, self.program.components)
-        weight = (self.program.limits.friction - self.slope) * np.linalg.norm(v[:, 1:], axis=1)
-        solver.update(rhs=form.rhs_for(weight, live_power=1.0 - tilt))
+        rhs, own = np.zeros(len(form.cone_program.rhs)), form.rhs_for(self.weight(velocities), live_power=1.0 - tilt)
+        rhs[: len(own)] = own
+        solver.update(rhs=rhs)
         solution = self._solved(solver, "forces")
         return None if solution is None else (form.contact_forces(solution.z), -float(solution.z[0]))
+
+    def weight(self, velocities: FloatArray) -> FloatArray:
+        """Power of sliding beyond dilatancy for a unit of each normal force, (n_points,), by velocities, (n_rows,)."""
+        v = (self.program.equilibrium_matrix.T @ velocities).reshape(-1, self.program.components)
+        return np.asarray((self.program.limits.friction - self.slope) * np.linalg.norm(v[:, 1:], axis=1))
 
     def _solved(self, solver: InteriorPointSolver, kind: str) -> ConeSolution | None:
         number, live = len(self.records) + 1, self.program.scaling.live
@@ -124,7 +148,10 @@ class Alternation:
         self.late = self.late or solution.status is Status.TIME_LIMIT
         value = -float(solution.z[0]) * live if solution.usable else np.nan
         self.records.append(solution.record(number, kind, value))
-        return solution if solution.usable else None
+        if solution.usable:
+            return solution
+        self.ended = solution
+        return None
 
     def _lagged(self, normal: FloatArray) -> YieldLimits:
         """Friction beyond the dilatancy as given normal forces leave it, (n_points,)."""

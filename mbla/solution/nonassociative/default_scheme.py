@@ -274,7 +274,7 @@ class _Scheme:
         """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law."""
         for tilt, pairs in tilts:
             factor = np.inf
-            for _, state in zip(range(pairs), self.alternation.states(normal, tilt), strict=False):
+            for state in self.alternation.states(normal, [tilt] * pairs):
                 self.keep(state)
                 normal, before, factor = state.forces[:, 0], factor, state.load_factor
                 if self.over or (state.residual <= self.wanted and factor > (1.0 - NOTABLE) * before):

@@ -4,7 +4,7 @@ The pair of convex programs of :mod:`mbla.solution.nonassociative.alternation`, 
 interface that slips by ‖η‖ and twists by ω dissipates V ‖η‖ + R (h − ‖η‖), h being the support of its safe curve::
 
     forces  max (1 − τ) λ − what sliding points and interfaces dissipate     within the true conditions
-    motion  least power of the loads and of friction of the given V and R    dual of the ``given_friction_form``
+    motion  least power of the loads and of friction of the given V and R    the ``given_friction_form``
 
 V is linear in the forces. R = min over edges e of R_e is concave: the R_e that is least at the last forces stands for
 it, which is never less, so that what the law leaves unexplained falls with every program. Crushing is associative and
@@ -18,7 +18,9 @@ of walls, where such steps ended at residuals of 0.15, three of four cases come 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain, repeat
 
 import numpy as np
 
@@ -26,10 +28,10 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.kinematic import KinematicForm
 from mbla.program.resultants import ConvexProgram, convex_form
-from mbla.program.resultants.friction_limit import curve_support, friction_limit
-from mbla.program.resultants.static import ConvexStaticForm, given_friction_form
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.program.resultants.assemble import given_friction, given_friction_cost, given_friction_form
+from mbla.program.resultants.friction_limit import FrictionLimit, curve_support, friction_limit
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.nonassociative.alternation import FLOOR, Alternation
 from mbla.solution.nonassociative.law_state import (
     LawState,
     SequenceResult,
@@ -69,71 +71,53 @@ TOLERANCE = 1e-9
 
 
 @dataclass
-class _Pair:
-    """Both programs of one structure, held by solvers that start near their last solutions."""
+class ConvexAlternation(Alternation):
+    """Both programs with the conditions on interfaces; velocities are those of the blocks and of the conditions."""
 
-    convex: ConvexProgram
-    forces_form: KinematicForm
-    forces_solver: InteriorPointSolver
-    motion_form: ConvexStaticForm
-    motion_solver: InteriorPointSolver
-    records: list[ProgramRecord]
+    convex: ConvexProgram = field(kw_only=True)
 
-    @classmethod
-    def of(cls, convex: ConvexProgram, settings: SolverSettings, log: Log, records: list[ProgramRecord]) -> _Pair:
-        forces, motion = convex_form(convex), given_friction_form(convex)
-        solvers = [interior_point_solver(form.cone_program, settings, log) for form in (forces, motion)]
-        return cls(convex, forces, solvers[0], motion, solvers[1], records)
+    @cached_property
+    def _frictionless(self) -> ConvexProgram:
+        return given_friction(self.convex)
 
-    def motion_for(self, forces: FloatArray) -> tuple[FloatArray, FloatArray] | ConeSolution:
-        """Velocities, (n_rows,), and motions of the interfaces, (n_interfaces, 2, 6), or what ended without them.
+    def forces_form(self) -> KinematicForm:
+        """The associative program."""
+        return convex_form(self.convex)
 
-        forces : (n_points, 3) whose normal forces limit friction
-        """
-        convex, limits = self.convex, self.convex.points.limits
-        size = friction_limit(convex.torsion, convex.resultants_of(forces))
-        limit = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
-        self.motion_solver.update(rhs=self.motion_form.rhs_for(limit, size.share, size.rest))
-        solution = self.motion_solver.solve(len(self.records) + 1, -convex.points.scaling.live)
-        self._record(solution, "motion", -solution.objective)
-        if not solution.usable:
-            return solution
-        velocities = self.motion_form.velocities(solution.z)
-        power = float(convex.points.live_load @ velocities)
-        return velocities / power, self.motion_form.motions(solution.z) / power
+    def motion_form(self) -> KinematicForm:
+        """The program of the motion against given friction."""
+        return given_friction_form(self._frictionless)
 
-    def forces_for(
-        self, before: FloatArray, velocities: FloatArray, motions: FloatArray, tilt: float
-    ) -> tuple[FloatArray, float] | ConeSolution:
-        """Forces, (n_points, 3), and load factor for a motion, or what ended without them.
+    def motion_cost(self, form: KinematicForm, normal: FloatArray) -> FloatArray:
+        """Cost of the motion program, (n_unknowns,), with the friction of normal forces, (n_points,)."""
+        limits, size = self.convex.points.limits, self._size_at(normal)
+        limit = np.maximum(limits.friction * normal + limits.cohesion, FLOOR)
+        share, rest = np.maximum(size.share, FLOOR), np.maximum(size.rest, FLOOR)
+        return given_friction_cost(form, self._frictionless, limit, share, rest)
 
-        before : (n_points, 3) the last forces
-        """
-        weight = self._dissipated(before, velocities, motions)
-        rhs = np.zeros(self.forces_form.cone_program.matrix.shape[0])
-        of_points = self.forces_form.rhs_for(weight, live_power=1.0 - tilt)
-        rhs[: len(of_points)] = of_points
-        self.forces_solver.update(rhs=rhs)
-        solution = self.forces_solver.solve(len(self.records) + 1, self.convex.points.scaling.live)
-        factor = -float(solution.z[0])  # the objective is what the law leaves unexplained
-        self._record(solution, "forces", factor)
-        return (self.forces_form.contact_forces(solution.z), factor) if solution.usable else solution
-
-    def _dissipated(self, forces: FloatArray, velocities: FloatArray, motions: FloatArray) -> FloatArray:
-        """Power of sliding and twisting for a unit of each normal force, (n_points,)."""
+    def weight(self, velocities: FloatArray) -> FloatArray:
+        """Power of sliding and twisting for a unit of each normal force, (n_points,), by velocities, (n_rows,)."""
         convex, limits = self.convex, self.convex.torsion
-        moved = (convex.points.equilibrium_matrix.T @ velocities).reshape(-1, 3)
+        motions = self._frictionless.flows(velocities)
+        moved = (convex.points.equilibrium_matrix.T @ velocities[: convex.n_block_rows]).reshape(-1, 3)
         own = convex.own_velocities(moved, motions)
         at_points = convex.points.limits.friction * np.hypot(own[:, 1], own[:, 2])
-        motion, size = motions[limits.interfaces, 0], friction_limit(limits, convex.resultants_of(forces))
+        motion, size = motions[limits.interfaces, 0], self._size_at(self.given)
         slip, twist = np.hypot(motion[:, 1], motion[:, 2]), np.abs(motion[:, 3]) * limits.radii
         beyond_slip = curve_support(slip, twist, limits.thetas) - slip
         of_resultants = slip @ size.of_total + beyond_slip @ size.of_share
         return np.asarray(at_points + (convex.resultants.T @ of_resultants)[::3])
 
-    def _record(self, solution: ConeSolution, kind: str, factor: float) -> None:
-        value = self.convex.points.scaling.load_factor(factor) if solution.usable else np.nan
-        self.records.append(solution.record(len(self.records) + 1, kind, value))
+    def state(self, forces: FloatArray, velocities: FloatArray, load_factor: float) -> LawState:
+        """The state of forces, (n_points, 3), and velocities, (n_rows,), with its residual."""
+        blocks, motions = velocities[: self.convex.n_block_rows], self._frictionless.flows(velocities)
+        state = state_without_dilatancy(self.convex, forces, blocks, motions, load_factor)
+        return replace(state, residual=max(state.residual, unbalanced(self.convex, state)))
+
+    def _size_at(self, normal: FloatArray) -> FrictionLimit:
+        """Sizes of the sets of shear and torsion, which follow from normal forces alone."""
+        forces = np.column_stack([normal, np.zeros((len(normal), 2))])
+        return friction_limit(self.convex.torsion, self.convex.resultants_of(forces))
 
 
 def solve_by_alternation(
@@ -152,21 +136,21 @@ def solve_by_alternation(
     gravity = least_forces(convex.points, own, log, records)
     if isinstance(gravity, ConeSolution):
         return broken_off(gravity, records)
-    pair = _Pair.of(in_unit, own, log, records)
+    points = in_unit.points
+    pair = ConvexAlternation(points, np.zeros(points.n_points), own, log, records, convex=in_unit)
     starts = [(gravity, ()), (gravity, TILTS), *((uneven, TILTS) for uneven in _uneven(gravity))]
     if associative.state is not None:
         starts.insert(0, (associative.state.forces, TILTS))
-    ended: ConeSolution | None = None
     for forces, tilts in starts:
-        found, ended = _run(pair, forces / unit, tilts, settings)
-        states += found
-        if ended is not None and ended.status is Status.TIME_LIMIT:
+        pair.ended = None
+        states += _run(pair, forces[:, 0] / unit, tilts, settings)
+        if pair.late:
             break
         least = min((state.residual for state in states), default=np.inf)
         if least <= max(EXACT_RESIDUAL, _asked(settings)) or (tilts and least <= SOLVED_RESIDUAL):
             return _finished(states, settings, tuple(records))
-    if ended is not None:
-        return broken_off(ended, records, _best(states))
+    if pair.ended is not None:
+        return broken_off(pair.ended, records, _best(states))
     return _finished(states, settings, tuple(records))
 
 
@@ -188,24 +172,16 @@ def _uneven(gravity: FloatArray) -> Iterator[FloatArray]:
 
 
 def _run(
-    pair: _Pair, forces: FloatArray, tilts: Sequence[float], settings: SolverSettings
-) -> tuple[list[LawState], ConeSolution | None]:
-    """States of pairs from forces, (n_points, 3), behind the tilted ones, and the program that ended them early."""
+    pair: ConvexAlternation, normal: FloatArray, tilts: Sequence[float], settings: SolverSettings
+) -> list[LawState]:
+    """States of pairs from normal forces, (n_points,), behind the tilted ones."""
     states = list[LawState]()
-    for tilt in (*tilts, *[0.0] * MOST_PAIRS):
-        motion = pair.motion_for(forces)
-        if isinstance(motion, ConeSolution):
-            return states, motion
-        after = pair.forces_for(forces, *motion, tilt=tilt)
-        if isinstance(after, ConeSolution):
-            return states, after
-        forces, factor = after
+    for tilt, state in zip((*tilts, *[0.0] * MOST_PAIRS), pair.states(normal, chain(tilts, repeat(0.0))), strict=False):
         if tilt == 0.0:
-            state = state_without_dilatancy(pair.convex, forces, *motion, factor)
-            states.append(replace(state, residual=max(state.residual, unbalanced(pair.convex, state))))
+            states.append(state)
             if _at_rest(states, settings) or _is_stuck(states):
                 break
-    return states, None
+    return states
 
 
 def _best(states: list[LawState]) -> LawState | None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
+from mbla.solution.nonassociative import alternation
 from mbla.solution.resultants import convex_alternation
 from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
@@ -48,7 +49,7 @@ def test_a_program_without_a_solution_ends_the_scheme(
     """
     monkeypatch.setattr(convex_alternation, "EXACT", 0.0)
     monkeypatch.setattr(convex_alternation, "EXACT_RESIDUAL", 0.0)
-    monkeypatch.setattr(convex_alternation, "interior_point_solver", said(said_to_be, after))
+    monkeypatch.setattr(alternation, "interior_point_solver", said(said_to_be, after))
     result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
     assert result.status is status
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
