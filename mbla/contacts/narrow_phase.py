@@ -10,8 +10,8 @@ is judged by itself (tolerance ε, lengths relative to the block size of the pai
 
 Where the part is narrow because a facet is (a finely faceted cylinder in its socket), and takes at least half of that
 facet, it is no sliver but a contact. Parts narrower than a thousandth of ε are facets that share an edge, not a
-surface: they are nothing at all. Near misses with something in between are dropped: the top of a thin tile is near the
-bottom of the tile after next, but the tile between them fills the gap.
+surface: they are nothing at all. What has a block in between is left out after
+(:mod:`mbla.contacts.third_block`).
 """
 
 from __future__ import annotations
@@ -21,14 +21,13 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import FloatArray
 from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.outlines.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.ragged import rows_and_items
 
 _EDGE = 1e-3
 _NARROW_FACET = 0.5
@@ -165,30 +164,3 @@ def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -
         mid_gaps=(high + low) / 2,
         coverage=shapely.area(polygons) * overlays.sizes**2 / smaller,
     )
-
-
-def drop_covered_near_misses(near_misses: Patches, contacts: Patches) -> Patches:
-    """Near misses of which no inner point lies behind a contact on one of their two facets."""
-    if not len(near_misses) or not len(contacts):
-        return near_misses
-    overlays = near_misses.overlays
-    local = shapely.get_coordinates(shapely.point_on_surface(near_misses.polygons))
-    inside = overlays.origins + overlays.sizes[:, None] * np.einsum("ka,kai->ki", local, overlays.frames[:, 1:])
-    covered = np.zeros(len(near_misses), dtype=bool)
-    for side in (0, 1):
-        miss, contact = _on_same_facet(overlays.facets[:, side], contacts.overlays.facets)
-        on = contacts.overlays
-        offset = (inside[miss] - on.origins[contact]) / on.sizes[contact, None]
-        flat = np.einsum("kai,ki->ka", on.frames[contact, 1:], offset)
-        covered[miss[shapely.contains_xy(contacts.polygons[contact], *flat.T)]] = True
-    return near_misses.take(~covered)
-
-
-def _on_same_facet(facets: IntArray, contact_facets: IntArray) -> tuple[IntArray, IntArray]:
-    """Rows of near misses (by one facet each) and of contacts (by two) that share a facet; ground is no facet."""
-    flat = contact_facets.ravel()
-    order = np.argsort(flat, kind="stable")
-    start = starts(np.bincount(flat + 1, minlength=int(max(flat.max(), facets.max())) + 2).astype(np.int64))
-    counts = np.where(facets >= 0, np.diff(start)[facets + 1], 0)
-    miss, position = rows_and_items(start[facets + 1], counts)
-    return miss, order[position] // 2

@@ -14,7 +14,7 @@ from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.held_twice import counted_once
 from mbla.contacts.joints import joints_of_interfaces
-from mbla.contacts.narrow_phase import Patches, Verdicts, drop_covered_near_misses, find_patches, judge
+from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
@@ -86,7 +86,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     findings = Findings(
         contacts=verdicts.contacts,
         slivers=verdicts.slivers,
-        near_misses=drop_covered_near_misses(verdicts.near_misses, verdicts.contacts),
+        near_misses=verdicts.near_misses,
         overlaps=overlaps,
         separated=separated,
         open_bodies=bodies[laws.open],

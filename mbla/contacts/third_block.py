@@ -52,24 +52,27 @@ def drop_pairs_separated_by_third_block(
 ) -> tuple[Verdicts, SeparatedPairs]:
     """Verdicts without faces that see each other through blocks, without contacts across a third body, and these.
 
-    The third body lies behind the same part of a facet as the farther of the two others, and either is no thicker than
-    the gap, or touches the facet on the other side of the gap as well: so does the flange of a thick block. A body that
-    does neither has coordinates of its own that were rounded.
+    Near misses go where a contact lies on the same part of one of their facets: the top of a thin tile is near the
+    bottom of the tile after next, but the tile between them fills the gap. Of contacts the third body lies behind the
+    same part of a facet as the farther of the two others, and either is no thicker than the gap, or touches the facet
+    on the other side of the gap as well: so does the flange of a thick block. A body that does neither has coordinates
+    of its own that were rounded.
     """
     parts = (verdicts.contacts, verdicts.slivers, verdicts.near_misses)
     contacts, slivers, near_misses = (part.take(~_through(part, blocks)) for part in parts)
     every = concatenate([contacts, near_misses])
     far, closer = _behind_one_facet(every)
-    far, closer = far[far < len(contacts)], closer[far < len(contacts)]
+    judged = (far < len(contacts)) | (closer < len(contacts))
+    far, closer = far[judged], closer[judged]
     wide = _share_a_surface(every, far, closer, tolerance)
     far, closer = far[wide], closer[wide]
     third = _third(every, far, closer)
-    between = _thin(every, far, closer, third, blocks) | _on_both_sides(far, third)
+    between = (far >= len(contacts)) | _thin(every, far, closer, third, blocks) | _on_both_sides(far, third)
     far, first = np.unique(far[between], return_index=True)
-    held = np.zeros(len(contacts), dtype=bool)
-    held[far] = True
-    kept = Verdicts(contacts.take(~held), slivers, near_misses)
-    return kept, SeparatedPairs(contacts.take(held), third[between][first])
+    held = np.isin(np.arange(len(every)), far)
+    own, other = held[: len(contacts)], held[len(contacts) :]
+    kept = Verdicts(contacts.take(~own), slivers, near_misses.take(~other))
+    return kept, SeparatedPairs(contacts.take(own), third[between][first][far < len(contacts)])
 
 
 def _third(patches: Patches, far: IntArray, closer: IntArray) -> IntArray:

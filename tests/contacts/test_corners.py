@@ -9,11 +9,11 @@ import pytest
 import shapely
 
 from mbla.arrays import IntArray
-from mbla.contacts.facets import Facets, build_facets, facets_on_one_plane
+from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.polygons import Polygons, union_by_row
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
-from tests.contacts.structures import any_rotation, blocks_of, boxes, moved, profile
+from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
+from tests.contacts.structures import any_rotation, blocks_of, moved
 
 Outline = Sequence[Sequence[float]]
 
@@ -103,14 +103,6 @@ def test_outline_that_would_cross_itself_keeps_its_corners(neck: float) -> None:
     assert areas_and_centroids(corners)[0] == pytest.approx([2.0], abs=1e-3)
 
 
-def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_those() -> None:
-    """A tip from above reaches by a hair into a dent in the side below it."""
-    tip, dent = [1, 1 - 1e-11], [1, 1 - 2e-11]
-    outline: Outline = [[0, 0], [0.5, 0], [3, 0], [3, 3], [1, 3], tip, [2, 2], [2, 1], dent, [0, 1]]
-    assert len(needed_corners(polygons(outline), 1e-3).points) == len(outline)
-    assert len(needed_corners(polygons([*outline[:5], [1, 1.5], *outline[6:]]), 1e-3).points) == len(outline) - 2
-
-
 # Facets of a block whose top is cut into faces of unequal size, near and far from the origin.
 
 
@@ -154,25 +146,3 @@ def test_what_uniting_faces_without_a_grid_loses_is_found_again(monkeypatch: pyt
     monkeypatch.setattr("mbla.contacts.facets.union_by_row", losing)
     facets = build_facets(blocks_of(cut_top()))
     assert shapely.area(facets.polygons) == pytest.approx([2, 2, 2, 1, 2, 1])
-
-
-def bracket() -> Polyhedra:
-    """A block on two feet, whose soles lie on one plane but share no edge."""
-    return profile([(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)])
-
-
-def test_two_soles_on_one_plane_are_one_facet() -> None:
-    blocks = blocks_of(join_polyhedra([bracket(), boxes(([5, 0, 0], [6, 1, 1]))]))
-    corners = blocks.vertices[blocks.loops]
-    centres = np.add.reduceat(corners, blocks.loop_start[:-1]) / np.diff(blocks.loop_start)[:, None]
-    joined = facets_on_one_plane(blocks, centres)
-    assert joined.max() + 1 == 9 + 6
-    soles = np.flatnonzero((blocks.face_normals[:, 2] < -0.99) & (centres[:, 2] < 0.1) & (centres[:, 0] < 4))
-    assert len(soles) == 2
-    assert joined[soles[0]] == joined[soles[1]]
-    facets = build_facets(blocks)
-    down = np.flatnonzero((facets.normals[:, 2] < -0.99) & (facets.blocks == 0))
-    assert sorted(shapely.area(facets.polygons[down]).round(9).tolist()) == [1.0, 2.0]
-    assert facets.convex[facets.blocks == 1].all()
-    alone = boxes(([0, 0, 0], [1, 1, 1]))
-    assert len(build_facets(blocks_of(alone))) == 6

@@ -139,18 +139,6 @@ def test_split_faces_give_the_interface_of_the_whole(split: str, turn: np.ndarra
     np.testing.assert_allclose(contacts.point_areas, 0.75 * 0.5 / 4, rtol=1e-6)
 
 
-def test_faces_on_one_plane_that_share_no_edge_count_as_one(turn: np.ndarray | None) -> None:
-    """The model has put the two triangles of a top on different facets, as it does where a corner ends in an edge."""
-    stack = moved(join_polyhedra([SPLITS["one diagonal"], boxes(([0, 0, 1], [1, 1, 2]))]), turn=turn)
-    blocks = blocks_of(stack)
-    every_face = np.arange(len(blocks.face_normals))
-    assert len(np.unique(blocks.facet_of_face)) == len(every_face) - 1
-    apart = replace(blocks, facet_of_face=every_face)
-    contacts = find_contacts(model_of(apart), section())
-    assert contacts.areas == pytest.approx([1.0], rel=1e-7)
-    assert np.diff(contacts.point_start).tolist() == [4]
-
-
 def test_edges_and_corners_that_touch_are_no_interface() -> None:
     contacts = contacts_of(boxes(([0, 0, 0], [1, 1, 1]), ([1, 1, 0], [2, 2, 1]), ([2, 2, 1], [3, 3, 2])))
     assert len(contacts) == 0
