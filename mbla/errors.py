@@ -6,7 +6,6 @@
     ├── UsageError                2   the command line is wrong
     ├── DeckError                 3   the deck is wrong; carries every Fault found
     ├── SolverError               4   a program that should have been solved was not
-    │   └── UnfitSolverError          the solver that the deck names takes no program of that kind
     ├── FileError                 6   reading or writing failed, or a result would be overwritten
     └── LimitError                7   out of time or memory
 
@@ -108,10 +107,6 @@ class SolverError(MblaError):
     """The cone solver refused or broke on a program that was handed to it."""
 
     exit_status = 4
-
-
-class UnfitSolverError(SolverError):
-    """The solver that the deck names does not take programs of the kind that the load case is."""
 
 
 class FileError(MblaError):

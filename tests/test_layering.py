@@ -24,7 +24,6 @@ DOORS = {
     "clarabel": "solution/cone_solvers/clarabel_adapter.py",
     "cvxopt": "solution/linear_algebra/cholmod_factors.py",
     "qdldl": "solution/linear_algebra/qdldl_factors.py",
-    "highspy": "solution/cone_solvers/highs_adapter.py",
     "h5py": "results/hdf5/result_file.py",
     "paraview": "results/vtu/standard_views.py",
     "pyvista": "results/pictures/renderer.py",

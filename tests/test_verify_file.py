@@ -233,7 +233,6 @@ def test_files_of_a_deck_stay_in_their_folder(of_several_files: Path) -> None:
         "interfaces/work",
         "lower/modes",
         "flow_rule",
-        "sides",
         "solver",
     ],
 )

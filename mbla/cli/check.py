@@ -76,4 +76,4 @@ def _solver(deck: Deck, program: ConeProgram, conditions: bool) -> str:
     """Of the associative program; conditions on interfaces have cones of dimensions that clarabel alone takes."""
     if conditions:
         return "clarabel"
-    return "highs" if deck.analysis.solver == "highs" else interior_point_method(program, deck.analysis.solver)
+    return interior_point_method(program, deck.analysis.solver)

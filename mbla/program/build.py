@@ -72,8 +72,7 @@ def takes_stress_blocks(analysis: AnalysisSection) -> bool:
     by_flow = analysis.flow_rule == "associative" or (
         analysis.flow_rule == "non_associative" and analysis.scheme == "auto"
     )
-    by_solver = analysis.friction_cone == "circular" and analysis.solver in ("auto", "clarabel")
-    return by_flow and by_solver and not analysis.force_ranges
+    return by_flow and analysis.solver in ("auto", "clarabel") and not analysis.force_ranges
 
 
 def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection) -> tuple[Notice, ...]:

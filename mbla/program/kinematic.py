@@ -9,8 +9,7 @@ p (Coulomb, p ≥ ‖v_T‖) and d ≥ 0 (crushing); the multiplier of the tensi
          v_N ≥ 0                                         points without friction and cohesion
          ‖v_T‖ ≤ v_N / μ                                 dry points: p = v_N / μ
 
-Where shear is bounded by facets instead of a cone (planar programs; friction polyhedra) ‖v_T‖ ≤ p becomes g_i·v_T ≤ p
-for the directions g_i, half-lines again, so that the program is linear.
+In a plane ‖v_T‖ ≤ p is v_T ≤ p and −v_T ≤ p, half-lines again, so that the program is linear.
 
 The dual variables of the rows are the contact forces, and −(dual of f_L·u = 1) is the load factor. Form and accuracy
 were compared with the static form: at a solver tolerance of 1e-6 the static form was 0.6 % low on a wall of 410
@@ -69,15 +68,11 @@ class PointRows:
 
 @dataclass(frozen=True)
 class KinematicForm:
-    """The cone program of a program under given limits, and how to read its solution.
-
-    facets : (n_facets, components − 1) directions that bound shear, None for cones
-    """
+    """The cone program of a program under given limits, and how to read its solution."""
 
     program: Program
     limits: YieldLimits
     rows: PointRows
-    facets: FloatArray | None
     cone_program: ConeProgram
 
     def velocities(self, x: FloatArray) -> FloatArray:
@@ -89,13 +84,10 @@ class KinematicForm:
         rows, limits = self.rows, self.limits
         forces = np.zeros((self.program.n_points, self.program.components))
         n_dry, n_normal = len(rows.dry), len(rows.cut_off) + len(rows.crushing)
-        width = 3 if self.facets is None else len(self.facets)
-        shear_duals = z[1 + n_normal : 1 + n_normal + width * (n_dry + len(rows.frictional))]
-        if self.facets is None:
-            shear = shear_duals.reshape(-1, 3)
-        else:
-            facet_forces = shear_duals.reshape(-1, len(self.facets))
-            shear = np.column_stack([facet_forces.sum(axis=1), -facet_forces @ self.facets])
+        width = self.program.components  # two half-lines in a plane, a cone of three in space
+        shear = z[1 + n_normal : 1 + n_normal + width * (n_dry + len(rows.frictional))].reshape(-1, width)
+        if width == 2:
+            shear = np.column_stack([shear.sum(axis=1), shear[:, 1] - shear[:, 0]])
         forces[rows.dry, 0] = shear[:n_dry, 0] / limits.friction[rows.dry]
         forces[rows.dry, 1:] = shear[:n_dry, 1:]
         forces[rows.cut_off, 0] = z[1 : 1 + len(rows.cut_off)] - limits.tension[rows.cut_off]
@@ -112,51 +104,29 @@ class KinematicForm:
         weight : (n_points,) of the normal forces, 0 or more: a joint may close by so much before it counts as closed
         """
         rows, dry = self.rows, weight[self.rows.dry] / self.limits.friction[self.rows.dry]
-        width = 3 if self.facets is None else len(self.facets)
+        width = self.program.components
         shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
-        shear[: len(dry), : 1 if self.facets is None else width] = dry[:, None]
+        shear[: len(dry), : 1 if width == 3 else width] = dry[:, None]
         return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel()])
 
 
-PLANAR_FACETS = np.array([[1.0], [-1.0]])
-"""The two directions of shear in a plane."""
-
-
-def friction_polygon(sides: int, circumscribed: bool) -> FloatArray:
-    """Directions g_i, (n_sides, 2), whose hull is a regular polygon in the unit circle, or about it.
-
-    ‖T‖ ≤ h is replaced by −T = Σ q_i g_i with Σ q_i ≤ h: its dual is p ≥ g_i·v_T. The inscribed polygon has a corner
-    on the first tangent, and the circumscribed one touches the circle where the inscribed one has its corners: both
-    are exact there, which is where most joints of buildings slide. Anywhere else they are within a factor cos(π/sides)
-    of the circle.
-    """
-    turned = 0.5 if circumscribed else 0.0
-    angle = 2.0 * np.pi * (np.arange(sides) + turned) / sides
-    radius = 1.0 / np.cos(np.pi / sides) if circumscribed else 1.0
-    return radius * np.column_stack([np.cos(angle), np.sin(angle)])
-
-
-def kinematic_form(
-    program: Program, limits: YieldLimits, *, reduce_dry: bool = True, facets: FloatArray | None = None
-) -> KinematicForm:
+def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = True) -> KinematicForm:
     """Kinematic form under the given limits, those of the program or modified ones.
 
     reduce_dry : False keeps the multiplier p at dry points too, so that a later cohesion changes the cost alone
-    facets     : (n_facets, 2) directions that bound shear instead of the circular cone of a spatial program
     """
-    facets = PLANAR_FACETS if program.components == 2 else facets
     rows = _point_rows(limits, reduce_dry)
     n_shear = len(rows.dry) + len(rows.frictional)
-    matrix = _matrix(program, limits, rows, facets)
+    matrix, planar = _matrix(program, limits, rows), program.components == 2
     cone_program = ConeProgram(
         cost=_cost(program, limits, rows),
         matrix=matrix,
         rhs=np.concatenate([[1.0], np.zeros(matrix.shape[0] - 1)]),
-        n_half_lines=len(rows.cut_off) + len(rows.crushing) + (0 if facets is None else len(facets) * n_shear),
-        n_cones=n_shear if facets is None else 0,
+        n_half_lines=len(rows.cut_off) + len(rows.crushing) + (2 * n_shear if planar else 0),
+        n_cones=0 if planar else n_shear,
         n_local=len(rows.frictional) + len(rows.crushing),
     )
-    return KinematicForm(program, limits, rows, facets, cone_program)
+    return KinematicForm(program, limits, rows, cone_program)
 
 
 def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:
@@ -174,11 +144,9 @@ def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:
     )
 
 
-def _matrix(program: Program, limits: YieldLimits, rows: PointRows, facets: FloatArray | None) -> sp.csc_array:
+def _matrix(program: Program, limits: YieldLimits, rows: PointRows) -> sp.csc_array:
     """Rows in the order of ``ConeProgram``; rows of cones and half-lines are −G where s = G x."""
-    return _below(
-        program.live_load, _rows_of_points(program.equilibrium_matrix, program.components, limits, rows, facets)
-    )
+    return _below(program.live_load, _rows_of_points(program.equilibrium_matrix, program.components, limits, rows))
 
 
 def _below(first: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
@@ -196,9 +164,7 @@ def _below(first: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
 
 
 @shared("kinematic form")
-def _rows_of_points(
-    equilibrium_matrix: sp.csr_array, c: int, limits: YieldLimits, rows: PointRows, facets: FloatArray | None
-) -> sp.csc_array:
+def _rows_of_points(equilibrium_matrix: sp.csr_array, c: int, limits: YieldLimits, rows: PointRows) -> sp.csc_array:
     """All rows but the first: what the contact points allow, whatever the loads; ``c`` components of force a point."""
     velocity = sp.csr_array(equilibrium_matrix.T)  # rows v_N, v_T1, v_T2 (v_N, v_T) of each point
     n_points = len(limits.friction)
@@ -213,11 +179,11 @@ def _rows_of_points(
     identity_d = sp.eye_array(n_d, format="csr")
 
     dry_limit = _diagonal(1.0 / beta[rows.dry]) @ velocity[c * rows.dry]
-    dry = _shear_rows(dry_limit, velocity, rows.dry, c, facets)
+    dry = _shear_rows(dry_limit, velocity, rows.dry, c)
     none = sp.csr_array((n_p, velocity.shape[1]))
-    shear = _shear_rows(none, velocity, rows.frictional, c, facets)
+    shear = _shear_rows(none, velocity, rows.frictional, c)
     no_velocity = sp.csr_array((velocity.shape[0], n_p))
-    of_p = _shear_rows(sp.csr_array(sp.eye_array(n_p, format="csr")), no_velocity, rows.frictional, c, facets)
+    of_p = _shear_rows(sp.csr_array(sp.eye_array(n_p, format="csr")), no_velocity, rows.frictional, c)
 
     blocks: list[list[sp.sparray | None]] = [
         [-velocity[c * rows.cut_off], cut_off_p, -cut_off_d],
@@ -231,20 +197,12 @@ def _rows_of_points(
     return matrix
 
 
-def _shear_rows(
-    limit: sp.csr_array, velocity: sp.csr_array, points: IntArray, components: int, facets: FloatArray | None
-) -> sp.csr_array:
-    """Rows of limit ≥ ‖v_T‖ at the given points: (limit, v_T) for cones, limit − g_i·v_T for each facet."""
-    n = len(points)
-    if facets is None:
-        stacked = sp.csr_array(sp.vstack([limit, velocity[3 * points + 1], velocity[3 * points + 2]]))
-        return stacked[np.arange(3 * n).reshape(3, n).T.ravel()]
-    parts = [
-        limit - sum((g * velocity[components * points + 1 + j] for j, g in enumerate(facet)), start=0.0 * limit)
-        for facet in facets
-    ]
+def _shear_rows(limit: sp.csr_array, velocity: sp.csr_array, points: IntArray, components: int) -> sp.csr_array:
+    """Rows of limit ≥ ‖v_T‖ at the given points: (limit, v_T) for cones, limit ∓ v_T in a plane."""
+    tangential = [velocity[components * points + axis] for axis in range(1, components)]
+    parts = [limit, *tangential] if components == 3 else [limit - tangential[0], limit + tangential[0]]
     stacked = sp.csr_array(sp.vstack(parts))
-    return stacked[np.arange(len(facets) * n).reshape(len(facets), n).T.ravel()]
+    return stacked[np.arange(components * len(points)).reshape(components, -1).T.ravel()]
 
 
 def _diagonal(values: FloatArray) -> sp.csr_array:

@@ -43,7 +43,6 @@ WITHOUT_REASON = BROKEN | {
 REMARKS_THAT_WARN = frozenset(
     {
         "livesley-overstates",
-        "livesley-polyhedral",
         "default-for-published",
         "peak-on-path",
         "path-not-seen",

@@ -32,7 +32,6 @@ LIBRARIES = (
     "scipy",
     "clarabel",
     "qdldl",
-    "highspy",
     "shapely",
     "manifold3d",
     "meshio",
@@ -65,7 +64,6 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
     words = {
         "flow_rule": analysis.flow_rule,
         "contact_model": analysis.contact_model,
-        "friction_cone": "circular" if analysis.friction_cone == "circular" else f"polyhedral, {analysis.sides} sides",
         "accuracy": analysis.accuracy,
         "solver": analysis.solver,
         **{name: f"{getattr(settings, name):g}" for name in ("tolerance", "gap", "residual")},

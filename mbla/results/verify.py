@@ -102,7 +102,6 @@ def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Soluti
         contact_model=analysis.contact_model,
         stress_blocks=stress_blocks,
         solver=settings.solver,
-        sides=0 if solution.outer is None else analysis.sides,
         tolerance_requested=solution.tolerance_requested
         if solution.tolerance_requested is None or solution.tolerance_requested in asked
         else settings.residual,

@@ -20,11 +20,11 @@ from mbla.solution.mechanics import contact_modes
 from mbla.solution.solution import Mechanics, Solution, StandingResult
 from mbla.solution.verification.statics import contact_velocities
 
-MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "outer", "level")
+MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
 """parts of a solution that hold a mechanism"""
 
 
-BY_NORMALITY = ("associative", "outer", "level")
+BY_NORMALITY = ("associative", "level")
 """parts of a solution that flow by the associative rule whatever that of the analysis"""
 
 

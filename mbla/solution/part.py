@@ -15,7 +15,6 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.certificate import steepest_fall
-from mbla.solution.associative.polyhedral import solve_polyhedral
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import no_mechanism
@@ -85,7 +84,6 @@ class PartResult:
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
     standing    : assessment of the dead load alone, None where it was not asked for
     range       : of the load factor without normality, for the mechanism found
-    outer       : with the circumscribed friction polyhedron, ``associative`` having the inscribed one
     remarks     : on the figure, besides those of the sequence
     peak        : last state of the load path that stands, where that lies above the load factor
     more        : programs solved for what is found beside the load factor
@@ -97,7 +95,6 @@ class PartResult:
     loaded: bool
     standing: StandingResult | None = None
     range: FactorRange | None = None
-    outer: AssociativeResult | None = None
     remarks: tuple[Message, ...] = ()
     peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
@@ -190,12 +187,7 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log) -> PartR
 
 
 def _associative(program: Program, settings: SolverSettings, log: Log) -> PartResult:
-    """The associative answer, by polyhedra where they approximate the friction cone: in space."""
-    if settings.analysis.friction_cone == "polyhedral" and program.components == 3:
-        both = solve_polyhedral(program, settings.analysis.sides, settings, log)
-        inner = replace(both.inner, programs=both.programs)
-        remarks = (both.bracket,) if both.bracket else ()
-        return PartResult(program, inner, None, loaded=True, outer=both.outer, remarks=remarks)
+    """The associative answer."""
     answer = solve_associative(program, settings, log, stress_free=settings.standing)
     return PartResult(program, answer, None, loaded=True)
 

@@ -19,14 +19,14 @@ class SolverSettings:
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program
     regularization : static regularisation of clarabel's KKT matrix; None: by kind and size of the program
-    solver         : of cone programs: auto, mbla, clarabel, or highs for linear ones
+    solver         : of cone programs: auto, mbla or clarabel
     deadline       : time.monotonic() at which to stop, or None
     cholesky       : of the condensed method, qdldl, superlu or cholmod; None: by size and by what is installed
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
     search         : iterations spent on lower load factors, over those of the first state found
     range, peak, standing : whether these are found beside the load factor
-    analysis       : flow rule, scheme with its parameters, friction polyhedra, ranges of forces
+    analysis       : flow rule, scheme with its parameters, ranges of forces
     """
 
     tolerance: float

@@ -58,7 +58,7 @@ class IterationRecord:
 class ProgramRecord:
     """One cone program of the sequence: what it gave and how far the sequence had converged.
 
-    solver : of the cone program, mbla, clarabel or highs; empty for steps of the joint law, which are no cone programs
+    solver : of the cone program, mbla or clarabel; empty for steps of the joint law, which are no cone programs
     factorization : library that factorised its linear systems; empty where the solver keeps that to itself
     """
 
@@ -160,12 +160,9 @@ class Solution:
     lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
     peak        : greatest load factor of the load path where that lies above ``mechanics``; its state is passed, not
                   at rest: the forces carry it, the mechanism is how they are passing
-    outer       : polyhedral friction: answer with the circumscribed polyhedron, ``associative`` having the inscribed;
-                  None where the two do not differ, as in a plane
     level       : tilting table: associative answer of the level table with the load across, which proves how much of
                   that it bears
     level_lock  : the same where it bears every multiple: (n_points, 3) contact forces that balance that load alone
-    sides       : of the friction polyhedron; 0 for the circular cone
     spread      : least and greatest load factor of several tries that did not agree
     standing    : assessment of the dead load alone
     lock        : unbounded: (n_points, 3) contact forces that balance the live load alone, so that any multiple is
@@ -193,10 +190,8 @@ class Solution:
     lower: Mechanics | None = None
     upper: Mechanics | None = None
     peak: Mechanics | None = None
-    outer: Mechanics | None = None
     level: Mechanics | None = None
     level_lock: FloatArray | None = None
-    sides: int = 0
     spread: tuple[float, float] | None = None
     standing: StandingResult | None = None
     lock: FloatArray | None = None

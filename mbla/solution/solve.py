@@ -100,7 +100,6 @@ def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = No
         solution = _without_claim(solution)
     return replace(
         solution,
-        sides=0 if solution.outer is None else settings.analysis.sides,
         standing=standing,
         programs=_renumbered([*(record for result in results for record in result.programs), *stage.more]),
         iterations=tuple(iterations),
@@ -177,7 +176,6 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         _solution(stage.settings, *_claim(results, first)),
         tolerance_requested=_tolerance_requested(results),
         associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
-        outer=_outer(stage, results),
     )
     if analysis.force_ranges and result.state is not None:
         ranges, words = _force_ranges(stage, first, result.state)
@@ -236,15 +234,6 @@ def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArra
     return ranges, words
 
 
-def _outer(stage: _Stage, results: Sequence[PartResult]) -> Mechanics | None:
-    """With circumscribed friction polyhedra: the part that collapses first; None where none were asked for."""
-    states = [None if result.outer is None else result.outer.state for result in results]
-    if all(state is None for state in states):
-        return None
-    first = min(range(len(states)), key=lambda part: _factor(states[part]))
-    return stage.mechanics(first, states[first], "associative")
-
-
 def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution:
     """A solution without forces and mechanism."""
     analysis = settings.analysis
@@ -258,7 +247,6 @@ def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution
         programs=(),
         iterations=(),
         seconds=0.0,
-        sides=analysis.sides if analysis.friction_cone == "polyhedral" else 0,
     )
 
 

@@ -56,8 +56,6 @@ LIVE = "[{acceleration: [1, 0, 0]}]"
         (LIVE, LIVE + "\n    dead: [{acceleration: [0, 0, -1]}]"),
         ("supports:\n  - {ground: {z: 0}}\n", ""),
         ("{ground: {z: 0}}", "{ground: {z: 0}, blocks: block, joint: dry}"),
-        (LIVE, LIVE + "\nanalysis: {flow_rule: associative, friction_cone: polyhedral, solver: highs}"),
-        (LIVE, LIVE + "\nanalysis: {flow_rule: livesley, solver: highs}"),
     ],
 )
 def test_accepted(tmp_path: Path, old: str, new: str) -> None:
@@ -100,7 +98,6 @@ def idle(*overrides: str) -> list[str]:
 @pytest.mark.parametrize(
     ("key", "idle_with", "used_with"),
     [
-        ("analysis.sides=6", "flow_rule=associative", "friction_cone=polyhedral"),
         ("analysis.scheme=published", "flow_rule=associative", "flow_rule=non_associative"),
         ("analysis.search=2", "flow_rule=associative", "flow_rule=dilatancy"),
         ("analysis.search=2", "contact_model=convex", "contact_model=concave"),
@@ -116,10 +113,9 @@ def idle(*overrides: str) -> list[str]:
     ],
 )
 def test_with_what_a_key_has_an_effect(key: str, idle_with: str, used_with: str) -> None:
-    linear = ["analysis.flow_rule=associative"] if "polyhedral" in used_with else []
     (message,) = idle(key, f"analysis.{idle_with}")
     assert "has no effect: it applies to" in message
-    assert idle(key, f"analysis.{used_with}", *linear) == []
+    assert idle(key, f"analysis.{used_with}") == []
 
 
 def test_keys_that_are_not_given_are_not_mentioned() -> None:

@@ -15,7 +15,6 @@ from tests.extremes.outcome import Scene
 CHOICES = {
     "solver mbla": ("analysis.solver=mbla",),
     "solver clarabel": ("analysis.solver=clarabel",),
-    "solver highs": ("analysis.solver=highs", "analysis.friction_cone=polyhedral"),
     "convex contact model": ("analysis.contact_model=convex",),
 }
 SAMPLE = {

@@ -7,8 +7,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mbla.arrays import FloatArray
-from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
@@ -30,15 +28,15 @@ SMOOTH = BLOCK.replace("{ground: {z: 0}}", "{ground: {z: 0}, joint: ice}").repla
 )
 
 
-def kinematic(program: Program, facets: FloatArray | None = None) -> tuple[Status, float]:
+def kinematic(program: Program) -> tuple[Status, float]:
     """Status and load factor by the form that the program solves."""
-    result = solve_associative(program, SolverSettings(1e-8), ignored, facets=facets)
+    result = solve_associative(program, SolverSettings(1e-8), ignored)
     return result.status, np.nan if result.state is None else result.state.load_factor
 
 
-def static(program: Program, facets: FloatArray | None = None) -> tuple[Status, float]:
+def static(program: Program) -> tuple[Status, float]:
     """By the static form: without admissible forces no equilibrium, without an upper bound of λ no collapse."""
-    form = associative_static_form(program, facets)
+    form = associative_static_form(program)
     solution = ClarabelProgram(form.cone_program, SolverSettings(1e-10), ignored).solve(1, 1.0)
     if solution.status is Status.UNBOUNDED or (solution.status is Status.SOLVED and solution.objective > 0.0):
         return Status.NO_EQUILIBRIUM, np.nan
@@ -61,15 +59,6 @@ def test_forces_and_velocities_give_the_same_factor(text: str, overrides: tuple[
     velocities, forces = kinematic(program), static(program)
     assert velocities[0] is forces[0] is Status.SOLVED
     assert forces[1] == pytest.approx(velocities[1], rel=2e-7)
-
-
-@pytest.mark.parametrize("sides", [3, 4, 8, 9])
-@pytest.mark.parametrize("circumscribed", [False, True])
-def test_the_same_with_a_polyhedron(sides: int, circumscribed: bool) -> None:
-    """With an odd number of sides this shows too that shear opposes sliding: the polygon is not its own image."""
-    program = line_of(BLOCK, "parameters.h=0.5", "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]").program
-    facets = friction_polygon(sides, circumscribed)
-    assert static(program, facets)[1] == pytest.approx(kinematic(program, facets)[1], rel=1e-7)
 
 
 def test_the_same_in_a_plane() -> None:

@@ -122,7 +122,6 @@ def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
         (("analysis.flow_rule=non_associative",), False),
         (("analysis.contact_model=convex",), False),
         (("analysis={flow_rule: non_associative, scheme: published}",), True),
-        (("analysis.solver=highs", "analysis.friction_cone=polyhedral"), True),
         (("analysis.solver=mbla",), True),
         (("analysis.force_ranges=true",), True),
     ):

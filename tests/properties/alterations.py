@@ -92,10 +92,3 @@ def convex_model(scene: Scene, _: Solved) -> Scene | None:
     if scene.deck.analysis.contact_model == "convex" or points != type(points)():
         return None
     return with_analysis(scene, contact_model="convex")
-
-
-def polyhedra(scene: Scene, solved: Solved) -> Scene | None:
-    """Octagons inside and outside of the cone; not where interfaces have conditions of their own, which are round."""
-    if solved.conditions or any(c.settlement or c.tilt for c in scene.model.load_cases):
-        return None
-    return with_analysis(scene, friction_cone="polyhedral")

@@ -31,7 +31,6 @@ class Relation(StrEnum):
     EQUAL = "equal"
     RISES = "never lower"
     FALLS = "never higher"
-    ENCLOSED = "between both polyhedra"
 
 
 @dataclass(frozen=True)
@@ -114,8 +113,6 @@ def _names(one: Comparison) -> tuple[str, str, str]:
 def _judged(scene: Scene, case: CaseResult, other: CaseResult, how: Transformation) -> Comparison:
     before, after = how.ratio * value_of(case), value_of(other)
     names = (scene.name, case.load_case.name, how.name)
-    if how.relation is Relation.ENCLOSED:
-        return _enclosed(names, before, other)
     if math.isnan(after):
         words = f"{other.status}: {other.solution.reason or '; '.join(other.checks.failures)}"
         verdict = Verdict.EXCEPTION if how.relation is Relation.EQUAL else Verdict.NOTHING
@@ -147,20 +144,6 @@ def relative(before: float, after: float) -> float:
     if math.isinf(before) or math.isinf(after):
         return math.copysign(math.inf, after - before)
     return (after - before) / max(abs(before), abs(after))
-
-
-def _enclosed(names: tuple[str, str, str], value: float, other: CaseResult) -> Comparison:
-    """The factor lies between the proved bounds of both polyhedra."""
-    if math.isinf(value) or other.solution.associative is None:
-        same = value == value_of(other)
-        words = "" if same else f"{value:.9g} with the cone, {other.status} with polyhedra"
-        return Comparison(*names, Verdict.EQUAL if same else Verdict.EXCEPTION, 0.0, words)
-    lower, upper = bounds_of(other)
-    room = SAME * abs(value) + NOTHING
-    if lower - room <= value <= upper + room:
-        narrow = relative(lower, upper) <= SAME
-        return Comparison(*names, Verdict.EQUAL if narrow else Verdict.MOVED, 0.0)
-    return Comparison(*names, Verdict.EXCEPTION, math.nan, f"{value:.9g} outside of {lower:.9g} to {upper:.9g}")
 
 
 def _bounds_apart(case: CaseResult, other: CaseResult, ratio: float) -> str:

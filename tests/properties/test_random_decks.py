@@ -112,9 +112,9 @@ def check_refusal(path: Path, run: Run) -> None:
 
 
 def associative_deck(seed: int) -> Tree:
-    """A random deck of the kind whose load factor is unique, with circular friction: polyhedra turn with frames."""
+    """A random deck of the kind whose load factor is unique."""
     deck = random_deck(seed)
-    analysis = deck["analysis"] | {"flow_rule": "associative", "accuracy": "standard", "friction_cone": "circular"}
+    analysis = deck["analysis"] | {"flow_rule": "associative", "accuracy": "standard"}
     return deck | {"analysis": analysis, "output": {"vtu": False}}
 
 

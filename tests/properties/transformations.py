@@ -108,10 +108,4 @@ TABLE = (
     Transformation(
         "convex contact model", F_, "conditions on resultants are added to those on points", alterations.convex_model
     ),
-    Transformation(
-        "friction octagons",
-        Relation.ENCLOSED,
-        "inscribed polyhedron, cone, circumscribed polyhedron",
-        alterations.polyhedra,
-    ),
 )

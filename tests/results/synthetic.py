@@ -258,7 +258,6 @@ def full_solution(solution: Solution) -> Solution:
         lower=replace(mechanics, load_factor=0.45),
         upper=replace(mechanics, load_factor=0.52),
         peak=replace(mechanics, load_factor=0.6),
-        outer=replace(mechanics, load_factor=0.56),
         level=replace(mechanics, load_factor=0.57),
         level_lock=np.arange(24.0, 48.0).reshape(8, 3),
         spread=(0.49, 0.51),
@@ -271,7 +270,6 @@ def full_solution(solution: Solution) -> Solution:
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         size=ModelSize(2, 1, 3, 2, 4, 4),
         reductions=(STEP,),
-        sides=8,
         solver="mbla",
     )
 

@@ -35,7 +35,6 @@ DECKS = {
     "incline_too_steep": "no equilibrium, certificate",
     "groove_locked": "unbounded, lock",
     "ferris_wall_1_slope": "load path",
-    "block_sliding_polyhedral": "polyhedral friction",
 }
 TYPES: dict[str, tuple[type, ...]] = {
     "integer": (int,),

@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
 
 def said(status: Status, after: int = 0) -> Callable[..., Any]:
-    """In the place of ``interior_point_solver``: every answer after the first few has this status."""
+    """In the place of ``cone_solver``: every answer after the first few has this status."""
     answers = [0]
 
     def make(cone_program: ConeProgram, settings: SolverSettings, log: Log, **others: bool) -> _Said:
-        return _Said(interior_point_solver(cone_program, settings, log, **others), status, after, answers)
+        return _Said(cone_solver(cone_program, settings, log, **others), status, after, answers)
 
     return make
 
@@ -27,7 +27,7 @@ def said(status: Status, after: int = 0) -> Callable[..., Any]:
 class _Said:
     """A solver that is not taken at its word; ``answers`` counts those of all programs together."""
 
-    solver: InteriorPointSolver
+    solver: ConeSolver
     status: Status
     after: int
     answers: list[int]

@@ -21,11 +21,16 @@ from mbla.solution.associative.proved_answer import (
 from mbla.solution.associative.repair import repaired_mechanisms
 from mbla.solution.cone_solvers.choice import cone_solver, sharpen
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Status
+from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.verification import case
 from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
-from tests.solution.associative.test_polyhedral import SETTINGS, ignored
+
+SETTINGS = SolverSettings(1e-8)
+
+
+def ignored(record: IterationRecord) -> None:
+    """A log that nobody reads."""
 
 
 @pytest.fixture(scope="module")

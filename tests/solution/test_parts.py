@@ -85,5 +85,5 @@ def test_without_a_load_nothing_is_carried() -> None:
 def test_without_an_answer_there_are_no_forces(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(BLOCK).program
     assert at_rest(program, 0.1, SETTINGS, lambda record: None) is not None
-    monkeypatch.setattr(standing, "interior_point_solver", said(Status.NUMERICAL_ERROR))
+    monkeypatch.setattr(standing, "cone_solver", said(Status.NUMERICAL_ERROR))
     assert at_rest(program, 0.1, SETTINGS, lambda record: None) is None

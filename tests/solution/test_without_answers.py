@@ -10,9 +10,8 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.solution.associative import repair
-from mbla.solution.associative.polyhedral import _claim
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import livesley, locking, schemes
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
@@ -113,17 +112,6 @@ def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: py
     assert solution.reason == "the time limit was reached"
 
 
-@pytest.mark.parametrize("sides", [4, 8])
-def test_livesleys_correction_takes_the_friction_polyhedron_that_is_asked_for(sides: int) -> None:
-    """An inscribed polygon has all of the friction at its corners, and cos(π/sides) of it between them."""
-    spatial = "reductions: false"
-    polyhedral = f"friction_cone: polyhedral, sides: {sides}, standing: false, {spatial}"
-    solution = solution_of(line_of(BLOCK, "parameters.h=0.5", f"analysis={{flow_rule: livesley, {polyhedral}}}"))
-    assert solution.mechanics is not None
-    assert "livesley" in {record.kind for record in solution.programs}
-    assert 0.5 * np.cos(np.pi / sides) - 1e-6 <= solution.mechanics.load_factor <= 0.5 + 1e-6
-
-
 def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
     line = line_of(BLOCK, PRESSED)
     assert solution_of(line).status is Status.UNBOUNDED
@@ -148,18 +136,6 @@ def test_ranges_of_forces_are_left_out_of_parts_of_which_nothing_is_known(monkey
     others = (line.contacts.bodies == 1).any(axis=1)
     assert others.sum() == 1
     assert np.isnan(ranges).all(axis=1).tolist() == others.tolist()
-
-
-@pytest.mark.parametrize("open_one", ["inner", "outer"])
-def test_a_polyhedron_that_was_not_decided_leaves_the_cone_undecided(open_one: str) -> None:
-    program = line_of(BLOCK).program
-    decided = solve_associative(program, SETTINGS, lambda record: None)
-    late = AssociativeResult(Status.TIME_LIMIT, None, None, "the time limit was reached", ())
-    pair = (late, decided) if open_one == "inner" else (decided, late)
-    result = _claim(8, *pair)
-    assert result.status is Status.TIME_LIMIT
-    assert result.state is None
-    assert result.reason == late.reason
 
 
 def test_states_that_miss_the_law_less_but_too_much_are_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:

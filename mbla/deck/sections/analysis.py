@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.quantities import Count, Integer, Quantity, Switch, Time
+from mbla.deck.quantities import Count, Quantity, Switch, Time
 from mbla.deck.section import Section, rule
 from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 from mbla.deck.suggestions import listed
@@ -47,18 +47,10 @@ class AnalysisSection(Section):
         "torsion as of uniform pressure on what an eccentric force leaves of the area. Joints with a compressive "
         "strength crush as stress blocks in both",
     )
-    friction_cone: Literal["circular", "polyhedral"] = Field(
-        "circular", description="circular; or polyhedral: linear programs with inscribed and circumscribed polyhedra"
-    )
-    sides: Annotated[int, Integer(ge=3, le=360)] = Field(
-        8,
-        description="of each friction polyhedron: within 1 - cos(pi/sides) of the cone, and exact along the tangents",
-    )
-    solver: Literal["auto", "mbla", "clarabel", "highs"] = Field(
+    solver: Literal["auto", "mbla", "clarabel"] = Field(
         "auto",
         description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
-        "convex; clarabel: any; highs: associative flow in planar structures or with polyhedral friction; auto: mbla "
-        "or clarabel by size, the results say which",
+        "convex; clarabel: any; auto: mbla or clarabel by size, the results say which",
     )
     scheme: Literal["auto", "published"] = Field(
         "auto",
@@ -122,24 +114,6 @@ class AnalysisSection(Section):
     time_limit: Time | None = Field(None, description="seconds for all load cases together")
 
 
-@rule(AnalysisSection)
-def linear_programs(analysis: AnalysisSection) -> Iterator[Finding]:
-    """Polyhedra and HiGHS go with flow rules whose programs are linear."""
-    normality = analysis.flow_rule in ("associative", "livesley")
-    for key, value, special, default in (
-        ("friction_cone", analysis.friction_cone, "polyhedral", "circular"),
-        ("solver", analysis.solver, "highs", "auto"),
-    ):
-        if value != special:
-            continue
-        if not normality:
-            words = f"applies to flow_rule: associative or livesley only ({analysis.flow_rule} here): use {default}"
-            yield Finding("key-of-another-choice", words, key)
-        elif analysis.contact_model != "concave":
-            words = f"applies to contact_model: concave only ({analysis.contact_model} here): use {default}"
-            yield Finding("key-of-another-choice", words, key)
-
-
 CONVEX_FLOW_RULES = ("associative", "non_associative")
 
 
@@ -183,13 +157,9 @@ def _by_exact_law(analysis: AnalysisSection) -> bool:
 
 
 APPLIES: Mapping[str, tuple[Applies, str]] = {
-    "sides": (lambda analysis: analysis.friction_cone == "polyhedral", "friction_cone: polyhedral"),
     "scheme": (_no_normality, "flow_rule: non_associative"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
-    "gap": (
-        lambda analysis: _concave(analysis) and analysis.friction_cone == "circular",
-        "contact_model: concave with friction_cone: circular",
-    ),
+    "gap": (_concave, "contact_model: concave"),
     "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with another scheme than published"),
     "search": (
         lambda analysis: _concave(analysis) and _by_exact_law(analysis),

@@ -124,9 +124,8 @@ class ReductionSwitches:
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
     """Switches for ``reduce_program``.
 
-    Mirror symmetry is not used with friction polyhedra, which are not symmetric themselves, so that one half of them
-    would be another law; nor for the range of forces, which is wider than that of symmetric forces. For that range the
-    points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
+    Mirror symmetry is not used for the range of forces, which is wider than that of symmetric forces. For that range
+    the points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
     """
-    half = analysis.friction_cone == "circular" and not analysis.force_ranges
-    return ReductionSwitches(analysis.reductions, mirror=half, points=not analysis.force_ranges)
+    whole = analysis.force_ranges
+    return ReductionSwitches(analysis.reductions, mirror=not whole, points=not whole)

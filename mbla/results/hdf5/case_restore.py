@@ -36,8 +36,6 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     }
     if answers["associative"] is None and get["flow_rule"] == "associative":
         answers["associative"] = answers["mechanics"]
-    if answers["outer"] is not None and answers["associative"] is None:
-        raise ValueError("a circumscribed polyhedron without an inscribed one")
     for name in ("flow_rule", "contact_model"):
         if get[name] not in _choices(name):
             raise ValueError(f"{name} of a load case")

@@ -71,7 +71,7 @@ def _factors(model: Model, case: CaseResult) -> list[str]:
         lines += entry("spread of several tries", " .. ".join(number(end) for end in solution.spread))
     if associative is not None and solution.flow_rule != "associative":
         lines += entry("load factor, associative", _beside(associative, own))
-    return lines + _bracket(case)
+    return lines
 
 
 def _angle(case: CaseResult) -> list[str]:
@@ -81,15 +81,6 @@ def _angle(case: CaseResult) -> list[str]:
     low, high = angle_bounds(case)
     lines = entry("angle", f"{digits(angle_of(case))} degrees")
     return lines + entry("angle, associative bounds", f"{digits(low)} .. {digits(high)} degrees")
-
-
-def _bracket(case: CaseResult) -> list[str]:
-    """Polyhedral friction: the factor with the inscribed and the circumscribed polyhedron."""
-    inner, outer = case.solution.associative, case.solution.outer
-    if inner is None or outer is None:
-        return []
-    words = f"{digits(outer.load_factor)}   ({case.solution.sides} sides; the cone lies between)"
-    return entry("inscribed polyhedron", digits(inner.load_factor)) + entry("circumscribed polyhedron", words)
 
 
 def _bounds(case: CaseResult) -> list[str]:
@@ -114,8 +105,6 @@ def residual_rows(case: CaseResult) -> list[list[str]]:
     found = {name: (getattr(checks, name), measure) for name, measure in RESIDUALS.items()}
     found["live_power"] = abs(checks.live_power - 1.0), "from 1"
     found["gap"] = checks.gap, "of the associative load factor"
-    if case.solution.outer is not None:  # the distance of polyhedra, no error
-        allowed = {name: most for name, most in allowed.items() if name != "gap"}
     rows = []
     for name, (value, measure) in found.items():
         if not np.isnan(value):

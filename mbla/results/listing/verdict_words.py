@@ -52,11 +52,6 @@ def verdict(model: Model, case: CaseResult) -> str:
         return _without_load_factor(model, case)
     value = _known_words(model, case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
-    outer = case.solution.outer
-    if outer is not None and not range_is_a_point((mechanics.load_factor, outer.load_factor)):
-        highest = load_factor_words(model, case.load_case, outer.load_factor)
-        known = "verified" if verified else "approximate"
-        return f"collapses between {value} and {highest}, with the inscribed and the circumscribed polyhedron, {known}"
     known = _with_extent(model, case, f"{value}, verified" if verified else f"about {value}, approximate")
     moves = "follows its support" if case.load_case.settlement is not None else "collapses"
     if np.isfinite(case.checks.peak_load_factor):

@@ -145,7 +145,6 @@ def case_json(scene: Scene) -> dict[str, Any]:
         **{each.quantity.name: _value(each, scene) for each in CASE_COLUMNS if "json" in each.files},
         "reaction": reaction_json(case),
         "best_iterate": _best_iterate(case),
-        "bracket": _bracket(solution, associative_of(case)),
         "powers": powers_json(model, case),
         "residuals": residuals_json(case.checks),
         "standing": _standing(model, solution),
@@ -188,14 +187,6 @@ def _best_iterate(case: CaseResult) -> dict[str, Any] | None:
     return {"load_factor": number(best.load_factor), "residuals": residuals_json(case.checks)}
 
 
-def _bracket(solution: Solution, associative: Mechanics | None) -> dict[str, float | int | None] | None:
-    """Polyhedral friction: associative factors with the inscribed and the circumscribed polyhedron."""
-    if solution.outer is None or associative is None:
-        return None
-    inner, outer = number(associative.load_factor), number(solution.outer.load_factor)
-    return {"inner": inner, "outer": outer, "sides": solution.sides}
-
-
 def _standing(model: Model, solution: Solution) -> dict[str, str | None] | None:
     standing = solution.standing
     if standing is None:
@@ -221,10 +212,10 @@ def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | Non
 
     u is scaled so that the live load of its own case has unit power; the right side then is its kinematic bound k, and
     Σ x_c p_c ≤ k a half-space that contains the safe domain. Positions of travelling loads and settlements have none;
-    None where there is no such mechanism, and for polyhedral friction, whose bounds belong to two of them.
+    None where there is no such mechanism.
     """
     associative = associative_of(case)
-    if associative is None or case.solution.outer is not None or case.load_case.settlement is not None:
+    if associative is None or case.load_case.settlement is not None:
         return None
     own = power(case.load_case.live_load, associative.mechanism)
     if not own > 0.0:

@@ -148,7 +148,6 @@ ANSWERS = {
     "lower": ("/lower", "the least for the mechanism found"),
     "upper": ("/upper", "the greatest for the mechanism found"),
     "peak": ("/peak", "the greatest of the load path, passed before the structure comes to rest"),
-    "outer": ("/outer", "with the circumscribed friction polyhedron"),
     "level": ("/level", "of the level table with the load across, by the associative flow rule"),
 }
 """answers of a solution: group below the load case, and whose forces and velocities they are"""

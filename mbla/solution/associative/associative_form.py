@@ -26,13 +26,11 @@ class AssociativeForm:
 
     program   : what its forces and velocities are those of
     row_units : (n_rows,) unit of each row of equilibrium in the kinematic form, in mean loads
-    exact     : false where a polyhedron stands for the friction cone: solutions prove nothing of the cone then
     """
 
     program: Program
     kinematic: KinematicForm
     row_units: FloatArray
-    exact: bool
 
     @property
     def cone_program(self) -> ConeProgram:
@@ -61,10 +59,9 @@ class AssociativeForm:
         return self.kinematic.velocities(solution.x) / self.row_units
 
 
-def associative_form(program: Program, facets: FloatArray | None = None) -> AssociativeForm:
-    """The program in velocities; ``facets``, (n_facets, components - 1), bound shear instead of cones."""
-    form = kinematic_form(program, program.limits, facets=facets)
-    return AssociativeForm(program, form, np.ones(len(program.dead_load)), facets is None or program.components == 2)
+def associative_form(program: Program) -> AssociativeForm:
+    """The program in velocities."""
+    return AssociativeForm(program, kinematic_form(program, program.limits), np.ones(len(program.dead_load)))
 
 
 def in_own_units(program: Program, forces: FloatArray) -> AssociativeForm | None:

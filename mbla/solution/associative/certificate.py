@@ -21,7 +21,7 @@ from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.program.program import Program
 from mbla.solution.associative.bounds import LOCKED_IN, dissipation
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE
@@ -58,7 +58,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
         quadratic=quadratic,
     )
     exact = replace(settings, tolerance=min(settings.tolerance, FALL_TOLERANCE))
-    solution = interior_point_solver(without_live_load, exact, log).solve(1, 0.0)
+    solution = cone_solver(without_live_load, exact, log).solve(1, 0.0)
     velocities = form.velocities(solution.x)
     largest = float(np.abs(velocities).max(initial=0.0))
     if solution.status not in WITH_VALUE or not largest > CARRIED_SHARE:

@@ -25,8 +25,8 @@ from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
 from mbla.program.static import PointMotion, StaticForm, fixed_mechanism_form
 from mbla.solution.associative.bounds import ZERO_FACTOR
-from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, is_linear
-from mbla.solution.cone_solvers.cone_solution import ConeSolver, Log
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
@@ -80,7 +80,7 @@ def force_ranges(
     sums = normal_sums(program, interface_of_point)
     form = fixed_mechanism_form(program, _trusted_motion(program, state))
     settings = replace(settings, tolerance=FORCE_SET_TOLERANCE, regularization=FORCE_SET_REGULARIZATION)
-    solver = _solver(_with_factor(form, state), settings, log)
+    solver = cone_solver(_with_factor(form, state), settings, log, has_inside=False)
     ranges = np.full((sums.shape[0], 2), np.nan)
     records: list[ProgramRecord] = []
     present = np.flatnonzero(np.diff(sums.indptr))
@@ -128,12 +128,6 @@ def _trusted_motion(program: Program, state: LawState) -> PointMotion:
         return motion
     none = np.zeros(program.n_points, dtype=bool)
     return PointMotion(none, none, none, np.zeros((program.n_points, program.components - 1)))
-
-
-def _solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
-    if settings.solver == "highs" and is_linear(cone_program):
-        return cone_solver(cone_program, settings, log)
-    return interior_point_solver(cone_program, settings, log, has_inside=False)
 
 
 def _with_factor(form: StaticForm, state: LawState) -> ConeProgram:

@@ -19,8 +19,7 @@ from mbla.solution.associative.associative_form import AssociativeForm, in_own_u
 from mbla.solution.associative.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
 from mbla.solution.cone_solvers.choice import cone_solver, other_method, sharpen
 from mbla.solution.cone_solvers.clarabel_adapter import regularization
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
@@ -108,8 +107,6 @@ class ProvedAnswer:
 def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnswer:
     """The program itself, solved until its bounds meet or no settings are left."""
     best = _answer(run, form, 1.0, run.settings)
-    if not form.exact:
-        return best
     methods = [run.settings.solver]
     if methods == ["auto"]:
         methods = [best.solution.solver]
@@ -153,7 +150,7 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
     settings = replace(settings, tolerance=_first_tolerance(run, settings))
     solver = cone_solver(form.cone_program if unit == 1.0 else form.in_units(unit), settings, run.log)
     answer, tolerance = _once(run, form, solver, unit), settings.tolerance
-    while form.exact and answer.solution.status is Status.SOLVED and _is_open(run, answer):
+    while answer.solution.status is Status.SOLVED and _is_open(run, answer):
         before, tolerance = (answer.distance, tolerance), max(FURTHER * tolerance, SHARPEST)
         if tolerance >= before[1] or not sharpen(solver, tolerance):
             break
@@ -174,7 +171,7 @@ def _first_tolerance(run: AssociativeRun, settings: SolverSettings) -> float:
 def _once(
     run: AssociativeRun,
     form: AssociativeForm,
-    solver: InteriorPointSolver | HighsProgram,
+    solver: ConeSolver,
     unit: float,
     before: ProvedAnswer | None = None,
 ) -> ProvedAnswer:
@@ -228,28 +225,20 @@ def proved_certificate(run: AssociativeRun, form: AssociativeForm, solution: Con
     if solution.status in WITH_VALUE and not solution.objective < 0.0:
         return None
     motion = form.velocities(solution)
-    if form.exact:
-        return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
-    return motion if says_it_falls(run, solution) else None
+    return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
 
 
 def solved_once(
     run: AssociativeRun,
     form: AssociativeForm,
-    solver: InteriorPointSolver | HighsProgram,
+    solver: ConeSolver,
     kind: str,
     unit: float,
     enough: float = 0.0,
 ) -> ConeSolution:
-    """Solve what is loaded and record it; ``unit`` times the objective is the load factor of the program.
-
-    Once only where the answer is judged by what it proves; with the fallbacks of the solver where it is believed.
-    """
+    """Solve what is loaded, once, and record it; ``unit`` times the objective is the load factor of the program."""
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
-    if not isinstance(solver, HighsProgram) and (form.exact or enough > 0.0):
-        solution = solver.solve_once(number, to_load_factor, enough)
-    else:
-        solution = solver.solve(number, to_load_factor)
+    solution = solver.solve_once(number, to_load_factor, enough)
     value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
     status = Status.SOLVED if enough > 0.0 and solution.status is Status.APPROXIMATE else solution.status
     run.records.append(replace(solution, status=status).record(number, kind, value))
@@ -265,12 +254,9 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
 
 
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
-    """Bounds that a solution proves; as it is where it is one of another law than that of the program."""
-    forces, velocities = form.forces(solution), form.velocities(solution)
-    if form.exact:
-        return certified_gap(form.program, LawState(forces, velocities, form.load_factor(solution), np.nan))
-    factor, gap = solution.objective, 0.0 if solution.status is Status.SOLVED else np.inf
-    return CertifiedGap(factor, factor, gap, forces, factor, velocities)
+    """Bounds that a solution proves."""
+    state = LawState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
+    return certified_gap(form.program, state)
 
 
 def _size(run: AssociativeRun, answer: ProvedAnswer) -> float:

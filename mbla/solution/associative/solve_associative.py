@@ -37,9 +37,8 @@ from mbla.solution.associative.proved_answer import (
     solved_once,
 )
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.cone_solvers.choice import cone_solver, interior_point_solver, other_method
+from mbla.solution.cone_solvers.choice import cone_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
@@ -85,13 +84,11 @@ def solve_associative(
     settings: SolverSettings,
     log: Log,
     *,
-    facets: FloatArray | None = None,
     first: int = 1,
     stress_free: bool = False,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
-    facets      : (n_facets, components - 1) directions that bound shear instead of the friction cone
     first       : number of its first program in the sequence of the load case
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
                   load reversed, which it mostly saves
@@ -101,9 +98,9 @@ def solve_associative(
     if falling.any():
         return _no_equilibrium(run, falling)
     rough = program.limits.friction > ROUGH
-    form = associative_form(program, facets)
+    form = associative_form(program)
     answer = solve_until_proved(run, form)
-    if form.exact and rough.any() and not is_decided(run, answer):
+    if rough.any() and not is_decided(run, answer):
         limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
         made = associative_form(replace(program, limits=limits))
         form = replace(made, program=program)  # proved is what holds of the true friction
@@ -112,7 +109,7 @@ def solve_associative(
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
-    if not (stress_free and form.exact) or settings.deadline is not None:
+    if not stress_free or settings.deadline is not None:
         return _with_dead_load(run, form, answer, proved=False)
     state = stress_free_state(program, settings)
     result = _with_dead_load(run, form, answer, proved=_proves(run, state))
@@ -165,7 +162,7 @@ def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettin
     """The program with the live load reversed, as far as it is needed, and whether it proves the dead load carried."""
     solver = cone_solver(form.reversed_program, settings, run.log)
     reverse, carried = None, False
-    for enough in (0.0,) if isinstance(solver, HighsProgram) else (ENOUGH, 0.0):
+    for enough in (ENOUGH, 0.0):
         if reverse is None or not (carried or reverse.status is Status.TIME_LIMIT):
             reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
             carried = _carried(run, form, reverse)
@@ -176,7 +173,7 @@ def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettin
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
     """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
     form = gravity_form(run.program)
-    solution = interior_point_solver(form.cone_program, settings, run.log).solve(run.first + len(run.records), 0.0)
+    solution = cone_solver(form.cone_program, settings, run.log).solve(run.first + len(run.records), 0.0)
     status, number = solution.status, run.first + len(run.records)
     run.records.append(solution.record(number, "gravity", np.nan))
     if status in WITH_VALUE:

@@ -3,7 +3,6 @@
 - ``mbla``: the interior-point method of :mod:`mbla.solution.cone_solvers.interior_point`, for programs of its shape
 - ``clarabel``: any program; those of other shapes, those whose admissible set has no inside, and those of which
   ``mbla`` comes to no answer, under ``mbla`` too
-- ``highs``: linear programs of the associative analysis, where the deck names it
 - ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation; else
   ``clarabel``
 
@@ -17,17 +16,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from mbla.arrays import FloatArray
-from mbla.errors import SolverError, UnfitSolverError
+from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram, condensed_size, fits
 from mbla.solution.linear_algebra import best_library
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 
-SOLVERS = ("auto", "mbla", "clarabel", "highs")
+SOLVERS = ("auto", "mbla", "clarabel")
 
 OWN_FROM = 1000
 """Rows of the condensed matrix from which ``auto`` takes the condensed method."""
@@ -36,26 +34,10 @@ FAST = "cholmod"
 """Factorisation with which programs of few iterations, those with a quadratic cost, are faster too."""
 
 
-def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> InteriorPointSolver | HighsProgram:
-    """The program held by ``settings.solver``.
-
-    Raises UnfitSolverError with the remedy where that cannot take it, SolverError where there is none of that name.
-    """
-    if settings.solver != "highs":
-        return interior_point_solver(cone_program, settings, log)
-    if cone_program.n_cones:
-        raise UnfitSolverError(
-            "solver-unfit",
-            f"analysis.solver = highs solves linear programs only, and this load case has {cone_program.n_cones} "
-            "friction cones because it is not planar: use friction_cone: polyhedral, or solver: auto",
-        )
-    return HighsProgram(cone_program, settings, log)
-
-
-def interior_point_solver(
+def cone_solver(
     cone_program: ConeProgram, settings: SolverSettings, log: Log, *, has_inside: bool = True
-) -> InteriorPointSolver:
-    """The program held by an interior-point method, for callers that need one; ``highs`` counts as ``auto`` here.
+) -> ConeSolver:
+    """The program held by ``settings.solver``.
 
     has_inside : false where the admissible set has none, forces that fit a given mechanism for example: the strong
                  regularisation of clarabel gets closer there
@@ -71,7 +53,7 @@ def interior_point_solver(
     return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
 
 
-def sharpen(solver: InteriorPointSolver | HighsProgram, tolerance: float) -> bool:
+def sharpen(solver: ConeSolver, tolerance: float) -> bool:
     """Let the next run of a program go on from its solution to a smaller tolerance; False where it cannot."""
     own = solver.first if isinstance(solver, _OneThenOther) else solver
     return isinstance(own, CondensedProgram) and own.sharpen(tolerance)
@@ -93,11 +75,6 @@ def _pays(cone_program: ConeProgram) -> bool:
 def other_method(solver: str) -> str:
     """The other one of the two interior-point methods."""
     return "mbla" if solver == "clarabel" else "clarabel"
-
-
-def is_linear(cone_program: ConeProgram) -> bool:
-    """Whether every solver can take the program."""
-    return cone_program.n_cones == 0 and cone_program.quadratic is None and not cone_program.further_cones
 
 
 @dataclass

@@ -88,10 +88,6 @@ class ConeSolver(Protocol):
         """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         ...
 
-
-class InteriorPointSolver(ConeSolver, Protocol):
-    """A solver whose iterates are inside the cones and can be had early."""
-
     @property
     def settings(self) -> SolverSettings:
         """Those of the next run."""

@@ -37,8 +37,8 @@ from mbla.arrays import FloatArray
 from mbla.program.kinematic import KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
@@ -73,14 +73,14 @@ class Alternation:
     given: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @cached_property
-    def _forces(self) -> tuple[KinematicForm, InteriorPointSolver]:
+    def _forces(self) -> tuple[KinematicForm, ConeSolver]:
         form = self.forces_form()
-        return form, interior_point_solver(form.cone_program, self.settings, self.log)
+        return form, cone_solver(form.cone_program, self.settings, self.log)
 
     @cached_property
-    def _motion(self) -> tuple[KinematicForm, InteriorPointSolver]:
+    def _motion(self) -> tuple[KinematicForm, ConeSolver]:
         form = self.motion_form()
-        return form, interior_point_solver(form.cone_program, self.settings, self.log)
+        return form, cone_solver(form.cone_program, self.settings, self.log)
 
     def forces_form(self) -> KinematicForm:
         """The associative program, whose dual variables are the forces."""
@@ -140,7 +140,7 @@ class Alternation:
         v = (self.program.equilibrium_matrix.T @ velocities).reshape(-1, self.program.components)
         return np.asarray((self.program.limits.friction - self.slope) * np.linalg.norm(v[:, 1:], axis=1))
 
-    def _solved(self, solver: InteriorPointSolver, kind: str) -> ConeSolution | None:
+    def _solved(self, solver: ConeSolver, kind: str) -> ConeSolution | None:
         number, live = len(self.records) + 1, self.program.scaling.live
         solution = solver.solve(number, live)
         self.work += solution.iterations

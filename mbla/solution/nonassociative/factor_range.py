@@ -19,8 +19,8 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.static import StaticForm, fixed_mechanism_form
-from mbla.solution.cone_solvers.choice import interior_point_solver
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.nonassociative.point_motion import point_motion
 from mbla.solution.settings import SolverSettings
@@ -79,12 +79,12 @@ def factor_range(
     for touching in TOUCHING:
         rest = max(touching, NOISE * state.residual)
         form = fixed_mechanism_form(program, point_motion(program, state, rest, slope))
-        solver: InteriorPointSolver | None = None
+        solver: ConeSolver | None = None
         for kind in tuple(search.pending):
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
             number = first_program + len(search.records)
             if solver is None or solver.settings != settings:  # one that fell back on easier settings keeps these
-                solver = interior_point_solver(cone_program, settings, log, has_inside=False)
+                solver = cone_solver(cone_program, settings, log, has_inside=False)
             else:
                 solver.update(cost=cone_program.cost)
             search.add(kind, form, solver.solve(number, SIGNS[kind] * program.scaling.live))

@@ -37,23 +37,16 @@ NO_LIMIT = 1e-9
 
 
 def solve_livesley(
-    program: Program,
-    associative: AssociativeResult,
-    settings: SolverSettings,
-    log: Log,
-    *,
-    facets: FloatArray | None = None,
+    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """The second program, from a solved associative one.
-
-    facets : (n_facets, components − 1) directions that bound shear in the associative program, None where cones did
 
     The state has the corrected mechanism, with the associative forces and load factor or with those of the second
     program, whichever fits the exact law better.
     """
     before = associative.state
     assert before is not None
-    form = kinematic_form(program, _prism(program.limits, before.forces[:, 0]), facets=facets)
+    form = kinematic_form(program, _prism(program.limits, before.forces[:, 0]))
     number, live = len(associative.programs) + 1, program.scaling.live
     solution = cone_solver(form.cone_program, settings, log).solve(number, live)
     valued = solution.status in WITH_VALUE
@@ -68,7 +61,7 @@ def solve_livesley(
     )
     state = min(candidates, key=lambda found: found.residual)
     status, reason = _claim(state)
-    remark = _remark(before.load_factor * live, solution.objective * live, change, state)
+    remark = _remark(before.load_factor * live, solution.objective * live, state)
     return SequenceResult(status, state, reason, records, remarks=(remark,))
 
 
@@ -85,16 +78,10 @@ def _claim(state: LawState) -> tuple[Status, str]:
     return (Status.APPROXIMATE if state.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED), reason
 
 
-def _remark(before: float, after: float, change: float, state: LawState) -> Message:
+def _remark(before: float, after: float, state: LawState) -> Message:
     figures = f"Livesley's correction changes the load factor from {before:.6g} to {after:.6g}"
     if state.residual <= SOLVED_RESIDUAL:
         return Message("livesley-confirms", f"{figures}: the associative forces bear a mechanism without dilatancy too")
-    if change <= SOLVED_RESIDUAL:
-        return Message(
-            "livesley-polyhedral",
-            f"{figures}: the associative forces bear a mechanism without dilatancy too, but by the law of the friction "
-            f"polyhedron, which violates that of the cone: residual {state.residual:.2g}; more sides come closer",
-        )
     return Message(
         "livesley-overstates",
         f"{figures}: no mechanism without dilatancy belongs to the associative forces found, so that the associative "

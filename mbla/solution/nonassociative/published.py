@@ -31,7 +31,7 @@ from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, broken_off, law_state
 from mbla.solution.settings import SolverSettings
@@ -66,7 +66,7 @@ def solve_published(
     slope = np.minimum(limits.friction, np.maximum(scheme.slope * limits.friction, dilatancy))
     normal = associative.state.forces[:, 0]
     form = kinematic_form(program, _fictitious(limits, slope, normal), reduce_dry=False)
-    solver = interior_point_solver(form.cone_program, settings, log)
+    solver = cone_solver(form.cone_program, settings, log)
 
     weight, best = scheme.averaging, None
     records, factors = list(associative.programs), [associative.state.load_factor]

@@ -10,9 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.errors import Message
-from mbla.program.kinematic import friction_polygon
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -76,10 +74,7 @@ def _dilatancy(program: Program, associative: AssociativeResult, settings: Solve
 def _livesley(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
     from mbla.solution.nonassociative.livesley import solve_livesley
 
-    facets: FloatArray | None = None
-    if settings.analysis.friction_cone == "polyhedral" and program.components == 3:
-        facets = friction_polygon(settings.analysis.sides, circumscribed=False)
-    return solve_livesley(program, associative, settings, log, facets=facets)
+    return solve_livesley(program, associative, settings, log)
 
 
 SCHEMES: Mapping[str, Scheme] = {"auto": _default, "published": _published}

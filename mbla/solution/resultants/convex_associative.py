@@ -18,7 +18,7 @@ from mbla.program.kinematic import KinematicForm
 from mbla.program.resultants import ConvexProgram, convex_form
 from mbla.program.resultants.assemble import near_crushing
 from mbla.program.resultants.crushing import crushing_violation
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.resultants.convex_repair import repaired_convex_forces
@@ -107,7 +107,7 @@ class _Run:
         own = form.cone_program if units is None else in_units(form.cone_program, units)
         program = replace(own, rhs=sense * own.rhs)
         number, live = len(self.records) + 1, sense * convex.points.scaling.live
-        solution = interior_point_solver(program, self.settings, self.log).solve(number, live)
+        solution = cone_solver(program, self.settings, self.log).solve(number, live)
         value = solution.objective * live if solution.status in WITH_VALUE else np.nan
         kind = "associative" if sense > 0 else "reverse"
         self.records.append(solution.record(number, kind, value))

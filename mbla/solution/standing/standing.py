@@ -20,7 +20,7 @@ from mbla.process.sharing import shared
 from mbla.process.stopwatch import timed
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import forces_of, motion_of
 from mbla.solution.settings import SolverSettings
@@ -121,7 +121,7 @@ def least_forces(
 ) -> FloatArray | ConeSolution:
     """The least forces that carry the dead load, (n_points, components), or the solver's verdict; a line of records."""
     form, number = gravity_form(program), 0 if records is None else len(records) + 1
-    solution = interior_point_solver(form.cone_program, settings, log).solve(number, 0.0)
+    solution = cone_solver(form.cone_program, settings, log).solve(number, 0.0)
     if records is not None:
         records.append(solution.record(number, "gravity", np.nan))
     return form.forces(solution.x) if solution.status in WITH_VALUE else solution

@@ -61,19 +61,13 @@ class Residuals:
         return float(np.max(parts))  # tension and slip are parts of others
 
 
-def residuals_of(
-    case: Case, mechanics: Mechanics, dilatancy: FloatArray, polygon: FloatArray | None = None
-) -> Residuals:
-    """Residuals under a flow rule with the given dilatancy (tangent), (n_points,).
-
-    polygon : (n, 2) corners that bound the shear of a unit circle; the speed against which sliding dissipates is then
-              s = max g·v_T over the corners g
-    """
+def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Residuals:
+    """Residuals under a flow rule with the given dilatancy (tangent), (n_points,)."""
     limits, scale, contacts, free = case.limits, case.scale, case.contacts, case.model.free
     x, factor, (u, motions) = mechanics.contact_forces, mechanics.load_factor, case.motion_of(mechanics)
     moved, (by_interfaces, by_crushing) = case.velocities(u), case.interface_velocities(motions)
     v, interfaces = moved - by_interfaces, case.interface_terms(mechanics)
-    sliding = np.hypot(v[:, 1], v[:, 2]) if polygon is None else (v[:, 1:] @ polygon.T).max(axis=1)
+    sliding = np.hypot(v[:, 1], v[:, 2])
     speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
     closing = np.where(np.isinf(limits.compression), np.maximum(by_crushing[:, 0] - moved[:, 0], 0.0), 0.0)
     dead_power, live_power = case.powers(u)

@@ -1,7 +1,6 @@
 """Verification of one load case: each claim of a solution is recomputed by the file that knows it.
 
 - ``verify_points``: residuals of forces and mechanism, bounds of the associative load factor, certificates;
-- ``verify_polyhedral``: the bracket of friction polyhedra, each by its own law;
 - ``verify_convex``: the first with conditions on the resultants of interfaces;
 - ``further_claims``: standing, lock, range, peak, the angle of a tilting table.
 """
@@ -32,7 +31,6 @@ from mbla.solution.verification.further_claims import (
 from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.verify_convex import InterfaceCase, convex_lock_failures, point_limits, verify_convex
 from mbla.solution.verification.verify_points import verify_points
-from mbla.solution.verification.verify_polyhedral import verify_polyhedral
 
 NOT_SHOWN = Message("standing-not-proved", "nothing is given that shows that it stands under the dead load alone")
 SHOWN = Message(
@@ -69,9 +67,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
 
 def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """The same where every block is a solid."""
-    of_mechanics = verify_points if solution.outer is None else verify_polyhedral
-    if solution.conditions_on_interfaces:
-        of_mechanics = verify_convex
+    of_mechanics = verify_convex if solution.conditions_on_interfaces else verify_points
     checks = of_mechanics(model, contacts, load_case, solution)
     failures = (
         *_fall_failures(solution),
@@ -96,7 +92,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
 def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
     """By how much forces and mechanism of a part of a solution miss the joint law at most, by the rule of that part.
 
-    Friction polyhedra are measured by the circle. NaN where nothing moves.
+    NaN where nothing moves.
     """
     solids = solids_of(model, contacts)
     of_solids, _ = solution_on_solids(solution, solids)

@@ -4,9 +4,7 @@ No solver is asked and no matrix of the program stage is used for a verdict: for
 velocities taken from rigid-body motion directly (``statics``). What the residuals are is said in
 :mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.associative.proofs`.
 
-What may be claimed follows from the figures alone, by the limits of :mod:`mbla.solution.thresholds`. Friction polyhedra
-(``verify_polyhedral``) prove a bracket of the true cone: the case is solved where that is no wider than 1e-5, else
-approximate.
+What may be claimed follows from the figures alone, by the limits of :mod:`mbla.solution.thresholds`.
 """
 
 from __future__ import annotations
@@ -109,9 +107,8 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
         if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED
         return solution.status
-    brackets = solution.outer is not None and solution.flow_rule == "associative"
     if checks.verified and solution.status is Status.SOLVED:
-        return Status.SOLVED if not brackets or checks.gap <= GAP_TOLERANCE else Status.APPROXIMATE
+        return Status.SOLVED
     measures = [
         checks.equilibrium_residual,
         checks.yield_violation,
@@ -120,7 +117,7 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
         checks.power_balance,
         abs(checks.live_power - 1.0),
     ]
-    if solution.flow_rule == "associative" and solution.outer is None:  # polyhedra lie apart, however well solved
+    if solution.flow_rule == "associative":
         measures.append(checks.gap)
     elif _above(solution, checks.kinematic_bound, APPROXIMATE_RESIDUAL * abs(checks.kinematic_bound)):
         return Status.NOT_VERIFIED
@@ -168,7 +165,7 @@ def tolerances(flow_rule: str) -> dict[str, float]:
 
 def failures_of(residuals: Residuals, solution: Solution, bounds: Bounds) -> tuple[Message, ...]:
     """What is not within tolerance."""
-    failures = residual_failures(residuals, solution.flow_rule)
+    failures = _residual_failures(residuals, solution.flow_rule)
     if solution.flow_rule == "associative":
         failures += _bound_failures(solution, bounds)
     elif _above(solution, bounds.kinematic, SOLVED_RESIDUAL * bounds.size):
@@ -181,8 +178,8 @@ def failures_of(residuals: Residuals, solution: Solution, bounds: Bounds) -> tup
     return tuple(failures)
 
 
-def residual_failures(residuals: Residuals, flow_rule: str, of: str = "") -> list[Message]:
-    """Residuals that exceed what the flow rule allows; ``of`` goes before each."""
+def _residual_failures(residuals: Residuals, flow_rule: str) -> list[Message]:
+    """Residuals that exceed what the flow rule allows."""
     allowed = tolerances(flow_rule)
     limits = (
         ("equilibrium-residual", "equilibrium residual", residuals.equilibrium, allowed["equilibrium_residual"]),
@@ -203,7 +200,7 @@ def residual_failures(residuals: Residuals, flow_rule: str, of: str = "") -> lis
         ),
     )
     return [
-        Message(identifier, f"{of}{name} {value:.2g} exceeds {limit:g}")
+        Message(identifier, f"{name} {value:.2g} exceeds {limit:g}")
         for identifier, name, value, limit in limits
         if not value <= limit
     ]

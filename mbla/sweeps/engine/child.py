@@ -41,7 +41,7 @@ from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_
 from mbla.sweeps.results import reason_of, result_places, values_of
 
 STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
-LATE = ("clarabel", "qdldl", "highspy", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
+LATE = ("clarabel", "qdldl", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
 """libraries that the stages import when they need them; some are optional"""
 IDLE = 60.0
 """seconds without a task after which it ends: whoever asked a worker of a cluster is gone"""

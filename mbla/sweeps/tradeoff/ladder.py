@@ -1,11 +1,11 @@
-"""The settings under which a deck is run: presets, tolerances, solvers, polyhedra, schemes, other models; or what a
-user names.
+"""The settings under which a deck is run: presets, tolerances, solvers, schemes, other models; or what a user
+names.
 
 ``--knob analysis.tolerance=1e-6,1e-8`` is one setting for each value; several knobs make every combination of theirs.
 ``--setting 'NAME: analysis.accuracy=draft analysis.solver=clarabel'`` is one setting under a name of its own.
 
 Settings that solve the same model differ by an error; another flow rule or contact model, and anything outside of the
-analysis section, is another model, whose difference is no error. Friction polyhedra stand for the cone: the same model.
+analysis section, is another model, whose difference is no error.
 """
 
 from __future__ import annotations
@@ -30,11 +30,7 @@ REFERENCE = "accuracy: reference"
 LADDER: tuple[tuple[str, Mapping[str, Plain]], ...] = (
     ("the deck's own settings", {}),
     *((f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in ("1e-4", "1e-6", "1e-8", "1e-10")),
-    *((f"solver: {name}", {"analysis.solver": name}) for name in ("mbla", "clarabel", "highs")),
-    *(
-        (f"polyhedron: {sides} sides", {"analysis.friction_cone": "polyhedral", "analysis.sides": sides})
-        for sides in (4, 8, 16, 32)
-    ),
+    *((f"solver: {name}", {"analysis.solver": name}) for name in ("mbla", "clarabel")),
     ("scheme: published", {"analysis.scheme": "published"}),
     *((f"points per edge: {number}", {"contacts.points.per_edge": number}) for number in (2, 3)),
     ("contact_model: convex", {"analysis.contact_model": "convex"}),
@@ -89,10 +85,8 @@ def ladder_of(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[R
 
 
 def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
-    """One word, free of the knobs that the deck sets by itself; the reference with the true friction cone."""
+    """One word, free of the knobs that the deck sets by itself."""
     own: dict[str, Plain] = {"accuracy": word}
-    if word == "reference" and deck.analysis.friction_cone == "polyhedral":
-        own |= {"friction_cone": "circular"} | ({"solver": "auto"} if deck.analysis.solver == "highs" else {})
     without = given_knobs(deck, fixed)
     if not without:
         return Rung(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})

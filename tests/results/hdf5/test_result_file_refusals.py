@@ -67,7 +67,7 @@ def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
     with changing(path) as file:
         file.attrs["version"] = 1
     words = refused(path)
-    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 7" in words
+    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 8" in words
     assert "run the deck again" in words
 
 
@@ -137,7 +137,7 @@ def test_reductions_have_known_names(tmp_path: Path) -> None:
     ("spoil", "words"),
     [
         (lambda p: remove(p, "cases/push_x/lower/modes"), "incomplete: push_x: lower"),
-        (lambda p: remove(p, "cases/push_x/outer/load_factor"), "incomplete: push_x: outer"),
+        (lambda p: remove(p, "cases/push_x/upper/load_factor"), "incomplete: push_x: upper"),
         (lambda p: remove(p, "cases/push_x/standing/falls"), "incomplete: push_x: standing"),
         (lambda p: remove(p, "cases/push_x/size/parts"), "incomplete: push_x: size"),
         (lambda p: change(p, "cases/push_x/size/dimension", 4), "dimension of the model"),

@@ -115,7 +115,6 @@ def test_every_answer_is_in_the_record() -> None:
     assert case["range"] == [0.45, 0.52]
     assert case["factor_unique"] is False
     assert case["spread"] == [0.49, 0.51]
-    assert case["bracket"] == {"inner": 0.55, "outer": 0.56, "sides": 8}
     assert case["standing"] == {"verdict": "doubtful", "block": "tower[0]", "reason": "no plateau"}
     assert case["remarks"] == ["the factor is the peak of the path", "one more"]
     assert (case["tension_violation"], case["slip_residual"]) == (1e-9, 2e-9)

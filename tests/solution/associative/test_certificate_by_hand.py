@@ -50,7 +50,7 @@ def fall_of(
         assert program.cost[:12].tolist() == (-PROGRAM.dead_load + 0.25 * np.eye(12)[0]).tolist()
         return SimpleNamespace(solve=solve)
 
-    monkeypatch.setattr("mbla.solution.associative.certificate.interior_point_solver", solver)
+    monkeypatch.setattr("mbla.solution.associative.certificate.cone_solver", solver)
     found = steepest_fall(PROGRAM, SETTINGS, lambda record: None)
     assert asked == [(1, 0.0)]  # the first program, without a load factor to be told
     return found

@@ -83,13 +83,6 @@ def test_a_beam_on_three_piers(planar: bool) -> None:
     np.testing.assert_allclose(ranges[[0, 2], 0], 0.0, atol=2e-6 * total)
 
 
-def test_highs_gives_the_same_in_a_plane() -> None:
-    line = line_of(BEAM)
-    program = program_of(line, planar=True)
-    by_highs = found(line, program, replace(SETTINGS, solver="highs"))
-    np.testing.assert_allclose(by_highs.ranges, found(line, program).ranges, atol=1e-5)
-
-
 def test_the_planar_program_has_the_ranges_of_the_spatial_one() -> None:
     line = line_of(WALL, "parameters.n=3")
     ranges = found(line, program_of(line, planar=False)).ranges

@@ -13,7 +13,7 @@ from mbla.solution.associative import solve_associative as associative
 from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.associative.proved_answer import AssociativeRun
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -41,7 +41,7 @@ def result_of(program: Program, settings: SolverSettings = SETTINGS) -> Associat
 def answer(program: Program, status: Status) -> ConeSolution:
     """The answer of the program of a load case with another status."""
     form = associative_form(program)
-    solution = interior_point_solver(form.cone_program, SETTINGS, lambda record: None).solve(1, 1.0)
+    solution = cone_solver(form.cone_program, SETTINGS, lambda record: None).solve(1, 1.0)
     return replace(solution, status=status, solver_status=f"said {status}")
 
 
@@ -117,7 +117,7 @@ def test_where_no_solver_says_whether_it_falls_nothing_is_claimed(monkeypatch: p
     run = AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
     monkeypatch.setattr(associative, "falling_motion", lambda *arguments: None)
     assert associative._locked_both_ways(run, SETTINGS).status is Status.NOT_VERIFIED
-    monkeypatch.setattr(associative, "interior_point_solver", said(Status.TIME_LIMIT))
+    monkeypatch.setattr(associative, "cone_solver", said(Status.TIME_LIMIT))
     result = associative._locked_both_ways(run, SETTINGS)
     assert result.status is Status.TIME_LIMIT
     assert result.certificate is None

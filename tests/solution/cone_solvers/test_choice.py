@@ -12,11 +12,10 @@ import pytest
 from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram
 from mbla.solution.associative.associative_form import associative_form
-from mbla.solution.cone_solvers import choice as cone_solver
-from mbla.solution.cone_solvers import clarabel_adapter
-from mbla.solution.cone_solvers.choice import interior_point_solver
+from mbla.solution.cone_solvers import choice, clarabel_adapter
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, InteriorPointSolver, Log
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -36,10 +35,10 @@ def silent(record: object) -> None:
 
 
 @pytest.fixture
-def either(monkeypatch: pytest.MonkeyPatch) -> Callable[[ConeProgram, Log], InteriorPointSolver]:
+def either(monkeypatch: pytest.MonkeyPatch) -> Callable[[ConeProgram, Log], ConeSolver]:
     """Small programs are given to the condensed method first as well."""
-    monkeypatch.setattr(cone_solver, "OWN_FROM", 0)
-    return lambda program, log: interior_point_solver(program, SETTINGS, log)
+    monkeypatch.setattr(choice, "OWN_FROM", 0)
+    return lambda program, log: cone_solver(program, SETTINGS, log)
 
 
 def broken(solve: Callable[..., ConeSolution]) -> Callable[..., ConeSolution]:
@@ -50,7 +49,7 @@ def broken(solve: Callable[..., ConeSolution]) -> Callable[..., ConeSolution]:
 
 
 def test_one_method_after_the_other_is_told_of_changes(
-    either: Callable[[ConeProgram, Log], InteriorPointSolver],
+    either: Callable[[ConeProgram, Log], ConeSolver],
 ) -> None:
     """Twice the cost is twice the load factor, whether or not the program was solved before."""
     program, live = sliding()
@@ -66,7 +65,7 @@ def test_one_method_after_the_other_is_told_of_changes(
 
 
 def test_clarabel_steps_in_where_the_condensed_method_breaks_down(
-    either: Callable[[ConeProgram, Log], InteriorPointSolver], monkeypatch: pytest.MonkeyPatch
+    either: Callable[[ConeProgram, Log], ConeSolver], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     program, live = sliding()
     monkeypatch.setattr(CondensedProgram, "solve", broken(CondensedProgram.solve))

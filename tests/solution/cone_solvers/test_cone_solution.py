@@ -20,7 +20,6 @@ SETTINGS = SolverSettings(tolerance=1e-9)
     ("settings", "solver", "factorization"),
     [
         (replace(SETTINGS, solver="clarabel"), "clarabel", "qdldl"),
-        (replace(SETTINGS, solver="highs"), "highs", ""),
         *((replace(SETTINGS, solver="mbla", cholesky=library), "mbla", library) for library in installed()),
     ],
 )

@@ -377,7 +377,7 @@ def test_without_a_gravity_state_the_scheme_does_not_begin(
     program = line_of(BLOCK).program
     associative = solve_associative(program, SETTINGS, lambda record: None)
     undecided = replace(associative, stress_free=Weakening(Outcome.UNDECIDED, None, np.nan, ""))
-    monkeypatch.setattr(standing, "interior_point_solver", said(said_to_be))
+    monkeypatch.setattr(standing, "cone_solver", said(said_to_be))
     result = solve_by_default(program, undecided, np.zeros(program.n_points), SETTINGS, lambda record: None)
     assert result.status is status
     assert result.state is None
@@ -386,7 +386,7 @@ def test_without_a_gravity_state_the_scheme_does_not_begin(
 
 def test_programs_without_a_solution_leave_no_state(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(BLOCK, "parameters.h=0.5").program
-    monkeypatch.setattr("mbla.solution.nonassociative.alternation.interior_point_solver", said(Status.NUMERICAL_ERROR))
+    monkeypatch.setattr("mbla.solution.nonassociative.alternation.cone_solver", said(Status.NUMERICAL_ERROR))
     scheme = _Scheme(program, np.zeros(program.n_points), SETTINGS, lambda record: None, [])
     scheme.approach(np.ones(program.n_points))
     assert scheme.answer is None

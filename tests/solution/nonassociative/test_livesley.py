@@ -9,7 +9,6 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import Program, assemble
-from mbla.program.kinematic import friction_polygon
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.nonassociative.law_state import SequenceResult
@@ -84,18 +83,6 @@ def test_walls(wall: str, before: float, after: float, status: Status) -> None:
     assert result.programs[-1].load_factor == pytest.approx(after, abs=2e-5)
     assert result.state is not None
     assert (result.state.residual < 1e-6) == (status is Status.SOLVED)
-
-
-def test_with_a_polyhedron_the_prism_is_its_prism() -> None:
-    program = line_of(BLOCK, "parameters.h=0.5", "load_cases.push.live=[{acceleration: [0.8, 0.6, 0]}]").program
-    facets = friction_polygon(8, circumscribed=False)
-    associative = solve_associative(program, SETTINGS, ignored, facets=facets)
-    for solver in ("clarabel", "highs"):
-        result = solve_livesley(program, associative, replace(SETTINGS, solver=solver), ignored, facets=facets)
-        assert result.programs[-1].load_factor == pytest.approx(result.programs[0].load_factor, rel=1e-6)
-        assert result.state is not None
-        assert 0.01 < result.state.residual <= 1 - math.cos(math.pi / 8) + 1e-6  # against the true cone
-        assert result.remarks[0].identifier == "livesley-polyhedral"
 
 
 def test_a_correction_without_a_solution_has_no_state() -> None:

@@ -100,7 +100,7 @@ def test_a_program_without_a_solution_breaks_the_sequence_off(
 ) -> None:
     """What it says is true of the joints made up for it only; the best state so far is kept."""
     program = line_of(WALL, "parameters.n=4").program
-    monkeypatch.setattr(published, "interior_point_solver", said(said_to_be, after))
+    monkeypatch.setattr(published, "cone_solver", said(said_to_be, after))
     result = sequence(program)
     assert result.status is status
     assert f"program {len(result.programs)} of the sequence" in result.reason
@@ -113,7 +113,7 @@ def test_programs_short_of_their_tolerance_settle_nothing(monkeypatch: pytest.Mo
     """The load factor of a sliding block is right from the first program on."""
     program = line_of(BLOCK, "parameters.h=0.5").program
     assert sequence(program).status is Status.SOLVED
-    monkeypatch.setattr(published, "interior_point_solver", said(Status.APPROXIMATE))
+    monkeypatch.setattr(published, "cone_solver", said(Status.APPROXIMATE))
     result = sequence(program)
     assert result.status is Status.APPROXIMATE
     assert result.reason.startswith("its programs end short of the solver's tolerance (clarabel: said approximate); ")

@@ -49,7 +49,7 @@ def test_a_program_without_a_solution_ends_the_scheme(
     """
     monkeypatch.setattr(convex_alternation, "EXACT", 0.0)
     monkeypatch.setattr(convex_alternation, "EXACT_RESIDUAL", 0.0)
-    monkeypatch.setattr(alternation, "interior_point_solver", said(said_to_be, after))
+    monkeypatch.setattr(alternation, "cone_solver", said(said_to_be, after))
     result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
     assert result.status is status
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason

@@ -223,17 +223,6 @@ def test_sliding_across_the_friction(dry: Line) -> None:
     only(of_block(dry, (8, 0, -4), SLIDES, 2.0), slip=1.0, complementarity=1.0, equilibrium=16 / 32)
 
 
-@pytest.mark.parametrize(
-    ("motion", "speed"), [((0.125, 0.0), 0.125), ((0.125, 0.0625), 0.1875), ((0.125, -0.25), 0.375)]
-)
-def test_a_polygon_has_its_own_speed(motion: tuple[float, float], speed: float, dry: Line) -> None:
-    """A square with its corners at (±1, ±1): the speed is |v1| + |v2|."""
-    square = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
-    found = of_block(dry, (8, -4, 0), (*motion, 0, 0, 0, 0), 2.0, polygon=square)
-    # friction (c + mu N) s against what the forces do: 16 · 0.125
-    assert found["slip"] == pytest.approx((16 * speed - 2.0) / (16 * speed), abs=1e-13)
-
-
 def test_dilatancy_opens(dry: Line) -> None:
     """Opening by a quarter of the sliding, as the rule says: the weight takes 1 of the 2 that the friction does."""
     found = of_block(dry, (8, -4, 0), (0.125, 0, 0.03125, 0, 0, 0), 2.0, dilatancy=0.25)

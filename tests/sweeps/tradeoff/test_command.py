@@ -97,7 +97,7 @@ def test_record_files_and_words(written: Written) -> None:
     assert written.status == written.printed["exit_code"] == 0
     record = written.printed["tradeoff"]
     (told,) = [each for each in record["settings"] if each["name"] == "path"]
-    assert told["unfit"] == "must be auto, mbla, clarabel or highs"
+    assert told["unfit"] == "must be auto, mbla or clarabel"
     assert "path: must be auto" in written.words
     assert [case["name"] for case in record["cases"]] == ["lift", "push"]
     assert {case["reference"] for case in record["cases"]} == {"accuracy: reference"}

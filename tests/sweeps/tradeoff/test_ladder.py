@@ -9,7 +9,6 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.errors import UsageError
-from mbla.sweeps.plan import Plain
 from mbla.sweeps.tradeoff.ladder import Rung, given_knobs, ladder_of, named_rungs
 from tests.line import BLOCK
 
@@ -19,27 +18,6 @@ def path(tmp_path: Path) -> Path:
     path = tmp_path / "block.yaml"
     path.write_text(BLOCK, encoding="utf-8")
     return path
-
-
-@pytest.mark.parametrize(
-    ("overrides", "added"),
-    [
-        ((), {}),
-        (("analysis.friction_cone=polyhedral",), {"analysis.friction_cone": "circular"}),
-        (
-            ("analysis.friction_cone=polyhedral", "analysis.solver=highs"),
-            {"analysis.friction_cone": "circular", "analysis.solver": "auto"},
-        ),
-    ],
-)
-def test_the_reference_has_the_true_friction_cone(
-    path: Path, overrides: tuple[str, ...], added: dict[str, Plain]
-) -> None:
-    """And a solver that takes it."""
-    reference, draft = ladder_of(read_deck(path, overrides), overrides, [Rung("accuracy: draft")])
-    assert reference.name == "accuracy: reference"
-    assert reference.settings == {"analysis.accuracy": "reference", **added}
-    assert draft == Rung("accuracy: draft")
 
 
 def test_presets_are_free_of_the_knobs_that_the_deck_sets_by_itself(path: Path) -> None:
@@ -59,7 +37,7 @@ def test_what_does_not_apply_is_the_same_or_is_another_model(path: Path) -> None
         Rung("points", {"contacts.points.per_edge": 3}),
     ]
     found = ladder_of(read_deck(path), (), rungs)[1:]
-    assert [rung.unfit for rung in found] == ["", "must be auto, mbla, clarabel or highs", "the same as own", ""]
+    assert [rung.unfit for rung in found] == ["", "must be auto, mbla or clarabel", "the same as own", ""]
     assert [rung.model for rung in found] == ["", "", "", "contacts"]
 
 

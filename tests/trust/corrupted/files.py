@@ -53,7 +53,6 @@ FORGED: dict[str, tuple[str, ...]] = {
     "beam_on_three_supports": (),
     "torque_convex": (),
     "eccentric_compression_convex": (),
-    "block_sliding_polyhedral": (),
     "beam_under_travelling_load": ("load_cases.crane.live.0.travel.positions=4",),
     "bar_between_walls": (),
     "incline_too_steep": (),

@@ -29,6 +29,7 @@ from mbla.deck.text import reader, sources
 from mbla.deck.text.include import confined
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model, geometry
+from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.notebook import run
@@ -38,10 +39,10 @@ from mbla.results.series import Series
 from mbla.results.tables.tables import tables_of
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
-from mbla.solution.cone_solvers.highs_adapter import HighsProgram
 from mbla.solution.linear_algebra.cholesky import factorization
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import IterationRecord
 from mbla.sweeps.engine import child
 from mbla.sweeps.engine.cluster import Connection
 from mbla.sweeps.engine.engine import EngineOptions, check_options
@@ -49,9 +50,10 @@ from mbla.sweeps.engine.supervised import SupervisedRunner
 from mbla.sweeps.journal import Journal, open_journal
 from mbla.sweeps.pictures.plot import SweepPictures, plot_sweep
 from tests.deck.decks import BLOCK, changed, write
+from tests.line import BLOCK as LINE
+from tests.line import line_of
 from tests.results.changed_files import changing
 from tests.results.synthetic import tower_results
-from tests.solution.cone_solvers.test_highs_adapter import ignored, linear_program
 from tests.sweeps.journal.points import HEADER, other_header
 from tests.sweeps.pictures.hand_made import grid
 from tests.sweeps.small_plan import plan_over
@@ -281,30 +283,29 @@ def table_that_is_empty(folder: Path, patch: Patch) -> object:
 # --- solvers --------------------------------------------------------------------------------------------------------
 
 
+def cone_program() -> ConeProgram:
+    program = line_of(LINE).program
+    return kinematic_form(program, program.limits).cone_program
+
+
+def ignored(record: IterationRecord) -> None:
+    """A log that nobody reads."""
+
+
 @brings("solver-status")
 def status_of_another_version(folder: Path, patch: Patch) -> object:
-    patch.setattr("mbla.solution.cone_solvers.highs_adapter.STATUS_MAP", {})
-    return HighsProgram(linear_program(), SolverSettings(1e-8), ignored).solve(1, 1.0)
-
-
-@brings("solver-unfit")
-def quadratic_program_for_highs(folder: Path, patch: Patch) -> object:
-    return HighsProgram(replace(linear_program(), quadratic=np.ones(162)), SolverSettings(1e-8), ignored)
+    patch.setattr("mbla.solution.cone_solvers.clarabel_adapter.STATUS_MAP", {})
+    return ClarabelProgram(cone_program(), SolverSettings(1e-8), ignored).solve(1, 1.0)
 
 
 @brings("unknown-solver")
 def solver_that_is_none(folder: Path, patch: Patch) -> object:
-    return cone_solver(linear_program(), SolverSettings(1e-8, solver="simplex"), ignored)
-
-
-@brings("solver-option")
-def limit_below_zero(folder: Path, patch: Patch) -> object:
-    return HighsProgram(linear_program(), SolverSettings(1e-8, max_iterations=-5), ignored).solve(1, 1.0)
+    return cone_solver(cone_program(), SolverSettings(1e-8, solver="simplex"), ignored)
 
 
 @brings("program-not-finite")
 def program_with_an_infinite_cost(folder: Path, patch: Patch) -> object:
-    program = linear_program()
+    program = cone_program()
     return ClarabelProgram(
         replace(program, cost=np.full_like(program.cost, np.inf)), SolverSettings(1e-8), ignored
     ).solve(1, 1.0)
