@@ -103,6 +103,14 @@ def test_outline_that_would_cross_itself_keeps_its_corners(neck: float) -> None:
     assert areas_and_centroids(corners)[0] == pytest.approx([2.0], abs=1e-3)
 
 
+def test_outline_that_would_cross_itself_without_collinear_corners_keeps_even_those() -> None:
+    """A tip from above reaches by a hair into a dent in the side below it."""
+    tip, dent = [1, 1 - 1e-11], [1, 1 - 2e-11]
+    outline: Outline = [[0, 0], [0.5, 0], [3, 0], [3, 3], [1, 3], tip, [2, 2], [2, 1], dent, [0, 1]]
+    assert len(needed_corners(polygons(outline), 1e-3).points) == len(outline)
+    assert len(needed_corners(polygons([*outline[:5], [1, 1.5], *outline[6:]]), 1e-3).points) == len(outline) - 2
+
+
 # Facets of a block whose top is cut into faces of unequal size, near and far from the origin.
 
 

@@ -1,8 +1,10 @@
 """Contact points: the corners of a common surface that are needed to describe it.
 
 Clipping leaves duplicates, corners in the middle of an edge and, where outlines miss each other by rounding, tiny
-steps. What lies within the tolerance of the outline without it goes (Douglas and Peucker 1973,
-doi:10.3138/FM57-6770-U75U-7727, without making an outline cross itself). Corners that stay are not moved.
+steps. A corner is needless if it lies within the tolerance of the chord between its neighbours. Corners go one by one,
+the least deviating first; each edge remembers how far the corners dropped along it lie from it at most, to the left and
+to the right, so that many small steps of a rounded outline do not add up to more than the tolerance. Corners that stay
+are not moved.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, widths
 from mbla.model.solids.ragged import next_item
 
-# Corners this close to each other, or to the line through their neighbours, are one, or none.
+# Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
 _COLLINEAR = 1e-9
 _SHARE_OF_WIDTH = 0.1
 # The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
@@ -61,24 +63,18 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
     A narrow polygon is described more finely: to a tenth of its width at most.
     Outer rings and holes keep at least three corners; each ring starts at its least corner along an odd direction.
     """
-    found = _from_least_corner(_without_narrow_holes(Corners(*rings(polygons)), tolerance))
-    outlines = polygons_from_rings(found.points, found.ring_start, found.polygon_of_ring)
-    outlines = shapely.remove_repeated_points(outlines, _COLLINEAR)
-    found = Corners(*rings(shapely.simplify(outlines, np.minimum(tolerance, _SHARE_OF_WIDTH * widths(outlines)))))
-    # where a chord is parallel to an edge a corner amid that may stay, as far off as its ends
-    return _from_least_corner(found.take(_off_chord(found) > _COLLINEAR))
-
-
-def _off_chord(corners: Corners) -> FloatArray:
-    """Distance of each corner from the line through its neighbours, (n_corners,)."""
-    following = next_item(corners.ring_start)
-    before, here, after = corners.points, corners.points[following], corners.points[following[following]]
-    chord, arm = after - before, here - before
-    distance = np.empty(len(here))
-    distance[following] = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0]) / np.maximum(
-        np.hypot(*chord.T), 1e-300
-    )
-    return distance
+    found = _without_narrow_holes(Corners(*rings(polygons)), tolerance)
+    fineness = np.minimum(tolerance, _SHARE_OF_WIDTH * widths(polygons))[found.polygon_of_corner]
+    keep = _needed(found, fineness)
+    # Where the outline would cross itself, for instance at a neck, only collinear corners go, or none at all.
+    for coarse in (_COLLINEAR, 0.0):
+        crossing = _crossing_after(found, keep)
+        if not crossing.any():
+            break
+        fineness = np.where(crossing, np.minimum(fineness, coarse), fineness)
+        keep = np.where(crossing, _needed(found, fineness) if coarse > 0 else True, keep)
+    thinned = found.take(keep)
+    return _from_least_corner(thinned)
 
 
 def areas_and_centroids(corners: Corners) -> tuple[FloatArray, FloatArray]:
@@ -108,6 +104,18 @@ def parallelograms(corners: Corners, n: int) -> BoolArray:
     return found
 
 
+def _crossing_after(corners: Corners, keep: BoolArray) -> BoolArray:
+    """Corners of polygons that lose some and cross themselves without them, (n_corners,)."""
+    changed = np.zeros(corners.polygon_of_ring[-1] + 1 if len(keep) else 0, dtype=bool)
+    changed[corners.polygon_of_corner[~keep]] = True
+    if changed.any():
+        thinned = corners.take(keep & changed[corners.polygon_of_corner])
+        _, dense = np.unique(thinned.polygon_of_ring, return_inverse=True)
+        outlines = polygons_from_rings(thinned.points, thinned.ring_start, dense.astype(np.int64))
+        changed[changed] = ~shapely.is_valid(outlines)
+    return changed[corners.polygon_of_corner]
+
+
 def _without_narrow_holes(corners: Corners, tolerance: float) -> Corners:
     hole = np.zeros(len(corners.polygon_of_ring), dtype=bool)
     hole[1:] = corners.polygon_of_ring[1:] == corners.polygon_of_ring[:-1]
@@ -116,6 +124,50 @@ def _without_narrow_holes(corners: Corners, tolerance: float) -> Corners:
     alone = polygons_from_rings(corners.points, corners.ring_start, np.arange(len(hole)))
     narrow = hole & (widths(alone) < tolerance)
     return corners.take(~narrow[corners.ring_of_corner])
+
+
+def _needed(corners: Corners, fineness: FloatArray) -> BoolArray:
+    """Corners that stay, (n_corners,), where fineness (n_corners,) is the distance from the chord that is needless."""
+    n = len(corners.points)
+    ring = corners.ring_of_corner
+    following = next_item(corners.ring_start)
+    preceding = np.empty(n, dtype=np.int64)
+    preceding[following] = np.arange(n)
+    counts = np.diff(corners.ring_start)
+    dropped = np.zeros((n, 2))  # farthest dropped corners to the right and left of the edge that leaves each corner
+    keep = np.ones(n, dtype=bool)
+    active = np.arange(n)
+    while True:
+        active = active[keep[active] & (counts[ring[active]] > 3)]
+        before, after = preceding[active], following[active]
+        chord = _off_chord(corners.points[active], corners.points[before], corners.points[after])
+        spread = np.maximum(dropped[before], dropped[active]) + chord
+        off = spread.max(axis=1)
+        needless = off <= fineness[active]
+        if not needless.any():
+            return keep
+        # Rings without a needless corner are done; of the others the least deviating corner goes.
+        busy = np.unique(ring[active[needless]])
+        candidates, off, spread = active[needless], off[needless], spread[needless]
+        order = np.lexsort((off, ring[candidates]))
+        least = order[np.searchsorted(ring[candidates[order]], busy)]
+        gone = candidates[least]
+        dropped[preceding[gone]] = spread[least]
+        following[preceding[gone]] = following[gone]
+        preceding[following[gone]] = preceding[gone]
+        keep[gone] = False
+        counts[ring[gone]] -= 1
+        active = active[np.isin(ring[active], busy)]
+
+
+def _off_chord(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Distances of points from the segments start–end, (n, 2): in the first column if to the right, else the second."""
+    chord, arm = end - start, points - start
+    length = np.einsum("ki,ki->k", chord, chord)
+    share = np.einsum("ki,ki->k", arm, chord) / np.where(length > 0, length, 1.0)
+    distance = np.hypot(*(arm - np.clip(share, 0.0, 1.0)[:, None] * chord).T)
+    left = chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0] > 0
+    return np.stack([np.where(left, 0.0, distance), np.where(left, distance, 0.0)], axis=1)
 
 
 def _from_least_corner(corners: Corners) -> Corners:
