@@ -16,7 +16,7 @@ from mbla.deck.sections.materials import Material
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.generators import KINDS, amount_of, amounts, generator_of
+from mbla.model.generators import KINDS, amounts, generator_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
@@ -144,11 +144,10 @@ def _refuse_amounts(deck: Deck) -> None:
     faults, together = [], 0.0
     for number, block_item in enumerate(deck.content.blocks):
         kind, item = kind_of(block_item)
-        with np.errstate(all="ignore"):  # lengths beyond what a double holds are told by the item itself
-            amount = amount_of(kind, item)
-            units = amount.units * min(amounts.copies_of(item), 10 * amounts.MOST)
+        units, key = amounts.amount_of(item)
+        units *= min(amounts.copies_of(item), 10 * amounts.MOST)
         if units > amounts.MOST:
-            path: KeyPath = ("blocks", number, kind, amount.key) if amount.key else ("blocks", number, kind)
+            path: KeyPath = ("blocks", number, kind, key) if key else ("blocks", number, kind)
             faults.append(deck.fault_at(path, Message("too-many-units", f"makes {amounts.too_many(units)}")))
         else:
             together += units

@@ -1,17 +1,13 @@
 """Generators: each turns an item of the deck into raw polyhedra. A new one is a file and a line here.
 
-The generator of an item ``arch`` is ``generate_arch``; beside it ``amount_arch`` says about how much it will make,
-where a few lines of a deck can ask for much. The file is imported when an item asks for it: all of them together take
-longer to import than a wall of a thousand blocks to generate.
+The generator of an item ``arch`` is ``generate_arch``. The file is imported when an item asks for it: all of them
+together take longer to import than a wall of a thousand blocks to generate. How much items make is in ``amounts``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from importlib import import_module
 
-from mbla.deck.items.item import Item
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generator
 
 KINDS = {
@@ -39,10 +35,3 @@ def generator_of(kind: str) -> Generator:
     """The generator of items of one of ``KINDS``."""
     generator: Generator = getattr(import_module(f"mbla.model.generators.{KINDS[kind]}"), f"generate_{kind}")
     return generator
-
-
-def amount_of(kind: str, item: Item) -> Amount:
-    """About how much an item of one of ``KINDS`` makes; a block where its generator does not say."""
-    module = import_module(f"mbla.model.generators.{KINDS[kind]}")
-    amount: Callable[[Item], Amount] = getattr(module, f"amount_{kind}", lambda item: Amount(1))
-    return amount(item)

@@ -3,24 +3,79 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
+from mbla.deck.items.arch import ArchItem
+from mbla.deck.items.bridge import BridgeItem
+from mbla.deck.items.column import ColumnItem
+from mbla.deck.items.cuboids import StackItem
+from mbla.deck.items.dome import DomeItem
 from mbla.deck.items.item import Item, Repetition
+from mbla.deck.items.spiral_stair import SpiralStairItem
+from mbla.deck.items.vaults import BarrelVaultItem, CrossVaultItem, PavilionVaultItem
+from mbla.deck.items.walls import WallItem, WallsItem, plan_lines
 
 MOST = 2_000_000
 """units, or facets of round blocks, that all items together may make: some GB of memory"""
 
 
-@dataclass(frozen=True)
-class Amount:
-    """About how much one copy of an item makes, known before it is made.
+def amount_of(item: Item) -> tuple[float, str]:
+    """About how many units one copy of an item makes, known before it is made, and the key that has most to do with it.
 
-    units : of usual size; where blocks have many facets each of these counts
-    key   : of the item, that has most to do with it; empty for the item itself
+    Where blocks have many facets each of these counts; an item that cannot ask for much counts as one unit.
     """
+    match item:
+        case ArchItem():
+            courses = 2 * item.piers.courses if item.piers else 0
+            return item.voussoirs * item.rings * item.units_across + courses, "voussoirs"
+        case BridgeItem():
+            return _of_bridge(item)
+        case BarrelVaultItem():
+            return item.courses * item.length / item.unit, "length"
+        case CrossVaultItem():
+            edge = item.edge or 2 * item.thickness * max(1.0, item.bay[1] / item.bay[0])
+            return item.courses * (sum(item.bay) + 4 * edge) / item.unit, "unit"
+        case PavilionVaultItem():
+            return item.courses * sum(item.bay) / item.unit, "unit"
+        case ColumnItem():
+            return (len(item.drum_heights or ()) + (item.drums or 0)) * item.sides, "sides"
+        case StackItem():
+            return item.count, "count"
+        case DomeItem():
+            rings = item.rings + (item.drum.courses if item.drum else 0)
+            return rings * item.segments * (item.facets or 2), "segments"
+        case SpiralStairItem():
+            return item.treads * (item.facets + 2), "facets"
+        case WallItem():
+            return _of_walls(item, item.length, item.gable.rise if item.gable else 0.0), "length"
+        case WallsItem():
+            length = sum(math.dist(start, end) for _, start, end in plan_lines(item))
+            return _of_walls(item, length, max((gable.rise for gable in item.gables), default=0.0)), "plan"
+    return 1.0, ""
 
-    units: float
-    key: str = ""
+
+def _of_walls(item: WallItem | WallsItem, length: float, gable: float) -> float:
+    """Units of walls of some length together, the highest gable a rise above them."""
+    unit, width, height = item.unit
+    along = item.leaves * max(length / min(unit, width if item.leaves > 1 else unit), 1.0)
+    across = sum(max((buttress.depth + item.leaves * width) / unit, 1.0) for buttress in item.buttresses)
+    return (item.courses + gable / height) * (along + across)
+
+
+def _of_bridge(item: BridgeItem) -> tuple[float, str]:
+    """Units of arches, piers and spandrels; of these none where lengths are beyond what a double holds."""
+    n_spans = len(item.spans)
+    voussoirs = sum(item.voussoirs) if isinstance(item.voussoirs, list) else item.voussoirs * n_spans
+    piers = (item.piers.courses if item.piers else 0) * (n_spans - 1) + 2 * (item.abutments.courses or 0)
+    carrying = voussoirs * item.rings + piers
+    if item.unit is None or item.cover is None:
+        return carrying, "voussoirs"
+    rises = item.rise if isinstance(item.rise, list) else [item.rise or max(item.spans) / 2]
+    top = max(rises) + item.thickness + item.cover
+    length = sum(item.spans) + (item.piers.width if item.piers else 0.0) * (n_spans - 1) + 2 * item.abutments.width
+    if not math.isfinite(length + top):
+        return carrying, "voussoirs"  # which are refused
+    filling = max(length / item.unit[0], 1.0) * max(top / item.unit[1], 1.0)
+    return carrying + filling, "unit" if filling > carrying else "voussoirs"
 
 
 def copies_of(item: Item) -> int:

@@ -17,7 +17,6 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.arch import ArchItem, ArchPiers
 from mbla.deck.items.vaults import BarrelVaultItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
     Section,
     build_section,
@@ -35,12 +34,6 @@ from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.spline import through
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.solids.polyhedra import Polyhedra, prisms
-
-
-def amount_arch(item: ArchItem) -> Amount:
-    """About how many units such an item has."""
-    courses = 2 * item.piers.courses if item.piers else 0
-    return Amount(float(item.voussoirs) * item.rings * item.units_across + courses, "voussoirs")
 
 
 def generate_arch(item: ArchItem, site: Site) -> Generated:
@@ -121,11 +114,6 @@ def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhe
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""
-
-
-def amount_barrel_vault(item: BarrelVaultItem) -> Amount:
-    """About how many units such an item has."""
-    return Amount(item.courses * item.length / item.unit, "length")
 
 
 def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:

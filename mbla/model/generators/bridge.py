@@ -7,7 +7,6 @@ abutments and the top of the spandrels, less the openings under the chords of th
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -17,7 +16,6 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.bridge import BridgeItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import (
     LEVEL,
     Section,
@@ -53,29 +51,6 @@ class _Frame:
     springers: tuple[FloatArray | None, ...]
     left: float
     right: float
-
-
-def amount_bridge(item: BridgeItem) -> Amount:
-    """About how many units such an item has, in arches, piers and spandrels."""
-    n_spans = len(item.spans)
-    voussoirs = sum(item.voussoirs) if isinstance(item.voussoirs, list) else item.voussoirs * n_spans
-    piers = (0 if item.piers is None else item.piers.courses * (n_spans - 1)) + 2 * (item.abutments.courses or 0)
-    carrying = float(voussoirs * item.rings + piers)
-    filling = _units_of_spandrels(item)
-    return Amount(carrying + filling, "unit" if filling > carrying else "voussoirs")
-
-
-def _units_of_spandrels(item: BridgeItem) -> float:
-    """About how many; none where coordinates are beyond what a double holds: the voussoirs are refused then."""
-    if item.unit is None or item.cover is None:
-        return 0.0
-    rises = item.rise if isinstance(item.rise, list) else [max(item.spans) / 2 if item.rise is None else item.rise]
-    top = max(rises) + item.thickness + item.cover
-    gaps = 0.0 if item.piers is None else item.piers.width * (len(item.spans) - 1)
-    length = sum(item.spans) + gaps + 2 * item.abutments.width
-    if not math.isfinite(length + top):
-        return 0.0
-    return max(length / item.unit[0], 1.0) * max(top / item.unit[1], 1.0)
 
 
 def generate_bridge(item: BridgeItem, site: Site) -> Generated:

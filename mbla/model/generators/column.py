@@ -20,7 +20,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.column import ColumnEnd, ColumnItem
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import chains
 
@@ -47,12 +46,6 @@ def regular_polygon(sides: int) -> FloatArray:
 
 _SQUARE = regular_polygon(4) * np.sqrt(0.5)
 """of side 1"""
-
-
-def amount_column(item: ColumnItem) -> Amount:
-    """About how many units such an item has."""
-    drums = float(len(item.drum_heights or ()) + (item.drums or 0))
-    return Amount(drums * item.sides, "sides")
 
 
 def generate_column(item: ColumnItem, site: Site) -> Generated:

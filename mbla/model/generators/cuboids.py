@@ -10,7 +10,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.cuboids import BoxItem, PolyhedronItem, StackItem, TrilithonItem
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site
 from mbla.model.solids.polyhedra import cuboids, polyhedra_from_lists
 
@@ -23,11 +22,6 @@ def generate_box(item: BoxItem, site: Site) -> Generated:
 def generate_polyhedron(item: PolyhedronItem, site: Site) -> Generated:
     """The polyhedron as listed; faces in any orientation."""
     return Generated((Part(polyhedra_from_lists([item.vertices], [item.faces])),))
-
-
-def amount_stack(item: StackItem) -> Amount:
-    """How many blocks such an item has."""
-    return Amount(item.count, "count")
 
 
 def generate_stack(item: StackItem, site: Site) -> Generated:

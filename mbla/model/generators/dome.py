@@ -29,7 +29,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.dome import DomeDrum, DomeItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.curves import named_curve, radius_of
 from mbla.model.generators.curves.shapes import Smooth
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
@@ -57,12 +56,6 @@ class _Dome:
         """The blocks of a ring, (n,), counted from the springing; rings below it have negative numbers."""
         turned = self.item.bond == "running" and number % 2 == 1
         return ring_blocks(profile, self.item.segments, _facets(self.item), turned)
-
-
-def amount_dome(item: DomeItem) -> Amount:
-    """About how many units such an item has."""
-    courses = item.drum.courses if item.drum else 0
-    return Amount(float(item.rings + courses) * item.segments * _facets(item), "segments")
 
 
 def _facets(item: DomeItem) -> int:

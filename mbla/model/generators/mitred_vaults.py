@@ -24,7 +24,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.items.vaults import CrossVaultItem, PavilionVaultItem, VaultItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.arch_sections import vault_section
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site, level_ground
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
@@ -148,11 +147,6 @@ def _keystone(section: HalfSection) -> Polyhedra:
 # --- cross vaults ---------------------------------------------------------------------------------------------------
 
 
-def amount_cross_vault(item: CrossVaultItem) -> Amount:
-    """About how many units such an item has."""
-    return Amount(item.courses * 2 * (sum(item.bay) / 2 + 2 * _edge(item)) / item.unit, "unit")
-
-
 def _edge(item: CrossVaultItem) -> float:
     """How far the webs run on beyond the corners of the bay."""
     stretch = item.bay[1] / item.bay[0]
@@ -221,11 +215,6 @@ def _ridges(section: HalfSection, item: CrossVaultItem, ends: FloatArray) -> Web
 
 
 # --- pavilion vaults ------------------------------------------------------------------------------------------------
-
-
-def amount_pavilion_vault(item: PavilionVaultItem) -> Amount:
-    """About how many units such an item has."""
-    return Amount(item.courses * sum(item.bay) / item.unit, "unit")
 
 
 def generate_pavilion_vault(item: PavilionVaultItem, site: Site) -> Generated:

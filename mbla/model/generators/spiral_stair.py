@@ -15,14 +15,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.items.spiral_stair import SpiralStairItem
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, Part, Site, level_ground
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra, polyhedra_from_cells
-
-
-def amount_spiral_stair(item: SpiralStairItem) -> Amount:
-    """About how many units such an item has."""
-    return Amount(float(item.treads) * (item.facets + 2), "facets")
 
 
 def generate_spiral_stair(item: SpiralStairItem, site: Site) -> Generated:

@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.masonry import Buttress, Gable, Masonry, Opening
+from mbla.deck.items.masonry import Gable, Masonry, Opening
 from mbla.deck.items.walls import WallItem, WallsItem
 from mbla.errors import Finding
-from mbla.model.generators.amounts import Amount
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
 from mbla.model.generators.masonry.additions import (
     PlacedButtress,
@@ -30,12 +29,6 @@ from mbla.model.generators.masonry.leg import Leg, Passage, Slopes
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
 
 
-def amount_wall(item: WallItem) -> Amount:
-    """About how many units such an item has."""
-    gables = [] if item.gable is None else [item.gable]
-    return amount_of_units(item, item.length, "length", gables, item.buttresses)
-
-
 def generate_wall(item: WallItem, site: Site) -> Generated:
     """Units course by course from the bottom, along +x in each, leaf by leaf; then lintels, arches, buttresses.
 
@@ -48,12 +41,6 @@ def generate_wall(item: WallItem, site: Site) -> Generated:
     thickness = item.leaves * item.unit[1]
     line = Line(np.zeros(2), np.array([1.0, 0.0]), item.length, 0.0, 0.0, 0.0, thickness, ())
     return _generate(item, [line], {} if item.gable is None else {0: item.gable}, site)
-
-
-def amount_walls(item: WallsItem) -> Amount:
-    """About how many units such an item has."""
-    length = sum(line.whole_length for line in lines_of(item))
-    return amount_of_units(item, length, "plan", item.gables, item.buttresses)
 
 
 def generate_walls(item: WallsItem, site: Site) -> Generated:
@@ -148,20 +135,6 @@ def _check_gables(item: WallsItem, meets: Sequence[tuple[tuple[int, Passage], ..
     for n, gable in enumerate(item.gables):
         if any(other in numbers[:n] for other, _ in meets[gable.segment]):
             yield Finding("wall-shape", "meets a wall that has a gable too", "gables", n, "segment")
-
-
-def amount_of_units(
-    item: Masonry, length: float, key: str, gables: Sequence[Gable], buttresses: Sequence[Buttress]
-) -> Amount:
-    """About how many units walls have.
-
-    length : of all walls together
-    """
-    unit, width, height = item.unit
-    courses = item.courses + max((gable.rise for gable in gables), default=0.0) / height
-    along = item.leaves * max(length / min(unit, width if item.leaves > 1 else unit), 1.0)
-    across = sum(max((buttress.depth + item.leaves * width) / unit, 1.0) for buttress in buttresses)
-    return Amount(courses * (along + across), key)
 
 
 def _parts(walls: Sequence[_Wall], legs: Sequence[Leg], numbered: bool) -> Iterator[Part]:
