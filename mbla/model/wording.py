@@ -22,9 +22,9 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun if count == 1 else PLURALS.get(noun, f'{noun}s')}"
 
 
-def was(count: int) -> str:
-    """``was`` or ``were``."""
-    return "was" if count == 1 else "were"
+def told(count: int, noun: str, words: str) -> str:
+    """``1 face was left out``, ``3 faces were left out``."""
+    return f"{counted(count, noun)} {'was' if count == 1 else 'were'} {words}"
 
 
 def named(blocks: IntArray, name: Callable[[int], str]) -> str:

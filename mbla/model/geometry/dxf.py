@@ -22,7 +22,7 @@ from mbla.model.solids.defects import LARGEST_COORDINATE
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.plane import signed_areas
 from mbla.model.solids.polyhedra import prisms
-from mbla.model.wording import counted, was
+from mbla.model.wording import told
 
 CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
 SILENT = frozenset(
@@ -162,12 +162,10 @@ def _close_networks(drawing: _Drawing) -> list[Notice]:
         fields, loose = enclosed_fields(lines)
         drawing.outlines += [(layer, outline) for outline in fields]
         if fields:
-            words = (
-                f"{counted(len(fields), 'field')} between lines of layer {layer} {was(len(fields))} taken as outlines"
-            )
+            words = told(len(fields), "field", f"taken as outlines between lines of layer {layer}")
             notices.append(Notice("notice", "drawing-fields", words))
         if loose:
-            words = f"{counted(loose, 'line')} of layer {layer} {was(loose)} left out: no field is enclosed"
+            words = told(loose, "line", f"left out of layer {layer}: no field is enclosed")
             notices.append(Notice("warning", "drawing-lines-left-out", words))
     return notices
 
@@ -178,7 +176,7 @@ def _left_out(drawing: _Drawing) -> list[Notice]:
         words = ", ".join(f"{count} of type {kind}" for kind, count in drawing.left_out.items())
         notices.append(Notice("warning", "mesh-cells-left-out", f"entities were left out: {words}; no outlines"))
     for layer, count in drawing.hidden.items():
-        words = f"{counted(count, 'outline or line')} of layer {layer} {was(count)} left out: it is off or frozen"
+        words = told(count, "outline or line", f"left out of layer {layer}, which is off or frozen")
         notices.append(Notice("warning", "drawing-layer-hidden", words))
     return notices
 

@@ -17,7 +17,7 @@ from mbla.arrays import IntArray
 from mbla.deck.suggestions import listed
 from mbla.errors import Notice, Refusal
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.wording import counted, was
+from mbla.model.wording import counted, told
 
 LONGEST_REASON = 500
 """characters of what is said of a file that is refused, some of which libraries say, or the file itself"""
@@ -96,8 +96,7 @@ def empty_objects(names: Sequence[str]) -> tuple[Notice, ...]:
     if not names:
         return ()
     called = listed([name or "without a name" for name in names], "and")
-    words = f"{counted(len(names), 'object')} {was(len(names))} left out, without faces: {called}"
-    return (Notice("warning", "objects-empty", words),)
+    return (Notice("warning", "objects-empty", told(len(names), "object", f"left out, without faces: {called}")),)
 
 
 def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, ...]:
@@ -127,8 +126,8 @@ def unused_points(count: int, used: IntArray) -> tuple[Notice, ...]:
     unused = count - len(np.unique(used))
     if unused <= 0:
         return ()
-    words = f"{unused} of the {counted(count, 'vertex')} of the file {'is' if unused == 1 else 'are'} used by no face"
-    return (Notice("warning", "file-vertices-unused", f"{words}: is the file whole?"),)
+    words = f"{unused} of the {counted(count, 'vertex')} of the file used by no face: is it whole?"
+    return (Notice("warning", "file-vertices-unused", words),)
 
 
 LONGEST = 64

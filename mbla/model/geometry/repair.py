@@ -33,7 +33,7 @@ from mbla.model.solids.defects import Defects, coordinate_defects
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.wording import counted, was
+from mbla.model.wording import told
 
 
 @dataclass
@@ -55,8 +55,16 @@ class _Work:
         self.polyhedra = polyhedra if whole else take_polyhedra(polyhedra, rows)
         self.source = self.source[rows]
 
-    def tell(self, identifier: str, words: str) -> None:
-        self.notices.append(Notice("notice", identifier, words))
+    def tell(self, identifier: str, count: int, noun: str, words: str) -> None:
+        """A notice of what was done to so many things; none of nothing."""
+        if count:
+            self.notices.append(Notice("notice", identifier, told(count, noun, words)))
+
+    def weld(self, welded: Welded, identifier: str, words: str, *, count_merged: bool = True) -> None:
+        """Take what welding made."""
+        self.put(welded.polyhedra)
+        self.tell(identifier, welded.merged if count_merged else 0, "vertex", f"merged with another {words}")
+        self.tell("faces-collapsed", welded.collapsed, "face", "left out, without area: corners at the same place")
 
 
 def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = None) -> Geometry:
@@ -70,13 +78,15 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     fit = defects.sound
     work = _Work(take_polyhedra(geometry.polyhedra, np.flatnonzero(fit)), np.flatnonzero(fit))
     work.put(work.polyhedra)
-    _weld_equal(work, geometry)
+    if len(work.polyhedra):
+        words = "of their block at the same place"
+        work.weld(weld(work.polyhedra), "vertices-merged", words, count_merged=geometry.indexed)
     if weld_distance is not None:
         everything = np.arange(len(work.polyhedra.vertices))
         _weld_near(work, everything, np.full(len(everything), weld_distance))
     if not geometry.cells and len(work.polyhedra):
         _pool_open_objects(work)
-        _drop(work, flat_faces, "faces-flat", "without area, all corners on one line,")
+        _drop(work, flat_faces, "faces-flat", "without area: all corners on one line")
         _drop(work, repeated_faces, "faces-repeated", "listed twice")
         _close_gaps(work, tolerance)
         _split(work, geometry)
@@ -99,29 +109,9 @@ def _put_back(work: _Work, geometry: Geometry) -> None:
     work.polyhedra, work.source = take_polyhedra(polyhedra, order), source[order]
 
 
-def _weld_equal(work: _Work, geometry: Geometry) -> None:
-    if not len(work.polyhedra):
-        return
-    welded = weld(work.polyhedra)
-    work.put(welded.polyhedra)
-    if geometry.indexed and welded.merged:
-        words = f"{counted(welded.merged, 'vertex')} at the same place as another of their block "
-        gone = f"; {counted(welded.collapsed, 'face')} without area went with them" if welded.collapsed else ""
-        work.tell("vertices-merged", f"{words}{was(welded.merged)} merged{gone}")
-    elif welded.collapsed and not geometry.indexed:
-        words = f"{counted(welded.collapsed, 'face')} without area {was(welded.collapsed)} left out: "
-        work.tell("faces-collapsed", f"{words}corners at the same place")
-
-
 def _weld_near(work: _Work, vertices: IntArray, reach: FloatArray) -> None:
-    if not len(vertices):
-        return
-    welded: Welded = weld_near(work.polyhedra, vertices, reach)
-    if welded.merged:
-        work.put(welded.polyhedra)
-        words = f"{counted(welded.merged, 'vertex')} {was(welded.merged)} merged with another up to "
-        collapsed = f"; {counted(welded.collapsed, 'face')} collapsed" if welded.collapsed else ""
-        work.tell("vertices-welded", f"{words}{reach.max():.2g} away{collapsed}")
+    if len(vertices):
+        work.weld(weld_near(work.polyhedra, vertices, reach), "vertices-welded", f"up to {reach.max():.2g} away")
 
 
 def _pool_open_objects(work: _Work) -> None:
@@ -144,11 +134,9 @@ def _pool_open_objects(work: _Work) -> None:
 
 
 def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
-    dropped = find(work.polyhedra)
-    count = int(dropped.sum())
-    if count:
+    if (dropped := find(work.polyhedra)).any():
         work.put(take_faces(work.polyhedra, ~dropped))
-        work.tell(identifier, f"{counted(count, 'face')} {what} {was(count)} left out")
+        work.tell(identifier, int(dropped.sum()), "face", f"left out, {what}")
 
 
 def _close_gaps(work: _Work, tolerance: float) -> None:
@@ -161,8 +149,7 @@ def _close_gaps(work: _Work, tolerance: float) -> None:
     polyhedra, count = insert_t_junctions(work.polyhedra, tolerance * shortest_edges(work.polyhedra))
     if count:
         work.put(polyhedra)
-        words = f"{counted(count, 'vertex')} in the middle of the edge of another face {was(count)} made corners of it"
-        work.tell("t-junctions", words)
+    work.tell("t-junctions", count, "vertex", "made corners of the face in the middle of whose edge they lie")
 
 
 def _split(work: _Work, geometry: Geometry) -> None:
@@ -170,15 +157,12 @@ def _split(work: _Work, geometry: Geometry) -> None:
     before = len(work.polyhedra)
     split = split_surfaces(work.polyhedra)
     counts = np.bincount(split.source, minlength=before)
-    if split.twins:
-        words = f"{counted(split.twins, 'closed surface')} {was(split.twins)} left out: the faces of another once more"
-        work.tell("surfaces-repeated", words)
+    work.tell("surfaces-repeated", split.twins, "closed surface", "left out: the faces of another once more")
     several = np.flatnonzero(counts > 1)
     if geometry.names and not work.pooled and len(several):
-        total = int(counts[several].sum())
-        which = f"{counted(len(several), 'object')} {'is' if len(several) == 1 else 'are'} several closed surfaces"
         first = geometry.name(int(work.source[several[0]])) or "without a name"
-        work.tell("objects-split", f"{which}, first {first}: {total} blocks, one of each surface")
+        words = f"split into {counts[several].sum()} closed surfaces, a block each; first {first}"
+        work.tell("objects-split", len(several), "object", words)
     work.polyhedra, work.source = split.polyhedra, work.source[split.source]
 
 
@@ -194,10 +178,7 @@ def shortest_edges(polyhedra: Polyhedra) -> FloatArray:
 
 def lone_edge_corners(polyhedra: Polyhedra) -> IntArray:
     """Corners (n,) from which an edge starts that no other face has; none where every surface is closed."""
-    tails, heads = polyhedra.loops, polyhedra.next_loops
-    keys = np.minimum(tails, heads) * len(polyhedra.vertices) + np.maximum(tails, heads)
-    _, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)
-    return np.flatnonzero(counts[inverse.reshape(-1)] == 1)
+    return np.flatnonzero(polyhedra.faces_at_edge == 1)
 
 
 def insert_t_junctions(polyhedra: Polyhedra, reach: FloatArray) -> tuple[Polyhedra, int]:

@@ -25,7 +25,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.geometry.geometry import Geometry
 from mbla.model.geometry.welding import own_vertices, take_faces, weld
 from mbla.model.solids.measures import connected_labels, face_geometry
-from mbla.model.solids.plane import plane_axes
+from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.polyhedra import HEXAHEDRON, Polyhedra, take_polyhedra
 from mbla.model.solids.ragged import numbered, ranges
 
@@ -78,57 +78,33 @@ def _first_of_twins(codes: IntArray, part: IntArray, n_parts: int) -> BoolArray:
 
 def _partners(surface: Polyhedra) -> IntArray:
     """Pairs of faces that belong together, (n, 2)."""
-    tails, heads = surface.loops, surface.next_loops
-    keys = np.minimum(tails, heads) * len(surface.vertices) + np.maximum(tails, heads)
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    counts = np.diff(first, append=len(keys))
-    face = surface.face_of_corner
-    two = first[counts == 2]
+    order = np.argsort(surface.edge_keys, kind="stable")
+    first = np.flatnonzero(np.diff(surface.edge_keys[order], prepend=-1))
+    counts = np.diff(first, append=len(order))
+    face, two = surface.face_of_corner, first[counts == 2]
     pairs = [np.stack([face[order[two]], face[order[two + 1]]], axis=1)]
-    crowded = np.flatnonzero(counts > 2)
-    if len(crowded):
-        angles, forwards = _angles(surface, order, first, counts, crowded)
-        for edge in crowded:
-            corners = order[first[edge] : first[edge] + counts[edge]]
-            pairs.append(face[_pair_around(corners, angles[corners], forwards[corners])])
+    crowded = [order[first[edge] : first[edge] + counts[edge]] for edge in np.flatnonzero(counts > 2)]
+    normals = face_geometry(surface).normals if crowded else np.empty((0, 3))
+    pairs += [face[_pair_around(surface, corners, normals[face[corners]])] for corners in crowded]
     return np.concatenate(pairs)
 
 
-def _angles(
-    surface: Polyhedra, order: IntArray, first: IntArray, counts: IntArray, crowded: IntArray
-) -> tuple[FloatArray, BoolArray]:
-    """Angle at which each face leaves a crowded edge, about its direction from the lesser to the greater vertex.
-
-    Both results are (n_corners,), meaningful at crowded edges; the second is true where the face passes it that way.
-    """
-    chosen = order[ranges(first[crowded], counts[crowded])]
-    tails, heads = surface.loops[chosen], surface.next_loops[chosen]
-    forward = tails < heads
-    vertices = surface.local_vertices
-    low, high = np.minimum(tails, heads), np.maximum(tails, heads)
-    axis = vertices[high] - vertices[low]
-    axis /= np.linalg.norm(axis, axis=1)[:, None]
-    normals = face_geometry(surface).normals[surface.face_of_corner[chosen]]
-    leaving = np.cross(normals, np.where(forward[:, None], axis, -axis))
-    east, north = plane_axes(axis).transpose(1, 0, 2)
-    angles = np.zeros(len(surface.loops))
-    angles[chosen] = np.arctan2(np.einsum("ij,ij->i", leaving, north), np.einsum("ij,ij->i", leaving, east))
-    forwards = np.zeros(len(surface.loops), dtype=bool)
-    forwards[chosen] = forward
-    return angles, forwards
-
-
-def _pair_around(corners: IntArray, angles: FloatArray, forwards: BoolArray) -> IntArray:
-    """Corners paired around one edge, (n, 2).
+def _pair_around(surface: Polyhedra, corners: IntArray, normals: FloatArray) -> IntArray:
+    """Corners (n,) from which one edge leaves paired, (n / 2, 2), by the normals of their faces, (n, 3).
 
     Where the faces do not pair off (not oriented outwards, or an open sheet among them) all are kept together: the
     block they make is then refused by name.
     """
     together = np.stack([corners[:-1], corners[1:]], axis=1)
-    ahead, back = np.flatnonzero(forwards), np.flatnonzero(~forwards)
+    tails, heads = surface.loops[corners], surface.next_loops[corners]
+    forward = tails < heads
+    ahead, back = np.flatnonzero(forward), np.flatnonzero(~forward)
     if len(ahead) != len(back):
         return together
+    axis = unit(surface.local_vertices[max(tails[0], heads[0])] - surface.local_vertices[min(tails[0], heads[0])])
+    leaving = np.cross(normals, np.where(forward[:, None], axis, -axis))
+    east, north = plane_axes(axis[None])[0]
+    angles = np.arctan2(leaving @ north, leaving @ east)
     turn = np.mod(angles[ahead][:, None] - angles[back][None, :], 2 * np.pi)
     turn[turn < SAME_DIRECTION] += 2 * np.pi
     partner = np.argmin(turn, axis=1)
@@ -161,10 +137,7 @@ def repeated_faces(surfaces: Polyhedra) -> BoolArray:
     codes = face_codes(surfaces, oriented=False)
     copies = np.ones(len(codes), dtype=bool)
     copies[np.unique(codes, return_index=True)[1]] = False
-    tails, heads = surfaces.loops, surfaces.next_loops
-    keys = np.minimum(tails, heads) * len(surfaces.vertices) + np.maximum(tails, heads)
-    _, edge, counts = np.unique(keys, return_inverse=True, return_counts=True)
-    odd = counts[edge] % 2 == 1
+    odd = surfaces.faces_at_edge % 2 == 1
     return np.asarray(copies & (np.bincount(surfaces.face_of_corner[odd], minlength=len(codes)) > 0))
 
 

@@ -38,7 +38,7 @@ from mbla.model.solids.polyhedra import (
     turn_faces,
 )
 from mbla.model.solids.self_intersection import intersection_defects
-from mbla.model.wording import counted, named, was
+from mbla.model.wording import counted, named, told
 
 PLANAR = 1e-9
 """departure of a corner from the plane of its face, relative to block size, that is rounding and not reported"""
@@ -185,9 +185,9 @@ def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
 
 def _counted(identifier: str, numbers: IntArray, noun: str, words: str, labels: Labels) -> list[Notice]:
     """``3 faces were turned outwards in 2 blocks (a[0], a[1])``, from how many things each block has, (n_blocks,)."""
-    blocks, total = np.flatnonzero(numbers), int(numbers.sum())
-    told = f"{counted(total, noun)} {was(total)} {words} in {_blocks_in_words(blocks, labels)}"
-    return [Notice("notice", identifier, told)] if len(blocks) else []
+    blocks = np.flatnonzero(numbers)
+    words = told(int(numbers.sum()), noun, f"{words} in {_blocks_in_words(blocks, labels)}")
+    return [Notice("notice", identifier, words)] if len(blocks) else []
 
 
 def _worst(
@@ -201,11 +201,11 @@ def _worst(
         return []
     worst, one = int(np.argmax(relative)), len(blocks) == 1
     which = f"{counted(len(blocks), 'face')} of {_blocks_in_words(np.unique(blocks), labels)} {'is' if one else 'are'}"
-    told = (
+    text = (
         f"{which} {words}; the worst, face {faces[worst]} of {labels.name(int(blocks[worst]))}, "
         f"leaves its plane by {relative[worst]:.2g} of the block size"
     )
-    return [Notice("notice", identifier, told)]
+    return [Notice("notice", identifier, text)]
 
 
 def _blocks_in_words(blocks: IntArray, labels: Labels) -> str:

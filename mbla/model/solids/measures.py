@@ -86,19 +86,18 @@ class Edges:
 
 def find_edges(polyhedra: Polyhedra) -> Edges:
     """Edges of all polyhedra; vertices are shared inside a polyhedron only."""
-    tails, heads = polyhedra.loops, polyhedra.next_loops
-    low, high = np.minimum(tails, heads), np.maximum(tails, heads)
-    keys = low * len(polyhedra.vertices) + high
+    keys, tails = polyhedra.edge_keys, polyhedra.loops
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order], prepend=-1))
     face_count = np.diff(first, append=len(keys))
     corner = order[first]
+    low, high = divmod(keys[corner], max(len(polyhedra.vertices), 1))
     faces = polyhedra.face_of_corner
     pair_edge = np.flatnonzero(face_count == 2)
     one, other = order[first[pair_edge]], order[first[pair_edge] + 1]
     return Edges(
-        ends=np.stack([low[corner], high[corner]], axis=1),
-        block=polyhedra.block_of_vertex[low[corner]],
+        ends=np.stack([low, high], axis=1),
+        block=polyhedra.block_of_vertex[low],
         face_count=face_count,
         any_face=faces[corner],
         pairs=np.stack([faces[one], faces[other]], axis=1),

@@ -62,6 +62,18 @@ class Polyhedra:
         return self.loops[next_item(self.loop_start)]
 
     @cached_property
+    def edge_keys(self) -> IntArray:
+        """Number of the edge that leaves each corner, (n_corners,): lesser vertex times n_vertices, plus greater."""
+        tails, heads = self.loops, self.next_loops
+        return np.asarray(np.minimum(tails, heads) * len(self.vertices) + np.maximum(tails, heads))
+
+    @cached_property
+    def faces_at_edge(self) -> IntArray:
+        """How many faces pass the edge that leaves each corner, (n_corners,)."""
+        _, inverse, counts = np.unique(self.edge_keys, return_inverse=True, return_counts=True)
+        return counts[inverse.reshape(-1)]
+
+    @cached_property
     def origins(self) -> FloatArray:
         """First vertex of each polyhedron, (n, 3): local origins, so that distance from the origin costs no digits."""
         return self.vertices[self.vertex_start[:-1]]

@@ -112,7 +112,7 @@ def test_solids_without_faces(tmp_path: Path) -> None:
     with pytest.raises(GeometryFileError, match="holds no mesh, but objects of type Box: convert them"):
         read(tmp_path, [solid])
     geometry = read(tmp_path, [mesh(), solid])
-    assert [notice.message for notice in geometry.notices] == ["1 object of type Box was left out: no meshes"]
+    assert [notice.message for notice in geometry.notices] == ["1 object was left out, of type Box: no meshes"]
 
 
 @pytest.mark.parametrize(

@@ -107,8 +107,8 @@ def test_fields_between_lines(tmp_path: Path) -> None:
     geometry = read(document, tmp_path)
     assert areas(geometry) == pytest.approx([2, 2, 1, 2, 1])
     assert [notice.message for notice in geometry.notices] == [
-        "5 fields between lines of layer 0 were taken as outlines",
-        "1 line of layer 0 was left out: no field is enclosed",
+        "5 fields were taken as outlines between lines of layer 0",
+        "1 line was left out of layer 0: no field is enclosed",
     ]
 
 
@@ -123,7 +123,7 @@ def test_what_is_no_outline_is_left_out_with_a_warning(tmp_path: Path) -> None:
     assert areas(geometry) == [1]
     assert [notice.message for notice in geometry.notices] == [
         "entities were left out: 1 of type 3DFACE; no outlines",
-        "1 outline or line of layer hidden was left out: it is off or frozen",
+        "1 outline or line was left out of layer hidden, which is off or frozen",
     ]
 
 

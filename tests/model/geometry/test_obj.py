@@ -109,7 +109,7 @@ def test_unwelded_corners_are_merged_with_a_notice(tmp_path: Path) -> None:
         lines.append("f " + " ".join(str(4 * number + i) for i in (1, 2, 3, 4)))
     assert volumes(obj(tmp_path), "\n".join(lines)) == [1]
     assert [notice.message for notice in blocks_of(obj(tmp_path)).notices] == [
-        "16 vertices at the same place as another of their block were merged"
+        "16 vertices were merged with another of their block at the same place"
     ]
 
 
@@ -145,12 +145,12 @@ def test_lines_go_on_after_a_backslash_even_where_the_file_ends(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("extra", "words"),
     [
-        ("v 9 9 9\n", "1 of the 9 vertices of the file is"),
-        ("v 9 9 9\nv 8 8 8\n", "2 of the 10 vertices of the file are"),
+        ("v 9 9 9\n", "1 of the 9 vertices of the file"),
+        ("v 9 9 9\nv 8 8 8\n", "2 of the 10 vertices of the file"),
     ],
 )
 def test_vertices_that_no_face_uses_are_counted(tmp_path: Path, extra: str, words: str) -> None:
     obj(tmp_path).write_text(f"{CUBE}{extra}{FACES}")
     assert [(notice.identifier, notice.message) for notice in read_obj(obj(tmp_path)).notices] == [
-        ("file-vertices-unused", f"{words} used by no face: is the file whole?")
+        ("file-vertices-unused", f"{words} used by no face: is it whole?")
     ]

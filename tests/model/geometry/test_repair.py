@@ -70,7 +70,7 @@ def test_faces_without_area_are_left_out_with_a_notice() -> None:
     vertices, faces = box()
     geometry = split_surface(soup((vertices, [*faces, [0, 1, 1]])))
     assert [notice.message for notice in geometry.notices] == [
-        "1 face without area was left out: corners at the same place"
+        "1 face was left out, without area: corners at the same place"
     ]
     assert build_raw(geometry.polyhedra).blocks.volumes == pytest.approx([1])
 
@@ -153,7 +153,7 @@ def test_a_face_listed_twice_goes() -> None:
     for second in (faces[2], faces[2][::-1], [*faces[2][1:], faces[2][0]]):
         geometry = repaired(raw((vertices, [*faces, second])), names=("a",))
         assert volumes(geometry) == [1]
-        assert told(geometry) == ["1 face listed twice was left out"]
+        assert told(geometry) == ["1 face was left out, listed twice"]
 
 
 def test_both_sides_of_every_face_listed() -> None:
@@ -166,7 +166,7 @@ def test_both_sides_of_every_face_listed() -> None:
 def test_faces_that_two_blocks_share_are_kept() -> None:
     geometry = repaired(soup(*(box((x, 0, z), (x + 1, 1, z + 1)) for z in range(3) for x in range(3))))
     assert volumes(geometry) == pytest.approx([1] * 9)
-    assert told(geometry) == ["184 vertices at the same place as another of their block were merged"]
+    assert told(geometry) == ["184 vertices were merged with another of their block at the same place"]
 
 
 def test_a_block_enclosed_by_others_keeps_its_faces() -> None:
@@ -186,7 +186,7 @@ def with_t_junction(seed: int | None) -> Shape:
 def test_t_junctions(seed: int | None) -> None:
     geometry = repaired(raw(with_t_junction(seed)))
     assert volumes(geometry) == pytest.approx([1])
-    assert told(geometry) == ["2 vertices in the middle of the edge of another face were made corners of it"]
+    assert told(geometry) == ["2 vertices were made corners of the face in the middle of whose edge they lie"]
     built = build_raw(geometry.polyhedra)
     assert built.blocks.facet_of_face.max() + 1 == 6
 
@@ -198,7 +198,7 @@ def test_several_t_junctions_on_one_edge_in_order_from_both_sides() -> None:
     sides = [face for face in faces if sorted(face) != [4, 5, 6, 7]]
     geometry = repaired(raw((vertices, [*sides, *top])))
     assert volumes(geometry) == pytest.approx([1])
-    assert told(geometry) == ["6 vertices in the middle of the edge of another face were made corners of it"]
+    assert told(geometry) == ["6 vertices were made corners of the face in the middle of whose edge they lie"]
 
 
 def test_a_vertex_near_an_edge_but_off_it_is_no_t_junction() -> None:
@@ -213,8 +213,8 @@ def test_faces_of_no_width_go_and_leave_no_hole() -> None:
     geometry = repaired(raw((vertices, [*faces, [4, 8, 5], [7, 9, 6][::-1]])))
     assert volumes(geometry) == pytest.approx([1])
     assert told(geometry) == [
-        "2 faces without area, all corners on one line, were left out",
-        "2 vertices in the middle of the edge of another face were made corners of it",
+        "2 faces were left out, without area: all corners on one line",
+        "2 vertices were made corners of the face in the middle of whose edge they lie",
     ]
 
 
@@ -230,7 +230,7 @@ def test_an_object_of_several_closed_surfaces_is_split() -> None:
     geometry = repaired(raw(box((0, 5, 0), (1, 6, 1))), ring, names=("base", "ring"))
     assert volumes(geometry) == [1, 1, 1, 1]
     assert geometry.names == ("base", "ring", "ring", "ring")
-    assert told(geometry) == ["1 object is several closed surfaces, first ring: 3 blocks, one of each surface"]
+    assert told(geometry) == ["1 object was split into 3 closed surfaces, a block each; first ring"]
 
 
 def test_a_hole_is_not_closed() -> None:
@@ -244,7 +244,11 @@ def test_triangles_of_mixed_orientation_with_all_faults_at_once() -> None:
     faces = [face[::-1] if number % 3 else face for number, face in enumerate(TRIANGLES)]
     geometry = repaired(soup((vertices, [*faces, TRIANGLES[4], [0, 0, 1]])))
     assert volumes(geometry) == pytest.approx([1])
-    assert [notice.identifier for notice in geometry.notices] == ["vertices-merged", "faces-repeated"]
+    assert [notice.identifier for notice in geometry.notices] == [
+        "vertices-merged",
+        "faces-collapsed",
+        "faces-repeated",
+    ]
 
 
 def test_objects_that_are_single_faces_are_taken_together() -> None:
