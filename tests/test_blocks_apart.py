@@ -60,7 +60,7 @@ def test_the_tolerance_that_the_message_names_is_a_way_out(tmp_path: Path) -> No
 def test_the_cause_is_told_once_with_the_verdict(tmp_path: Path) -> None:
     lines = summary_lines(results_of(tmp_path))
     words = " ".join(" ".join(lines).split())
-    assert "warning [isolated-blocks]: 1 of 2 blocks touches nothing: block[1]; exit status 4" in words
+    assert "warning [isolated-blocks]: 1 of 2 blocks touch nothing: block[1]; exit status 4" in words
     assert "tolerance above 0.021 all of them are" in words
-    assert sum("touches nothing" in line for line in lines) == 1
+    assert sum("touch nothing" in line for line in lines) == 1
     assert any("NO EQUILIBRIUM" in line for line in lines)

@@ -1,4 +1,4 @@
-"""Broad phase: pairs of blocks, then of facets, that are near enough to be worth clipping.
+"""Broad phase: pairs of blocks, and of facets, that are near enough to be worth clipping.
 
 Near means within the reach of a pair: ten times its tolerance, so that pairs which just miss each other are seen.
 """
@@ -14,7 +14,6 @@ from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import CrowdedError, meeting_boxes
-from mbla.model.solids.ragged import chunks, rows_and_items
 
 NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
@@ -26,9 +25,6 @@ ten"""
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within
 # the tolerance would be narrower than 3.5 tolerances.
 _COARSE_ANGLE = np.cos(np.radians(30))
-
-# Facet pairs looked at together: bounds memory to some 200 MB.
-_BATCH = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -80,31 +76,16 @@ def block_boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:
     return np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)
 
 
-def find_facet_pairs(blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Facets of a pair of blocks that are opposite (coarsely) and within reach of each other.
-
-    Returns
-    -------
-    facets : (n, 2) facet of block a, facet of block b; sorted by pair of blocks
-    pair   : (n,)   row of ``pairs``
-    """
-    reach = NEAR_MISS * tolerance * pairs.sizes
-    lower, upper = block_boxes(blocks)
-    near = [_facets_near_box(facets, pairs.blocks[:, s], lower, upper, pairs.blocks[:, 1 - s], reach) for s in (0, 1)]
-    (pair_a, facet_a), (pair_b, facet_b) = near
-    first = np.searchsorted(pair_b, pair_a, side="left")
-    counts = np.searchsorted(pair_b, pair_a, side="right") - first
-    found: list[tuple[IntArray, IntArray]] = []
-    for rows in chunks(counts, _BATCH):
-        row, item = rows_and_items(first[rows], counts[rows])
-        a, b, pair = facet_a[rows][row], facet_b[item], pair_a[rows][row]
-        for test in (_opposite, _boxes_meet, _planes_near):
-            keep = test(facets, a, b, reach[pair])
-            a, b, pair = a[keep], b[keep], pair[keep]
-        found.append((np.stack([a, b], axis=1), pair))
-    if not found:
-        return np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=np.int64)
-    return np.concatenate([f for f, _ in found]), np.concatenate([p for _, p in found])
+def find_facet_pairs(blocks: Blocks, facets: Facets, tolerance: float) -> IntArray:
+    """Facets of two blocks that are opposite (coarsely) and within reach of each other, (n, 2), sorted."""
+    sizes = blocks.sizes[facets.blocks]
+    margin = (NEAR_MISS * tolerance / 2 * sizes)[:, None]
+    lower, upper = facets.lower - margin, facets.upper + margin
+    a, b = meeting_boxes(lower, upper, lower, upper, np.inf)
+    for test in (_of_two_blocks, _boxes_meet, _planes_near):
+        keep = test(facets, a, b, NEAR_MISS * tolerance * np.minimum(sizes[a], sizes[b]))
+        a, b = a[keep], b[keep]
+    return np.stack([a, b], axis=1)
 
 
 def opposite(normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:
@@ -113,21 +94,8 @@ def opposite(normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:
     return facing
 
 
-def _facets_near_box(
-    facets: Facets, block: IntArray, lower: FloatArray, upper: FloatArray, other: IntArray, reach: FloatArray
-) -> tuple[IntArray, IntArray]:
-    """Row of the pair and facet for the facets of one block of each pair that come near the box of the other."""
-    pair, facet = rows_and_items(facets.facet_start[block], np.diff(facets.facet_start)[block])
-    keep = np.ones(len(pair), dtype=bool)
-    for axis in range(3):
-        margin = reach[pair]
-        keep &= facets.lower[facet, axis] - margin <= upper[other[pair], axis]
-        keep &= facets.upper[facet, axis] + margin >= lower[other[pair], axis]
-    return pair[keep], facet[keep]
-
-
-def _opposite(facets: Facets, a: IntArray, b: IntArray, reach: FloatArray) -> BoolArray:
-    return opposite(facets.normals[a], facets.normals[b])
+def _of_two_blocks(facets: Facets, a: IntArray, b: IntArray, reach: FloatArray) -> BoolArray:
+    return np.asarray((facets.blocks[a] != facets.blocks[b]) & opposite(facets.normals[a], facets.normals[b]))
 
 
 def _boxes_meet(facets: Facets, a: IntArray, b: IntArray, reach: FloatArray) -> BoolArray:

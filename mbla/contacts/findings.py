@@ -84,20 +84,13 @@ def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
 
 
 def _without_effect(solids: Solids, case: LoadCase) -> bool:
-    free = ~solids.model.fixed
-    net, gross = np.abs(solids.loads(case.live_load)[free]), _gross(solids, case.live_load)[free]
-    return bool((net.max(axis=0) <= CANCELLED * gross.max(axis=0)).all())
-
-
-def _gross(solids: Solids, loads: FloatArray) -> FloatArray:
-    """Sum of the sizes of forces, and of moments about the solid's centroid, on each solid, (n_solids, 6)."""
-    sizes = np.abs(loads)
-    arms = np.linalg.norm(solids.arms, axis=1) * np.linalg.norm(loads[:, :3], axis=1)
-    sizes[:, 3:] += arms[:, None]
-    total = np.zeros((len(solids.model.blocks), 6))
-    label = np.arange(len(loads)) if solids.solid_of_block is None else solids.solid_of_block
-    np.add.at(total, label, sizes)
-    return total
+    """Whether nothing is left of the live loads on solids that move, beside the sizes of these and of their moments."""
+    net = np.abs(solids.loads(case.live_load)[~solids.model.fixed]).max(axis=0)
+    sizes = np.abs(case.live_load)
+    sizes[:, 3:] += (
+        np.linalg.norm(solids.arms, axis=1)[:, None] * np.linalg.norm(case.live_load[:, :3], axis=1)[:, None]
+    )
+    return bool((net <= CANCELLED * sizes.max(axis=0)).all())
 
 
 _FACING = 0.99

@@ -18,14 +18,11 @@ import shapely
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.joints import Laws
-from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.outlines.overlay import local_maps
+from mbla.contacts.narrow_phase import Patches, common_parts
 from mbla.contacts.outlines.polygons import (
     GRID,
     Polygons,
     connected_parts,
-    intersect,
-    map_polygons,
     union_by_row,
     widths,
 )
@@ -109,10 +106,7 @@ def _shared(patches: Patches, n_blocks: int, tolerance: float) -> tuple[IntArray
     keep = (body < n_blocks) | (body < overlays.bodies[later, 0])
     keep &= (cosine > _ONE_FACE) & (np.abs(away) <= _APART * tolerance * overlays.sizes[later])
     later, earlier = later[keep], earlier[keep]
-    matrices, offsets = local_maps(overlays.take(later), overlays.origins[earlier], overlays.frames[earlier])
-    matrices = matrices * overlays.sizes[earlier, None, None]
-    others = map_polygons(patches.polygons[earlier], matrices, offsets)
-    common = intersect(patches.polygons[later], others, np.zeros(len(later), dtype=bool))
+    common, _ = common_parts(patches, later, earlier)
     wide = widths(common) >= tolerance * (1 - _WHOLE)
     return later[wide], earlier[wide], common[wide]
 

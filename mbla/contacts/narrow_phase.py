@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mbla.arrays import FloatArray
-from mbla.contacts.broad_phase import NEAR_MISS, BlockPairs, find_facet_pairs, opposite
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.broad_phase import NEAR_MISS, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.outlines.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
@@ -67,11 +67,9 @@ class Verdicts:
     near_misses: Patches
 
 
-def find_patches(
-    blocks: Blocks, facets: Facets, pairs: BlockPairs, grounds: tuple[Ground, ...], tolerance: float
-) -> Patches:
+def find_patches(blocks: Blocks, facets: Facets, grounds: tuple[Ground, ...], tolerance: float) -> Patches:
     """All common surfaces of blocks with blocks and with grounds, whatever their gap (within reach)."""
-    between, first, second = _between_blocks(blocks, facets, pairs, tolerance)
+    between, first, second = _between_blocks(blocks, facets, tolerance)
     keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
     between = between.take(keep)
     convex = facets.convex[between.facets[:, 0]] & facets.convex[between.facets[:, 1]]
@@ -104,20 +102,18 @@ def judge(patches: Patches, tolerance: float, reach: float | None = None) -> Ver
     )
 
 
-def _between_blocks(
-    blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: float
-) -> tuple[Overlays, Polygons, Polygons]:
-    found, pair = find_facet_pairs(blocks, facets, pairs, tolerance)
-    a, b = found[:, 0], found[:, 1]
+def _between_blocks(blocks: Blocks, facets: Facets, tolerance: float) -> tuple[Overlays, Polygons, Polygons]:
+    found = find_facet_pairs(blocks, facets, tolerance)
+    a, b = found.T
     # Amid what the two bounding boxes share: near the common surface, however large one of the facets is.
     shared = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
     overlays = build_overlays(
-        bodies=pairs.blocks[pair],
+        bodies=facets.blocks[found],
         facets=found,
         a=Planes(facets.origins[a], facets.normals[a]),
         b=Planes(facets.origins[b], facets.normals[b]),
         near=shared,
-        sizes=pairs.sizes[pair],
+        sizes=blocks.sizes[facets.blocks[found]].min(axis=1),
     )
     return overlays, _outlines(overlays, facets, 0), _outlines(overlays, facets, 1)
 
@@ -164,3 +160,11 @@ def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -
         mid_gaps=(high + low) / 2,
         coverage=shapely.area(polygons) * overlays.sizes**2 / smaller,
     )
+
+
+def common_parts(patches: Patches, one: IntArray, other: IntArray) -> tuple[Polygons, Polygons]:
+    """What pairs of patches share, and the second of each as moved there; (n,) each in coordinates of the first."""
+    overlays = patches.overlays
+    matrices, offsets = local_maps(overlays.take(one), overlays.origins[other], overlays.frames[other])
+    moved = map_polygons(patches.polygons[other], matrices * overlays.sizes[other, None, None], offsets)
+    return intersect(patches.polygons[one], moved, np.zeros(len(one), dtype=bool)), moved

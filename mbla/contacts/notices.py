@@ -11,16 +11,12 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import solid_sizes
 from mbla.contacts.narrow_phase import Patches
-from mbla.contacts.outlines.corners import Corners
 from mbla.contacts.report import WIDEST, Findings
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.wording import counted, named
-
-_NAMED = 3
-"""pairs that are named in a notice; the arrays of the report have all"""
 
 
 def report_notices(
@@ -40,19 +36,16 @@ def report_notices(
 def _loose(model: Model, section: ContactsSection, report: ContactReport) -> Iterator[Notice]:
     """Blocks that touch nothing, and parts that reach no support."""
     if number := len(report.isolated):
-        verb = "touches nothing" if number == 1 else "touch nothing"
-        text = f"{number} of {counted(len(model.blocks), 'block')} {verb}: {named(report.isolated, model.blocks.name)}"
+        text = f"{number} of {len(model.blocks)} blocks touch nothing: {named(report.isolated, model.blocks.name)}"
         if section.isolated == "allow":
             yield Notice("notice", "isolated-blocks", text)
         else:
-            text = f"{text}; exit status 4, unless contacts.isolated is allow"
-            yield Notice("warning", "isolated-blocks", text)
+            yield Notice("warning", "isolated-blocks", f"{text}; exit status 4, unless contacts.isolated is allow")
     if parts := [part for part in report.unsupported if len(part) > 1]:  # one alone is an isolated block
         largest = max(parts, key=len)
         text = (
-            f"{counted(len(parts), 'part')} of the structure not connected to a support; the "
-            f"{'largest' if len(parts) > 1 else 'part'} has {counted(len(largest), 'block')}: "
-            f"{named(largest, model.blocks.name)}"
+            f"{counted(len(parts), 'part')} of the structure not connected to a support, the largest of "
+            f"{counted(len(largest), 'block')}: {named(largest, model.blocks.name)}"
         )
         yield Notice("warning", "unsupported-parts", text)
 
@@ -71,27 +64,24 @@ def _missed(model: Model, section: ContactsSection, report: ContactReport) -> It
     if number := len(report.unchecked):
         text = (
             f"{counted(number, 'pair')} of blocks not checked for overlap, because the faces of one do not form a "
-            f"closed solid: {', '.join(_pair(model, pair) for pair in report.unchecked[:_NAMED])}{_more(number)}"
+            f"closed solid: {_pair(model, report.unchecked[0])}{_more(number)}"
         )
         yield Notice("warning", "overlap-not-checked", text)
     if number := len(report.near_misses):
-        gaps = report.near_miss_gaps
-        nearest = [
-            f"{_pair(model, report.near_misses[row])} ({_length(model, report.near_misses[row], gaps[row])})"
-            for row in np.argsort(np.abs(gaps), kind="stable")[:_NAMED]
-        ]
+        gaps = np.abs(report.near_miss_gaps)
+        least = int(np.argmin(gaps))
         text = (
-            f"{counted(number, 'near miss')}, opposite faces that miss each other by more than the "
-            f"tolerance of {section.tolerance:g}: {', '.join(nearest)}{_more(number)}; they are no contacts"
-            f"{_by_tolerance(float(np.abs(gaps).max()), ', with contacts.tolerance above {:.2g} all of them are')}"
+            f"{counted(number, 'near miss')}, opposite faces that miss each other by more than the tolerance of "
+            f"{section.tolerance:g}: {_measured(model, report.near_misses[least], report.near_miss_gaps[least])}"
+            f"{_more(number)}; they are no contacts"
+            f"{_by_tolerance(float(gaps.max()), ', with contacts.tolerance above {:.2g} all of them are')}"
         )
         yield Notice("warning", "near-misses", text)
     if number := len(report.slivers):
         widest = int(np.argmax(report.sliver_widths))
-        pair, width = report.slivers[widest], float(report.sliver_widths[widest])
         text = (
-            f"{counted(number, 'common surface')} narrower than the tolerance of {section.tolerance:g} "
-            f"dropped; the widest, between {_pair(model, pair)}, measures {_length(model, pair, width)}"
+            f"{counted(number, 'common surface')} narrower than the tolerance of {section.tolerance:g} dropped: "
+            f"{_measured(model, report.slivers[widest], report.sliver_widths[widest])}{_more(number)}"
         )
         yield Notice("notice", "slivers-dropped", text)
 
@@ -122,11 +112,10 @@ def _left_out(model: Model, report: ContactReport, findings: Findings) -> Iterat
     if number := len(held := findings.separated):
         gaps, overlays = held.patches.mid_gaps, held.patches.overlays
         row = int(np.argmax(gaps * overlays.sizes))
-        pair = overlays.bodies[row]
         text = (
             f"{counted(number, 'common surface')} within the tolerance left out, because a thin block lies between: "
-            f"{_pair(model, pair)} stand {_length(model, pair, float(gaps[row]))} apart on "
-            f"{model.body_name(int(held.between[row]))}{', and others' if number > 1 else ''}"
+            f"{_measured(model, overlays.bodies[row], gaps[row])} on {model.body_name(int(held.between[row]))}"
+            f"{_more(number)}"
         )
         yield Notice("notice", "thin-block-between", text)
     if report.open_interfaces:
@@ -149,7 +138,12 @@ def glue_words(report: ContactReport, sizes: IntArray) -> str:
 
 
 def _more(number: int) -> str:
-    return f" and {number - _NAMED} more" if number > _NAMED else ""
+    """Behind the one that is named."""
+    return f" and {number - 1} more" if number > 1 else ""
+
+
+def _measured(model: Model, pair: IntArray, relative: float) -> str:
+    return f"{_pair(model, pair)} ({_length(model, pair, relative)})"
 
 
 def _pair(model: Model, pair: IntArray) -> str:
@@ -173,23 +167,18 @@ SEEN = 1e-4
 which blocks turn move by about that share of their distance, and the load factor by rocking with them."""
 
 
-def outline_notices(
-    model: Model, section: ContactsSection, patches: Patches, corners: Corners, drawn: FloatArray
-) -> Iterator[Notice]:
+def outline_notices(model: Model, section: ContactsSection, patches: Patches, drawn: FloatArray) -> Iterator[Notice]:
     """A notice where corners that were left out change the area of a common surface.
 
     patches : with the outlines as they were cut
-    corners : those that stay
-    drawn   : (n_patches,) area within these, relative like the outlines
+    drawn   : (n_patches,) area within the corners that stay, relative like the outlines
     """
     changes = np.abs(drawn / shapely.area(patches.polygons) - 1.0)
     if simpler := int((changes > SEEN).sum()):
         most = int(np.argmax(changes))
         text = (
             f"corners within the tolerance of {section.tolerance:g} of the outline are left out, which changes the "
-            f"area of {counted(simpler, 'common surface')}, most that of "
-            f"{_pair(model, patches.overlays.bodies[most])}, drawn by "
-            f"{int((corners.polygon_of_corner == most).sum())} corners, by {100 * changes[most]:.2g} %: a smaller "
-            "contacts.tolerance keeps more of them"
+            f"area of {counted(simpler, 'common surface')}, most that of {_pair(model, patches.overlays.bodies[most])} "
+            f"by {100 * changes[most]:.2g} %: a smaller contacts.tolerance keeps more of them"
         )
         yield Notice("notice", "outlines-simplified", text)

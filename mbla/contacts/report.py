@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, find_block_pairs
-from mbla.contacts.contacts import ContactReport, ContactsRefused
+from mbla.contacts.broad_phase import NEAR_MISS
+from mbla.contacts.contacts import ContactReport
 from mbla.contacts.facets import Facets
 from mbla.contacts.glue import Glue
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
@@ -138,15 +138,10 @@ WIDEST = 0.1
 
 
 def misses_within(model: Model, facets: Facets, tolerance: float) -> Patches | None:
-    """Near misses with gaps up to ``WIDEST``; None where those of the search reach as far, or cannot be looked at."""
+    """Near misses with gaps up to ``WIDEST``; None where those of the search reach as far."""
     if NEAR_MISS * tolerance >= WIDEST:
         return None
-    coarse = WIDEST / NEAR_MISS
-    try:
-        pairs = find_block_pairs(model.blocks, coarse)
-    except ContactsRefused:
-        return None
-    patches = find_patches(model.blocks, facets, pairs, model.grounds, coarse)
+    patches = find_patches(model.blocks, facets, model.grounds, WIDEST / NEAR_MISS)
     found = judge(patches, tolerance, WIDEST).near_misses
     # what is narrower than its gap would be no contact if the gap were none
     return found.take((found.widths >= np.abs(found.gaps)) & (np.abs(found.gaps) <= WIDEST))

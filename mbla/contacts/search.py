@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
-from mbla.contacts.broad_phase import BlockPairs, find_block_pairs
+from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
@@ -60,7 +60,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
     pairs = find_block_pairs(model.blocks, section.tolerance)
     facets = build_facets(model.blocks)
-    verdicts, separated = _verdicts(model, facets, pairs, section.tolerance)
+    verdicts, separated = _verdicts(model, facets, section.tolerance)
     overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
@@ -76,7 +76,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     order = _order(kept, np.ones(len(kept), dtype=bool))
     kept, rows = kept.take(order), rows[source[order]]
     corners = needed_corners(kept.polygons, section.tolerance)
-    simpler = outline_notices(model, section, kept, corners, areas_and_centroids(corners)[0])
+    simpler = outline_notices(model, section, kept, areas_and_centroids(corners)[0])
     law_of, names = laws.in_use(rows)
     crushable = np.isfinite([model.joints[name].compressive_strength for name in names])
     corners, piece = in_pieces(corners, crushable[law_of])
@@ -98,10 +98,10 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     return _contacts(kept, areas, found, (law_of, names), replace(report, notices=told), glue.solid_of_block)
 
 
-def _verdicts(model: Model, facets: Facets, pairs: BlockPairs, tolerance: float) -> tuple[Verdicts, SeparatedPairs]:
+def _verdicts(model: Model, facets: Facets, tolerance: float) -> tuple[Verdicts, SeparatedPairs]:
     """What touches, what nearly does, what a third block separates; prescribed interfaces are taken as they are."""
     if model.interfaces is None:
-        found = judge(find_patches(model.blocks, facets, pairs, model.grounds, tolerance), tolerance)
+        found = judge(find_patches(model.blocks, facets, model.grounds, tolerance), tolerance)
         verdicts, separated = drop_pairs_separated_by_third_block(found, model.blocks, tolerance)
         if unsupported_parts(held_blocks(model), found.contacts.overlays.bodies):
             wide = replace(found, near_misses=misses_within(model, facets, tolerance) or found.near_misses)

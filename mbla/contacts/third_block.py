@@ -16,9 +16,9 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.narrow_phase import Patches, Verdicts
-from mbla.contacts.outlines.overlay import concatenate, local_maps
-from mbla.contacts.outlines.polygons import intersect, map_polygons, widths
+from mbla.contacts.narrow_phase import Patches, Verdicts, common_parts
+from mbla.contacts.outlines.overlay import concatenate
+from mbla.contacts.outlines.polygons import widths
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes
 from mbla.model.solids.ragged import rows_and_items
@@ -166,12 +166,7 @@ def _share_a_surface(patches: Patches, far: IntArray, closer: IntArray, toleranc
     """Whether two patches of one facet lie on the same part of it, (n,)."""
     if not len(far):
         return np.zeros(0, dtype=bool)
-    nearer = patches.overlays.take(closer)
-    frames = patches.overlays.frames[far]
-    matrices, offsets = local_maps(nearer, patches.overlays.origins[far], frames)
-    matrices = matrices * patches.overlays.sizes[far, None, None]
-    moved = map_polygons(patches.polygons[far], matrices, offsets)
-    common = intersect(moved, patches.polygons[closer], np.zeros(len(far), dtype=bool))
+    common, moved = common_parts(patches, closer, far)
     share = shapely.area(common) / np.minimum(shapely.area(moved), shapely.area(patches.polygons[closer]))
     wide = (widths(common) >= tolerance * (1 - 1e-9)) | (share >= 0.5)
     return np.asarray((share >= _SHARE) & wide)

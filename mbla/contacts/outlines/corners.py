@@ -18,8 +18,6 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, widths
 from mbla.model.solids.ragged import next_item
 
-# Corners this close to the chord are dropped even where dropping more would make the outline cross itself.
-_COLLINEAR = 1e-9
 _SHARE_OF_WIDTH = 0.1
 # The first corner of an outline is the least one along a direction that no edge of a building is likely to follow.
 _ODD_DIRECTION = np.array([0.8253356, 0.5646425])
@@ -62,19 +60,13 @@ def needed_corners(polygons: Polygons, tolerance: float) -> Corners:
 
     A narrow polygon is described more finely: to a tenth of its width at most.
     Outer rings and holes keep at least three corners; each ring starts at its least corner along an odd direction.
+    Where the outline would cross itself with fewer corners, for instance at a neck, all of them stay.
     """
     found = _without_narrow_holes(Corners(*rings(polygons)), tolerance)
     fineness = np.minimum(tolerance, _SHARE_OF_WIDTH * widths(polygons))[found.polygon_of_corner]
     keep = _needed(found, fineness)
-    # Where the outline would cross itself, for instance at a neck, only collinear corners go, or none at all.
-    for coarse in (_COLLINEAR, 0.0):
-        crossing = _crossing_after(found, keep)
-        if not crossing.any():
-            break
-        fineness = np.where(crossing, np.minimum(fineness, coarse), fineness)
-        keep = np.where(crossing, _needed(found, fineness) if coarse > 0 else True, keep)
-    thinned = found.take(keep)
-    return _from_least_corner(thinned)
+    keep |= _crossing_after(found, keep)
+    return _from_least_corner(found.take(keep))
 
 
 def areas_and_centroids(corners: Corners) -> tuple[FloatArray, FloatArray]:

@@ -60,7 +60,7 @@ class _Work:
         if count:
             self.notices.append(Notice("notice", identifier, told(count, noun, words)))
 
-    def weld(self, welded: Welded, identifier: str, words: str, *, count_merged: bool = True) -> None:
+    def take_welded(self, welded: Welded, identifier: str, words: str, *, count_merged: bool = True) -> None:
         """Take what welding made."""
         self.put(welded.polyhedra)
         self.tell(identifier, welded.merged if count_merged else 0, "vertex", f"merged with another {words}")
@@ -80,7 +80,7 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
     work.put(work.polyhedra)
     if len(work.polyhedra):
         words = "of their block at the same place"
-        work.weld(weld(work.polyhedra), "vertices-merged", words, count_merged=geometry.indexed)
+        work.take_welded(weld(work.polyhedra), "vertices-merged", words, count_merged=geometry.indexed)
     if weld_distance is not None:
         everything = np.arange(len(work.polyhedra.vertices))
         _weld_near(work, everything, np.full(len(everything), weld_distance))
@@ -111,7 +111,7 @@ def _put_back(work: _Work, geometry: Geometry) -> None:
 
 def _weld_near(work: _Work, vertices: IntArray, reach: FloatArray) -> None:
     if len(vertices):
-        work.weld(weld_near(work.polyhedra, vertices, reach), "vertices-welded", f"up to {reach.max():.2g} away")
+        work.take_welded(weld_near(work.polyhedra, vertices, reach), "vertices-welded", f"up to {reach.max():.2g} away")
 
 
 def _pool_open_objects(work: _Work) -> None:
