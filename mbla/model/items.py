@@ -72,17 +72,15 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
             if made > amounts.MOST:
                 raise ItemRefused(Finding("too-many-units", f"makes {amounts.too_many(made)}"))
-        except ItemRefused as refused:
-            faults += [deck.fault_at((*path, *below), message) for below, message in refused.findings]
-            partial |= {group, f"{group}_springers"}
-            continue
-        except DeckError as error:
-            faults += error.faults
+        except (ItemRefused, DeckError) as refused:
+            findings = refused.findings if isinstance(refused, ItemRefused) else ()
+            faults += [deck.fault_at((*path, *below), message) for below, message in findings]
+            faults += refused.faults if isinstance(refused, DeckError) else ()
             partial |= {group, f"{group}_springers"}
             continue
         notices += generated.notices
-        for copy in range(len(copies)):
-            own = transform_item(generated, copies.map(copy)) if copy else generated
+        for copy, onwards in enumerate(copies):
+            own = transform_item(generated, onwards) if copy else generated
             for ground in own.grounds:
                 joint = ground.joint or deck.contacts.joint
                 grounds.append(Ground(ground.point, ground.normal, joint, n_blocks + ground.blocks, "ground"))

@@ -88,8 +88,7 @@ def _joined_guides(guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, r
         for other, words in ((fixed, "fixed by another item of supports"), (held, "guided by an earlier item")):
             twice: IntArray = own.blocks[other[own.blocks]]
             if len(twice):
-                verb = "is" if len(twice) == 1 else "are"
-                message = f"{named(twice, roster.blocks.name)} {verb} {words}: say how a block is held in one item"
+                message = f"{words}: {named(twice, roster.blocks.name)}; say how a block is held in one item"
                 roster.refuse(Finding("support-held-twice", message, *path, "blocks"))
         held[own.blocks] = True
         result = joined(result, own)
@@ -143,21 +142,15 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > tolerance * blocks.sizes))
     if len(sunk):
-        roster.refuse(Finding("ground-misplaced", _sunk_in_words(sunk, depths, blocks), *path))
+        words = (
+            f"blocks reach below it, by up to {depths[sunk].max():.4g}: {named(sunk, blocks.name)}; move the plane, or "
+            "name the blocks it carries with blocks"
+        )
+        roster.refuse(Finding("ground-misplaced", words, *path))
     elif not _faces_on(ground, heights, may_carry, blocks, tolerance) and not roster.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         nearest = f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else ""
         roster.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
-
-
-def _sunk_in_words(sunk: IntArray, depths: FloatArray, blocks: Blocks) -> str:
-    worst = sunk[np.argmax(depths[sunk])]
-    verb = "reaches" if len(sunk) == 1 else "reach"
-    most = "" if len(sunk) == 1 else f", {blocks.name(int(worst))}"
-    return (
-        f"{named(sunk, blocks.name)} {verb} below it{most} by {depths[worst]:.4g}; "
-        "move the plane, or name the blocks it carries with blocks"
-    )
 
 
 def _faces_on(ground: Ground, heights: FloatArray, may_carry: BoolArray, blocks: Blocks, tolerance: float) -> bool:

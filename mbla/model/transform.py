@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 
 import numpy as np
 
@@ -37,63 +38,39 @@ class AffineMap:
         images = directions @ self.matrix.T
         return np.asarray(images / np.linalg.norm(images, axis=-1, keepdims=True), dtype=np.float64)
 
+    def after(self, other: AffineMap) -> AffineMap:
+        """The map of what another one has moved."""
+        return AffineMap(self.matrix @ other.matrix, self.points(other.offset))
+
     @property
     def mirrors(self) -> bool:
         """True where right-handed becomes left-handed."""
         return bool(np.linalg.det(self.matrix) < 0)
 
 
+IDENTITY = AffineMap(np.eye(3), np.zeros(3))
+
+
 def build_transform(transform: Sequence[TransformStep] | TransformStep) -> AffineMap | None:
     """The affine map of an item's steps; None where there are none."""
     steps = [transform] if isinstance(transform, TransformStep) else transform
-    if not steps:
-        return None
-    matrix, offset = np.eye(3), np.zeros(3)
-    for step in steps:
-        of_step = _step(step)
-        matrix, offset = of_step.matrix @ matrix, of_step.points(offset)
-    return AffineMap(matrix, offset)
+    return reduce(lambda whole, step: _step(step).after(whole), steps, IDENTITY) if steps else None
 
 
-@dataclass(frozen=True)
-class Copies:
-    """The maps to the copies of an item, the first of which is the item itself; (n, 3, 3), (n, 3)."""
-
-    matrices: FloatArray
-    offsets: FloatArray
-
-    def __len__(self) -> int:
-        return len(self.offsets)
-
-    def map(self, copy: int) -> AffineMap:
-        """The map to one of them."""
-        return AffineMap(self.matrices[copy], self.offsets[copy])
-
-    def points(self, points: FloatArray) -> FloatArray:
-        """Images of points (k, 3) in all copies, (n, k, 3)."""
-        return np.asarray(points @ self.matrices.transpose(0, 2, 1) + self.offsets[:, None], dtype=np.float64)
-
-
-def repetitions(repeat: Sequence[Repetition] | Repetition) -> Copies:
-    """The copies that steps make; of steps, the last varies slowest."""
-    copies = Copies(np.eye(3)[None], np.zeros((1, 3)))
+def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:
+    """The maps to the copies of an item, the first of which is the item itself; of steps, the last varies slowest."""
+    copies = [IDENTITY]
     for step in [repeat] if isinstance(repeat, Repetition) else repeat:
-        onwards = _onwards(step)
-        matrices = onwards.matrices[:, None] @ copies.matrices[None]
-        copies = Copies(matrices.reshape(-1, 3, 3), onwards.points(copies.offsets).reshape(-1, 3))
+        copies = [_onwards(step, number).after(copy) for number in range(step.count) for copy in copies]
     return copies
 
 
-def _onwards(step: Repetition) -> Copies:
-    """From the first copy to each: multiples of the displacement or the angle, so that no rounding adds up."""
-    copies = np.arange(step.count)
+def _onwards(step: Repetition, number: int) -> AffineMap:
+    """To a copy: a multiple of the displacement or the angle, so that no rounding adds up."""
     if step.rotate is not None:
-        rotations = [
-            _rotation(step.rotate.model_copy(update={"angle": copy * step.rotate.angle})) for copy in copies.tolist()
-        ]
-        return Copies(np.stack([each.matrix for each in rotations]), np.stack([each.offset for each in rotations]))
+        return _rotation(step.rotate.model_copy(update={"angle": number * step.rotate.angle}))
     assert step.translate is not None  # a rule of the deck: one of translate and rotate
-    return Copies(np.tile(np.eye(3), (step.count, 1, 1)), copies[:, None] * np.array(step.translate))
+    return AffineMap(np.eye(3), number * np.array(step.translate))
 
 
 def transform_item(generated: Generated, transform: AffineMap) -> Generated:

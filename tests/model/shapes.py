@@ -10,7 +10,7 @@ from scipy.spatial import ConvexHull
 
 from mbla.arrays import FloatArray
 from mbla.deck import Deck, read_deck
-from mbla.model.solids.blocks import no_labels
+from mbla.model.solids.blocks import labels_of
 from mbla.model.solids.build import BuiltBlocks, Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
 
@@ -57,7 +57,7 @@ def build(*shapes: Shape, tolerance: float = 1e-3) -> BuiltBlocks:
 
 def build_raw(polyhedra: Polyhedra, tolerance: float = 1e-3) -> BuiltBlocks:
     n = len(polyhedra)
-    return build_blocks(polyhedra, Labels(("b",) * n, np.arange(n), np.ones(n), no_labels(n)), tolerance)
+    return build_blocks(polyhedra, Labels(("b",) * n, np.arange(n), np.ones(n), labels_of(n)), tolerance)
 
 
 def moved(shape: Shape, matrix: FloatArray, offset: Sequence[float] = (0, 0, 0)) -> Shape:

@@ -70,7 +70,7 @@ def test_fixed_blocks_may_reach_below_ground(tmp_path: Path) -> None:
 
 def test_blocks_below_ground(tmp_path: Path) -> None:
     assert messages(tmp_path, "[{ground: {z: 0.25}}]", BLOCK, SLAB) == [
-        "supports[0].ground: block[0], slab[0] reach below it, slab[0] by 1.25; "
+        "supports[0].ground: blocks reach below it, by up to 1.25: block[0], slab[0]; "
         "move the plane, or name the blocks it carries with blocks"
     ]
 
@@ -79,7 +79,7 @@ def test_blocks_below_ground(tmp_path: Path) -> None:
 def test_depth_below_ground_within_the_tolerance(tmp_path: Path, depth: float, refused: bool) -> None:
     supports = f"[{{ground: {{z: {depth}}}}}]"
     if refused:
-        assert "reaches below it" in messages(tmp_path, supports)[0]
+        assert " below it" in messages(tmp_path, supports)[0]
     else:
         assert len(build_model(deck(tmp_path, [BLOCK], supports)).grounds) == 1
 

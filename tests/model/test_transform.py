@@ -47,7 +47,7 @@ def test_rotation_is_right_handed(axis: tuple[float, ...], image: tuple[float, .
 
 def repeated(*steps: dict[str, Any]) -> Any:
     maps = repetitions([Repetition.model_validate(step) for step in steps])
-    return maps.points(np.array([[1.0, 0.0, 0.0]]))[:, 0]
+    return np.array([each.points(np.array([1.0, 0.0, 0.0])) for each in maps])
 
 
 def test_nothing_repeated_is_there_once() -> None:

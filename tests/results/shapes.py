@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.solids.blocks import Blocks, no_labels
+from mbla.model.solids.blocks import Blocks, labels_of
 
 TETRA = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 1 / 6)
 WEDGE = (
@@ -68,5 +68,5 @@ def blocks_of(shapes: Any, seed: int = 0) -> Blocks:
         densities=np.ones(n),
         groups=("shape",) * n,
         group_indices=np.arange(n),
-        labels=no_labels(n),
+        labels=labels_of(n),
     )

@@ -15,7 +15,7 @@ from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
-from mbla.model.solids.blocks import Blocks, no_labels
+from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
@@ -65,7 +65,7 @@ def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks
         densities=np.broadcast_to(np.asarray(densities, float), (n,)).copy(),
         groups=tuple(groups),
         group_indices=np.array(indices, dtype=np.int64),
-        labels=no_labels(n),
+        labels=labels_of(n),
     )
 
 

@@ -17,8 +17,8 @@ from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
 from mbla.model.loads.tilt import tilt_loads
-from mbla.model.loads.travel import PositionLoad, case_name, travel_loads, travel_of
-from mbla.model.model import LoadCase
+from mbla.model.loads.travel import case_name, travel_loads, travel_of
+from mbla.model.model import LoadCase, TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import named, vector
 
@@ -64,7 +64,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     before = len(site.roster.faults)
     dead = _add_up(dead_loads, site, live=False)
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
-    tilt, positions = None, list[PositionLoad | None]([None])
+    tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
         tilt = tilt_loads(table, dead_loads, dead.total, path, site)
         live = live.plus(AppliedLoad(np.arange(len(site.blocks)), tilt.across, f"tilt about {vector(table.axis)}"))
@@ -73,20 +73,20 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
     sound = len(site.roster.faults) == before
     cases = []
-    for position in positions:
-        own = live if position is None else live.plus(position.applied)
+    for position, applied in positions:
+        own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
-            _judge_live(position, path, own, site)
+            _judge_live(applied, path, own, site)
         case = LoadCase(name, dead.total, own.total, dead.words, own.words, tilt=tilt)
         if position is not None:
-            case = replace(case, name=case_name(position.position), travel=position.position)
+            case = replace(case, name=case_name(position), travel=position)
         cases.append(case)
     if sound and dead.complete:
         _judge_size((*path, "dead") if section.dead is not None else path, dead, site)
     return tuple(cases)
 
 
-def _judge_live(position: PositionLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
+def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
     """Live loads must leave something on blocks that move, and be numbers to compute with."""
     free = ~site.fixed
     if not free.any() or site.roster.partial or _judge_size((*path, "live"), live, site):
@@ -94,8 +94,8 @@ def _judge_live(position: PositionLoad | None, path: KeyPath, live: _Sum, site: 
     if np.abs(live.total[free]).max() > CANCELLED * live.gross[free].max():
         return
     words = "the live loads cancel each other: they have no effect"
-    if position is not None and site.fixed[position.applied.blocks].all():
-        words = f"{position.applied.words} has no effect: what it acts on does not move; change the path"
+    if travelling is not None and site.fixed[travelling.blocks].all():
+        words = f"{travelling.words} has no effect: what it acts on does not move; change the path"
     site.refuse(Finding("live-load-without-effect", words, *path, "live"))
 
 

@@ -9,8 +9,6 @@ path to the last at its end; of each position those forces act that are on the p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
@@ -26,20 +24,12 @@ ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""
 
 
-@dataclass(frozen=True)
-class PositionLoad:
-    """The load at one position."""
-
-    position: TravelPosition
-    applied: AppliedLoad
-
-
 def travel_of(loads: list[Load]) -> int | None:
     """Which of the live loads travels; a rule of the deck: at most one does."""
     return next((number for number, load in enumerate(loads) if load.travel is not None), None)
 
 
-def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] | None:
+def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPosition, AppliedLoad]] | None:
     """The load at every position; None where a fault was left, as for positions over no block."""
     travel = entry.load.travel
     assert travel is not None  # what makes it this kind
@@ -75,7 +65,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[PositionLoad] 
         site.refuse(Finding("load-beside-structure", words, *entry.path, "travel"))
     if bare:
         return None
-    return [PositionLoad(position, _applied(position, site)) for position in positions]
+    return [(position, _applied(position, site)) for position in positions]
 
 
 def _applied(position: TravelPosition, site: LoadSite) -> AppliedLoad:

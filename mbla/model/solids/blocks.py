@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 
 import numpy as np
 
@@ -90,29 +91,18 @@ class BlockLabels:
         return column
 
 
-def no_labels(count: int) -> BlockLabels:
-    """Labels of blocks that have none."""
-    return BlockLabels(("",) * count, np.full((count, len(POSITIONS)), NONE, dtype=np.int64))
-
-
-def labels_of(count: int, member: str | Sequence[str], positions: Mapping[str, IntArray]) -> BlockLabels:
+def labels_of(
+    count: int, member: str | Sequence[str] = "", positions: Mapping[str, IntArray] = MappingProxyType({})
+) -> BlockLabels:
     """Labels of the blocks of one part of an item.
 
-    member    : of all blocks, or of each
+    member    : of all blocks, or of each, (count)
     positions : (count,) by name
-
-    Raises
-    ------
-    ValueError
-        for other numbers of members than of blocks
     """
-    labels = no_labels(count)
+    columns = np.full((count, len(POSITIONS)), NONE, dtype=np.int64)
     for name, values in positions.items():
-        labels.positions[:, POSITIONS.index(name)] = values
-    members = (member,) * count if isinstance(member, str) else tuple(member)
-    if len(members) != count:
-        raise ValueError(f"{len(members)} members for {count} blocks")
-    return BlockLabels(members, labels.positions)
+        columns[:, POSITIONS.index(name)] = values
+    return BlockLabels((member,) * count if isinstance(member, str) else tuple(member), columns)
 
 
 def join_labels(parts: Sequence[BlockLabels]) -> BlockLabels:

@@ -22,6 +22,7 @@ from mbla.errors import Message, Notice
 from mbla.model.solids.measures import Edges, FaceGeometry
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_maxima, row_sums
+from mbla.model.wording import counted
 
 LARGEST_COORDINATE = 1e50
 """beyond it volumes overflow"""
@@ -152,21 +153,16 @@ def edge_defects(polyhedra: Polyhedra, edges: Edges) -> Iterator[Defect]:
     """Polyhedra with edges that have one face, or more than two."""
     for block in np.unique(edges.block[edges.face_count != 2]).tolist():
         rows = np.flatnonzero(edges.block == block)
-        crowded = rows[edges.face_count[rows] > 2]
+        crowded, lone = rows[edges.face_count[rows] > 2], rows[edges.face_count[rows] == 1]
+        found = crowded if len(crowded) else lone
+        tail, head = edges.ends[found[0]] - polyhedra.vertex_start[block]
+        edge, first = counted(len(found), "edge"), f"first that between vertices {tail} and {head}"
         if len(crowded):
-            words = f"{_edges_in_words(polyhedra, edges, block, crowded)} more than two faces"
-            yield Defect(block, Message("bad-polyhedron", words))
-            continue
-        lone = rows[edges.face_count[rows] == 1]
-        face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
-        words = f"is not closed: {_edges_in_words(polyhedra, edges, block, lone)} one face only, face {face}"
-        yield Defect(block, Message("open-polyhedron", words))
-
-
-def _edges_in_words(polyhedra: Polyhedra, edges: Edges, block: int, rows: IntArray) -> str:
-    tail, head = edges.ends[rows[0]] - polyhedra.vertex_start[block]
-    first = f"the edge between vertices {tail} and {head}"
-    return f"{first} has" if len(rows) == 1 else f"{len(rows)} edges, first {first.replace('the edge', 'that')}, have"
+            yield Defect(block, Message("bad-polyhedron", f"has {edge} with more than two faces, {first}"))
+        else:
+            face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
+            words = f"is not closed: {edge} with one face only, {first}, of face {face}"
+            yield Defect(block, Message("open-polyhedron", words))
 
 
 def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray, extents: Extents) -> list[Defect]:

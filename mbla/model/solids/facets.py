@@ -50,7 +50,7 @@ def find_facets(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, allowed
         parts = connected_labels(pairs[joined], n_faces)
         planar = _planar_parts(polyhedra, faces, parts, allowed)
         chosen = planar[parts]
-        facet[chosen] = _first_faces(parts)[chosen]
+        facet[chosen] = np.unique(parts, return_index=True)[1][parts][chosen]
         settled |= chosen
     return np.unique(facet, return_inverse=True)[1].astype(np.int64)
 
@@ -84,12 +84,6 @@ def _planar_parts(polyhedra: Polyhedra, faces: FaceGeometry, parts: IntArray, al
     planar: BoolArray = ~closes
     planar[part[outside]] = False
     return planar
-
-
-def _first_faces(parts: IntArray) -> IntArray:
-    """For each face the first face of its part, (n_faces,)."""
-    first = np.unique(parts, return_index=True)[1]
-    return np.asarray(first[parts], dtype=np.int64)
 
 
 EVEN = 1e-3

@@ -63,7 +63,7 @@ def test_faces_that_do_not_pair_off_stay_together() -> None:
     inside_out: Shape = (vertices, [face[::-1] for face in faces])
     built = build_raw(split_surface(soup(box(), inside_out)).polyhedra)
     assert len(built.defects) == 1
-    assert built.defects[0].message.endswith("have more than two faces")
+    assert built.defects[0].message.startswith("has 4 edges with more than two faces")
 
 
 def test_faces_without_area_are_left_out_with_a_notice() -> None:

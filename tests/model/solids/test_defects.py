@@ -17,20 +17,20 @@ def message_of(shape: Shape, tolerance: float = 1e-3) -> str:
 def test_missing_face() -> None:
     vertices, faces = box()
     assert message_of((vertices, faces[1:])) == (
-        "is not closed: 4 edges, first that between vertices 0 and 1, have one face only, face 1"
+        "is not closed: 4 edges with one face only, first that between vertices 0 and 1, of face 1"
     )
 
 
 def test_face_listed_twice() -> None:
     vertices, faces = box()
-    assert message_of((vertices, [*faces, faces[2][::-1]])).endswith("have more than two faces")
+    assert message_of((vertices, [*faces, faces[2][::-1]])).startswith("has 4 edges with more than two faces")
 
 
 def test_edge_with_more_than_two_faces() -> None:
     vertices, faces = box()
     fin = [[0, 4, 8], [0, 8, 4]]
     assert message_of(([*vertices, [-1, -1, 0.5]], [*faces, fin[0]])) == (
-        "the edge between vertices 0 and 4 has more than two faces"
+        "has 1 edge with more than two faces, first that between vertices 0 and 4"
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.model.solids.blocks import join_labels, labels_of, no_labels
+from mbla.model.solids.blocks import join_labels, labels_of
 from mbla.results.listing.places import group_words, label_words
 from tests.results.synthetic import cuboids, tower_model
 
@@ -46,4 +46,4 @@ def test_many_members_are_not_all_named() -> None:
 
 
 def test_blocks_without_labels() -> None:
-    assert label_words(join_labels([WALL, no_labels(2)]), np.array([4, 5])) == ""
+    assert label_words(join_labels([WALL, labels_of(2)]), np.array([4, 5])) == ""
