@@ -6,11 +6,10 @@ key reference are Markdown tables. ``python -m mbla.deck.schema --write`` writes
 
 from __future__ import annotations
 
-import argparse
 import inspect
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -50,11 +49,6 @@ def deck_schema() -> dict[str, Any]:
     }
 
 
-def deck_schema_text() -> str:
-    """The schema as the file in ``schemas/`` has it."""
-    return json.dumps(deck_schema(), indent=1, ensure_ascii=False) + "\n"
-
-
 def tidy(node: Any) -> Any:
     """A schema without null values, which no deck has, and without titles that repeat the keys."""
     if isinstance(node, list):
@@ -77,35 +71,15 @@ def tidy(node: Any) -> Any:
     return node
 
 
-def write_schema(folder: Path = REPOSITORY) -> list[Path]:
-    """Write ``schemas/deck.schema.json`` and, between its markers, the key reference in ``schemas/deck.md``."""
-    return write_generated(folder, "deck", deck_schema_text(), MARKERS, with_key_reference)
-
-
-def write_generated(
-    folder: Path, kind: str, schema: str, markers: tuple[str, str], with_reference: Callable[[str], str]
-) -> list[Path]:
-    """Write the schema of one kind of file, and the page with its key reference where that has the markers."""
-    schema_file = folder / "schemas" / f"{kind}.schema.json"
-    schema_file.write_text(schema, encoding="utf-8")
-    page = folder / "schemas" / f"{kind}.md"
-    text = page.read_text(encoding="utf-8") if page.is_file() else ""
-    if not all(marker in text for marker in markers):
-        return [schema_file]
-    page.write_text(with_reference(text), encoding="utf-8")
-    return [schema_file, page]
-
-
-def with_key_reference(text: str) -> str:
-    """A text with the key reference between its two markers."""
-    return between(text, MARKERS, key_reference())
-
-
-def between(text: str, markers: tuple[str, str], content: str) -> str:
-    """A text with other content between two markers."""
-    before, rest = text.split(markers[0], 1)
-    after = rest.split(markers[1], 1)[1]
-    return f"{before}{markers[0]}\n\n{content}\n{markers[1]}{after}"
+def generated_files(kind: str, schema: dict[str, Any], reference: str) -> dict[Path, str]:
+    """Schema of a kind of file, and its page with the key reference between the markers, as they are to be written."""
+    folder = REPOSITORY / "schemas"
+    page = folder / f"{kind}.md"
+    before, rest = page.read_text(encoding="utf-8").split(MARKERS[0], 1)
+    return {
+        folder / f"{kind}.schema.json": json.dumps(schema, indent=1, ensure_ascii=False) + "\n",
+        page: f"{before}{MARKERS[0]}\n\n{reference}\n{MARKERS[1]}{rest.split(MARKERS[1], 1)[1]}",
+    }
 
 
 def key_reference() -> str:
@@ -249,15 +223,6 @@ def _quantity(quantity: Quantity) -> str:
     return ", ".join([words, *bounds])
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Entry of ``python -m mbla.deck.schema``."""
-    parser = argparse.ArgumentParser(
-        prog="python -m mbla.deck.schema", description="Generated files of the deck types."
-    )
-    parser.add_argument("--write", action="store_true", required=True, help="write schema and key reference")
-    parser.parse_args(arguments)
-    write_schema()
-
-
 if __name__ == "__main__":
-    main()
+    for path, text in generated_files("deck", deck_schema(), key_reference()).items():
+        path.write_text(text, encoding="utf-8")

@@ -30,7 +30,7 @@ def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
     points     : (n_corners, 2)
     loop_start : (n_loops + 1,)
     """
-    polygons = _simple_polygons(points, loop_start)
+    polygons = polygons_from_rings(points, loop_start, np.arange(len(loop_start) - 1))
     suspects = np.flatnonzero(~convex_loops(points, loop_start))
     suspects = suspects[~shapely.is_valid(polygons[suspects])]
     if len(suspects):
@@ -136,8 +136,8 @@ def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
     solid = counts >= 3
     common: Polygons = np.full(len(first), _EMPTY, dtype=object)
     if solid.any():
-        corners_of_solid = points[np.repeat(solid, counts)]
-        common[solid] = _simple_polygons(corners_of_solid, starts(counts[solid]))
+        corners = points[np.repeat(solid, counts)]
+        common[solid] = polygons_from_rings(corners, starts(counts[solid]), np.arange(int(solid.sum())))
     return common
 
 
@@ -146,11 +146,6 @@ def _open_loops(polygons: Polygons) -> tuple[FloatArray, IntArray]:
     points, row = shapely.get_coordinates(polygons, return_index=True)
     closing = np.append(row[1:] != row[:-1], True)
     return points[~closing], starts(np.bincount(row[~closing], minlength=len(polygons)).astype(np.int64))
-
-
-def _simple_polygons(points: FloatArray, loop_start: IntArray) -> Polygons:
-    rows = np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start))
-    return np.atleast_1d(shapely.polygons(shapely.linearrings(points, indices=rows)))
 
 
 def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray:

@@ -6,17 +6,12 @@ A schema sees single values and the keys of one mapping. Names, designs and the 
 
 from __future__ import annotations
 
-import argparse
-import json
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
-from mbla.deck.schema import REPOSITORY, between, section_tables, tidy, write_generated
+from mbla.deck.schema import generated_files, section_tables, tidy
 from mbla.sweeps.file.content import KINDS, WAYS, SweepContent
 
-MARKERS = ("<!-- sweep keys:begin -->", "<!-- sweep keys:end -->")
 VALUE_TYPES = ["number", "string", "boolean", "array"]
 """what a value of a parameter may be"""
 
@@ -35,11 +30,6 @@ def sweep_schema() -> dict[str, Any]:
         **_without_expressions(tidy(schema)),
         "$defs": definitions,
     }
-
-
-def sweep_schema_text() -> str:
-    """The schema as the file in ``schemas/`` has it."""
-    return json.dumps(sweep_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
 def _without_expressions(node: Any) -> Any:
@@ -67,25 +57,6 @@ def sweep_key_reference() -> str:
     return "\n".join([introduction, *section_tables(SweepContent, "sweep file")])
 
 
-def with_sweep_key_reference(text: str) -> str:
-    """A text with the key reference of sweep files between its two markers."""
-    return between(text, MARKERS, sweep_key_reference())
-
-
-def write_sweep_schema(folder: Path = REPOSITORY) -> list[Path]:
-    """Write ``schemas/sweep.schema.json`` and, between its markers, the key reference in ``schemas/sweep.md``."""
-    return write_generated(folder, "sweep", sweep_schema_text(), MARKERS, with_sweep_key_reference)
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Entry of ``python -m mbla.sweeps.file.schema``."""
-    parser = argparse.ArgumentParser(
-        prog="python -m mbla.sweeps.file.schema", description="Generated files of the types of sweep files."
-    )
-    parser.add_argument("--write", action="store_true", required=True, help="write schema and key reference")
-    parser.parse_args(arguments)
-    write_sweep_schema()
-
-
 if __name__ == "__main__":
-    main()
+    for path, text in generated_files("sweep", sweep_schema(), sweep_key_reference()).items():
+        path.write_text(text, encoding="utf-8")
