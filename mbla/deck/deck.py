@@ -135,16 +135,22 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         tree.data.pop("expected", None)
     units = _units(tree.data)
     parameters = Parameters(given if isinstance(given := tree.data.get("parameters"), dict) else {})
-    content, faults = validate(tree, DeckContent, _converter(parameters, units), reading.reported, reading.damaged)
+    content, faults = validate(
+        tree,
+        DeckContent,
+        lambda text, dim: parameters.evaluate(text) if is_expression(text) else units.convert(text, dim),
+        reading.reported,
+        reading.damaged,
+    )
     if len(faults) > MOST_FAULTS:  # no more of them are told
-        raise DeckError(_once(faults + reading.faults))
+        raise DeckError(list(dict.fromkeys(faults + reading.faults)))
     faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
     faults += reading.faults
     # What is no name at all is not looked up as well.
     seen = {(fault.place, fault.key) for fault in faults}
     faults += [fault for fault in first_faults(check_references(tree)) if (fault.place, fault.key) not in seen]
     if content is None or faults:
-        raise DeckError(_once(faults))
+        raise DeckError(list(dict.fromkeys(faults)))
     return Deck(
         path=path,
         sources=tuple(
@@ -177,19 +183,6 @@ def _units(data: dict[str, Any]) -> Units:
     except ValueError:
         return Units()
     return Units(section.length, section.force, section.mass)
-
-
-def _converter(parameters: Parameters, units: Units) -> Callable[[str, str], float]:
-    """Function from a text and a dimension to a number in the deck's units, for the validation."""
-
-    def convert(text: str, dimension: str) -> float:
-        return parameters.evaluate(text) if is_expression(text) else units.convert(text, dimension)
-
-    return convert
-
-
-def _once(faults: Iterable[Fault]) -> list[Fault]:
-    return list(dict.fromkeys(faults))
 
 
 def _from_main(tree: Tree, label: str) -> str:

@@ -90,7 +90,7 @@ class Parameters:
         for name, value in raw.items():
             if isinstance(value, str) and is_expression(value):
                 try:
-                    self._expressions[name] = _parse(value)
+                    self._expressions[name] = parse_source(value[1:])
                 except ExpressionError as error:
                     self._failures[name] = error.message
         self._needs = {name: self._parameters_in(expression) for name, expression in self._expressions.items()}
@@ -106,7 +106,7 @@ class Parameters:
         ExpressionError
             with what is wrong; ParameterFaultError where a parameter is, rather than this expression
         """
-        expression = _parse(text)
+        expression = parse_source(text[1:])
         self.used.update(self._parameters_in(expression))
         return evaluate(expression, self.value, 0)
 
@@ -178,11 +178,6 @@ class Parameters:
         cycle = [*names[first:], *names[:first], names[first]]
         shown = cycle if len(cycle) <= _LONGEST_CYCLE else [*cycle[: _LONGEST_CYCLE - 2], "...", cycle[-1]]
         self._failures[cycle[0]] = Message("wrong-expression", f"refers to itself: {' -> '.join(shown)}")
-
-
-def _parse(text: str) -> ast.expr:
-    """Expression of an ``"=..."`` string."""
-    return parse_source(text[1:])
 
 
 def parse_source(text: str) -> ast.expr:

@@ -48,7 +48,17 @@ def build_model(deck: Deck) -> Model:
     """
     structure = structure_of(deck)
     roster, supports, interfaces = structure.roster, structure.supports, structure.interfaces
-    load_cases = _all_load_cases(deck, roster, supports)
+    site = LoadSite(
+        roster=roster,
+        fixed=supports.fixed,
+        units=deck.units,
+        resolve_file=deck.resolve_file,
+        grounds=supports.grounds,
+        named=deck.content.loads,
+        tolerance=deck.contacts.tolerance,
+    )
+    sections = deck.content.load_cases.items()
+    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     if roster.faults:
         raise DeckError(roster.faults)
     model = Model(
@@ -65,21 +75,6 @@ def build_model(deck: Deck) -> Model:
         bent=structure.bent,
     )
     return with_images(deck, model)
-
-
-def _all_load_cases(deck: Deck, roster: Roster, supports: Supports) -> tuple[LoadCase, ...]:
-    """Load cases of the deck, in its order."""
-    site = LoadSite(
-        roster=roster,
-        fixed=supports.fixed,
-        units=deck.units,
-        resolve_file=deck.resolve_file,
-        grounds=supports.grounds,
-        named=deck.content.loads,
-        tolerance=deck.contacts.tolerance,
-    )
-    sections = deck.content.load_cases.items()
-    return tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
 
 
 def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:

@@ -47,8 +47,8 @@ def build_settlement(
     loose = chosen[~supports.fixed[chosen]]
     if len(loose):
         message = (
-            f"{named(loose, roster.blocks.name)} {'is' if len(loose) == 1 else 'are'} not fixed: a support that gives "
-            "way is made of blocks that `supports` fixes; in place of a ground plane give a block and fix it"
+            f"not fixed: {named(loose, roster.blocks.name)}; a support that gives way is made of blocks that "
+            "`supports` fixes; in place of a ground plane give a block and fix it"
         )
         roster.refuse(Finding("settlement-not-fixed", message, *path, "on"))
         return load_case

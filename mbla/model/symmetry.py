@@ -263,10 +263,9 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
         normal, heights, above, below = -normal, -heights, below, above
     across = np.flatnonzero(below > allowed)
     if len(across):
-        verb = "reaches" if len(across) == 1 else "reach"
         message = (
-            f"{named(across, blocks.name)} {verb} across {label}: give the blocks on one side, and of a block that the "
-            "plane cuts its half, named by halves"
+            f"blocks reach across {label}: {named(across, blocks.name)}; give those on one side, and of a block that "
+            "the plane cuts its half, named by halves"
         )
         _refuse(deck, [Finding("symmetry-broken", message, *path)])
     halves = np.zeros(len(blocks), dtype=bool)
@@ -279,8 +278,7 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
         cut = np.bincount(blocks.block_of_face[on_plane], minlength=len(blocks)) > 0
         loose = chosen[~cut[chosen]]
         if len(loose):
-            verb = "has" if len(loose) == 1 else "have"
-            message = f"{named(loose, blocks.name)} {verb} no face on {label}, where the other half would join"
+            message = f"without a face on {label}, where the other half would join: {named(loose, blocks.name)}"
             _refuse(deck, [Finding("symmetry-broken", message, *path, "halves")])
         halves[chosen] = True
     image_of = np.arange(len(blocks))

@@ -94,7 +94,9 @@ def _with_included(reading: Reading, tree: Tree, source: SourceText) -> Tree:
         try:
             included = _open(reading, source, name)
         except (FileError, DeckError) as error:
-            reading.faults += _faults_of(error, tree, index)
+            reading.faults += (
+                error.faults if isinstance(error, DeckError) else [tree.fault(("include", index), error.message)]
+            )
             reading.whole = False
             continue
         if included is None:
@@ -124,12 +126,6 @@ def _open(reading: Reading, source: SourceText, name: str) -> SourceText | None:
         return read_source(path, label)
     except FileError as error:
         raise FileError(error.identifier, str(error).removeprefix(f"{label}: ")) from error
-
-
-def _faults_of(error: FileError | DeckError, tree: Tree, index: int) -> list[Fault]:
-    if isinstance(error, DeckError):
-        return list(error.faults)
-    return [tree.fault(("include", index), error.message)]
 
 
 def confined(folder: Path, name: str) -> Path:

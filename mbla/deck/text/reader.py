@@ -89,12 +89,9 @@ class _StopError(Exception):
     """Nothing sensible can follow: nesting too deep, or a second document."""
 
 
-class _Dropped:
-    """Key of a value that has no place in the mapping: a repeated key, or one that is not text."""
-
-
 _NO_KEY: Any = None
-_DROPPED: Any = _Dropped
+_DROPPED: Any = object()
+"""key of a value that has no place in the mapping: a repeated key, or one that is not text"""
 
 
 class _Builder:

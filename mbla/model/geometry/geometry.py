@@ -64,10 +64,6 @@ class Geometry:
     unit: str | None = None
     planar: bool = False
 
-    def name(self, row: int) -> str:
-        """Name of a polyhedron; empty where it has none."""
-        return self.names[row] if self.names else ""
-
 
 def parse_json(content: bytes) -> Any:
     """The document; of a key that an object has twice neither value is taken.

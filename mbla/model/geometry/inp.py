@@ -211,11 +211,9 @@ def _set_of_elements(content: _Content) -> dict[int, str]:
     """Name of the smallest set that each element is in; of equal ones that of an ``*ELSET`` card."""
     found: dict[tuple[bool, str], list[int]] = {}
     for name, members in content.sets.items():
-        few = [each for each in members if len(each) <= len(content.elements)]
+        few = {number for each in members if len(each) <= len(content.elements) for number in each}
         many = [each for each in members if len(each) > len(content.elements)]
-        own = dict.fromkeys(number for each in few for number in each if number in content.elements)
-        own |= dict.fromkeys(number for number in content.elements if any(number in each for each in many))
-        found[True, name] = list(own)
+        found[True, name] = [each for each in content.elements if each in few or any(each in some for some in many)]
     for number, (_, _, name) in content.elements.items():
         if name:
             found.setdefault((False, name), []).append(number)

@@ -97,28 +97,19 @@ def _read(path: str, file_format: str) -> Geometry:
     used = volumes or [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
     others = [block for block in mesh.cells if not any(block is other for other in used) and block.type != "vertex"]
     left_out = (block.type for block in others for _ in range(len(block.data)))  # single points are not worth a word
-    corners = [np.ravel(face) for block in mesh.cells for cell in block.data for face in _faces(block, cell)]
+    cells_of = [(_shape(block.type), cell) for block in mesh.cells for cell in block.data]
+    corners = [np.ravel(face) for shape, cell in cells_of for face in (cell if shape == POLYHEDRON else [cell])]
     rows = np.concatenate([np.empty(0, dtype=np.int64), *corners]).astype(np.int64)
     notices = (*remarks, *cells_left_out(left_out, bool(volumes)), *unused_points(len(points), rows))
     names = _physical_groups(mesh, used)
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
         return Geometry(cells, notices, names, cells=True)
-    faces = [face for block in used for face in _loops(block)]
+    sided = [np.asarray(block.data, dtype=np.int64)[:, : SURFACE_CELLS[_shape(block.type)]] for block in used]
+    faces = [face for loops in sided for face in loops.tolist()]
     check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), len(points))
     surface, present = surfaces_by_label(points, faces, names or ("",) * len(faces))
     return Geometry(surface, notices, tuple(present) if names else ())
-
-
-def _faces(block: Any, cell: Any) -> Sequence[Any]:
-    """Faces of a polyhedron; another cell as it is."""
-    return list(cell) if _shape(block.type) == POLYHEDRON else [cell]
-
-
-def _loops(block: Any) -> list[list[int]]:
-    """Corners of each of the faces that a block of cells holds."""
-    loops: list[list[int]] = np.asarray(block.data, dtype=np.int64)[:, : SURFACE_CELLS[_shape(block.type)]].tolist()
-    return loops
 
 
 def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
@@ -145,9 +136,7 @@ def _mesh(path: str, file_format: str) -> tuple[Any, list[Notice]]:
             raise
         except (Exception, SystemExit) as error:  # the readers let all kinds of exceptions through
             reason = " ".join(f"{printed.getvalue()} {error}".split())
-            reason = f": {reason[:200]}" if reason and reason != type(error).__name__ else ""
-            words = f"is not a well-formed {WORDS[file_format]} file{reason}"
-            raise GeometryFileError("geometry-file", words) from error
+            raise malformed(WORDS[file_format], reason[:200] or "it cannot be read") from error
     words = " ".join(printed.getvalue().split())
     return mesh, [Notice("warning", "mesh-file-remarks", words[:500])] if words else []
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import starts
-from mbla.model.geometry.geometry import Geometry, GeometryFileError, check_rows, malformed, unused_points
+from mbla.model.geometry.geometry import Geometry, check_rows, malformed, unused_points
 from mbla.model.geometry.welding import own_vertices
 
 NAMES = {"b": "char int8", "B": "uchar uint8", "h": "short int16", "H": "ushort uint16", "i": "int int32"}
@@ -52,7 +52,7 @@ def read_ply(path: Path) -> Geometry:
     """
     header, end, body = path.read_bytes().partition(b"end_header")
     if not end:
-        raise _malformed("its header has no end")
+        raise malformed("PLY", "its header has no end")
     form, elements = _header(header.decode("utf-8", errors="replace"))
     body = body.removeprefix(b"\r").removeprefix(b"\n")
     if form == "ascii":
@@ -60,7 +60,7 @@ def read_ply(path: Path) -> Geometry:
     elif form in BYTE_ORDERS:
         found = _read_binary(elements, body, BYTE_ORDERS[form])
     else:
-        raise _malformed(f"its format {form[:40]!r} is not known")
+        raise malformed("PLY", f"its format {form[:40]!r} is not known")
     axes = [_column(elements, found, "vertex", (axis,)) for axis in "xyz"]
     points = np.array(axes, dtype=np.float64).reshape(3, -1).T
     faces = _column(elements, found, "face", CORNERS) if "face" in elements else []
@@ -69,10 +69,6 @@ def read_ply(path: Path) -> Geometry:
     start = starts(np.array([len(face) for face in faces], dtype=np.int64))
     surface = own_vertices(points, corners, start, np.zeros(len(faces), dtype=np.int64))
     return Geometry(surface, unused_points(len(points), corners))
-
-
-def _malformed(reason: str) -> GeometryFileError:
-    return malformed("PLY", reason)
 
 
 def _header(text: str) -> tuple[str, dict[str, _Element]]:
@@ -91,7 +87,7 @@ def _header(text: str) -> tuple[str, dict[str, _Element]]:
             case ["ply" | "comment" | "obj_info", *_] | []:
                 pass
             case _:
-                raise _malformed(f"its header has the line {line.strip()[:100]!r}")
+                raise malformed("PLY", f"its header has the line {line.strip()[:100]!r}")
     return form, elements
 
 
@@ -100,7 +96,7 @@ def _column(elements: dict[str, _Element], found: dict[str, list[Row]], name: st
     kinds = list(elements[name].kinds) if name in elements else []
     place = next((kinds.index(each) for each in among if each in kinds), None)
     if place is None:
-        raise _malformed(f"{among[0]} is not among the properties of its {name}")
+        raise malformed("PLY", f"{among[0]} is not among the properties of its {name}")
     return [row[place] for row in found[name]]
 
 
@@ -109,13 +105,13 @@ def _read_text(elements: dict[str, _Element], body: bytes) -> dict[str, list[Row
     lines = [line.split() for line in body.split(b"\n") if line.strip()]
     total = sum(element.count for element in elements.values())
     if len(lines) != total:
-        raise _malformed(f"it announces {total} elements, a line each, and has {len(lines)} lines")
+        raise malformed("PLY", f"it announces {total} elements, a line each, and has {len(lines)} lines")
     found, waiting = dict[str, list[Row]](), iter(lines)
     for name, element in elements.items():
         try:
             found[name] = [_row_of_text(element, next(waiting)) for _ in range(element.count)]
         except (ValueError, IndexError, OverflowError) as error:
-            raise _malformed(f"a line of its {name} cannot be read: {error}") from error
+            raise malformed("PLY", f"a line of its {name} cannot be read: {error}") from error
     return found
 
 
@@ -149,10 +145,10 @@ def _read_binary(elements: dict[str, _Element], body: bytes, order: str) -> dict
                         at += struct.calcsize(order + lengths[0])
                     values = struct.unpack_from(f"{order}{count}{kind}", body, at)
                 except struct.error as error:
-                    raise _malformed("it ends before all that its header announces") from error
+                    raise malformed("PLY", "it ends before all that its header announces") from error
                 at += struct.calcsize(order + kind) * count
                 row.append(values if lengths else values[0])
             found[name].append(row)
     if at != len(body):
-        raise _malformed(f"what its header announces takes {at} bytes, it has {len(body)}")
+        raise malformed("PLY", f"what its header announces takes {at} bytes, it has {len(body)}")
     return found

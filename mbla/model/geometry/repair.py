@@ -160,7 +160,7 @@ def _split(work: _Work, geometry: Geometry) -> None:
     work.tell("surfaces-repeated", split.twins, "closed surface", "left out: the faces of another once more")
     several = np.flatnonzero(counts > 1)
     if geometry.names and not work.pooled and len(several):
-        first = geometry.name(int(work.source[several[0]])) or "without a name"
+        first = geometry.names[work.source[several[0]]] or "without a name"
         words = f"split into {counts[several].sum()} closed surfaces, a block each; first {first}"
         work.tell("objects-split", len(several), "object", words)
     work.polyhedra, work.source = split.polyhedra, work.source[split.source]
