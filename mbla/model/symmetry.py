@@ -264,8 +264,8 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
     across = np.flatnonzero(below > allowed)
     if len(across):
         message = (
-            f"blocks reach across {label}: {named(across, blocks.name)}; give those on one side, and of a block that "
-            "the plane cuts its half, named by halves"
+            f"blocks reach across {label}: {named(across, blocks.name)}; give the blocks on one side, and of "
+            "one that the plane cuts its half, named by halves"
         )
         _refuse(deck, [Finding("symmetry-broken", message, *path)])
     halves = np.zeros(len(blocks), dtype=bool)
