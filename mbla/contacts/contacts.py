@@ -57,16 +57,11 @@ class Contacts:
         return len(self.areas)
 
     @property
-    def count_by_joint(self) -> dict[str, int]:
-        """Number of interfaces of each joint law in use."""
-        counts = np.bincount(self.joints, minlength=len(self.joint_names))
-        return {name: int(count) for name, count in zip(self.joint_names, counts, strict=True)}
-
-    @property
-    def area_by_joint(self) -> dict[str, float]:
-        """Total area of the interfaces of each joint law in use, m2."""
-        areas = np.bincount(self.joints, weights=self.areas, minlength=len(self.joint_names))
-        return {name: float(area) for name, area in zip(self.joint_names, areas, strict=True)}
+    def by_joint(self) -> dict[str, tuple[int, float]]:
+        """Number and total area [m2] of the interfaces of each joint law in use."""
+        counts, areas = (np.bincount(self.joints, weights, len(self.joint_names)) for weights in (None, self.areas))
+        found = zip(self.joint_names, counts.tolist(), areas.tolist(), strict=True)
+        return {name: (count, area) for name, count, area in found}
 
     @cached_property
     def interface_of_point(self) -> IntArray:

@@ -121,22 +121,19 @@ def bent_faults(deck: Deck, model: Model, contacts: Contacts) -> list[Fault]:
 
 def bent_contacts(model: Model, contacts: Contacts, tolerance: float) -> tuple[IntArray, IntArray]:
     """Rows of the bent faces of a model that are in contact, (n,) ascending, and the body that each touches."""
-    bent = model.bent
+    bent, n = model.bent, len(contacts)
     triangle_start = np.searchsorted(bent.blocks[bent.row], np.arange(len(model.blocks) + 1))
-    found: list[tuple[IntArray, IntArray]] = []
-    for side in (0, 1) if len(bent) else ():
-        body = contacts.bodies[:, side]
-        own = np.flatnonzero(body < len(model.blocks))
-        first = triangle_start[body[own]]
-        row, triangle = rows_and_items(first, triangle_start[body[own] + 1] - first)
-        interface = own[row]
-        outward = (1.0 - 2.0 * side) * contacts.normals[interface]
-        reach = _APART * tolerance * model.blocks.sizes[body[interface]]
-        on = _lies_on(contacts.centroids[interface], outward, bent.triangles[triangle], reach)
-        found.append((bent.row[triangle[on]], contacts.bodies[interface[on], 1 - side]))
-    rows, others = (np.concatenate([each[k] for each in found]) if found else np.zeros(0, np.int64) for k in (0, 1))
-    rows, at = np.unique(rows, return_index=True)
-    return rows, others[at]
+    # every interface from body a, then every one from body b
+    body, other = contacts.bodies.T.ravel(), contacts.bodies[:, ::-1].T.ravel()
+    own = np.flatnonzero(body < len(model.blocks))
+    first = triangle_start[body[own]]
+    row, triangle = rows_and_items(first, triangle_start[body[own] + 1] - first)
+    side = own[row]
+    outward = np.where(side < n, 1.0, -1.0)[:, None] * contacts.normals[side % n]
+    reach = _APART * tolerance * model.blocks.sizes[body[side]]
+    on = _lies_on(contacts.centroids[side % n], outward, bent.triangles[triangle], reach)
+    rows, at = np.unique(bent.row[triangle[on]], return_index=True)
+    return rows, other[side[on]][at]
 
 
 def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, reach: FloatArray) -> BoolArray:
@@ -149,7 +146,7 @@ def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, rea
         np.einsum("ki,ki->k", np.cross(head - tail, points - tail), unit) / double
         for tail, head in ((a, b), (b, c), (c, a))
     ]
-    inside = np.min(shares, axis=0) >= -_OUTSIDE if len(points) else np.zeros(0, dtype=bool)
+    inside = np.min(shares, axis=0) >= -_OUTSIDE
     near = np.abs(np.einsum("ki,ki->k", points - a, unit)) <= reach
     return np.asarray(inside & near & (np.einsum("ki,ki->k", normals, unit) > _FACING))
 

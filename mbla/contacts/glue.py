@@ -82,13 +82,16 @@ class Solids:
     solid_of_block: IntArray | None
     arms: FloatArray
 
+    @property
+    def label(self) -> IntArray:
+        """Solid of each block, (n_blocks,)."""
+        return np.arange(len(self.arms)) if self.solid_of_block is None else self.solid_of_block
+
     def load_case(self, load_case: LoadCase) -> LoadCase:
         """Loads on the solids, about their centroids; blocks that settle are not glued."""
-        if self.solid_of_block is None:
-            return load_case
         settlement = load_case.settlement
         if settlement is not None:
-            settlement = replace(settlement, blocks=self.solid_of_block[settlement.blocks])
+            settlement = replace(settlement, blocks=self.label[settlement.blocks])
         tilt = load_case.tilt
         if tilt is not None:
             fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
@@ -98,26 +101,20 @@ class Solids:
 
     def loads(self, loads: FloatArray) -> FloatArray:
         """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""
-        if self.solid_of_block is None:
-            return loads
         moved = loads.copy()
         moved[:, 3:] += np.cross(self.arms, loads[:, :3])
         total = np.zeros((len(self.model.blocks), 6))
-        np.add.at(total, self.solid_of_block, moved)
+        np.add.at(total, self.label, moved)
         return total
 
     def block_motions(self, motions: FloatArray) -> FloatArray:
         """Motions of the blocks, (n_blocks, 6), from those of the solids, (n_solids, 6)."""
-        if self.solid_of_block is None:
-            return motions
-        of_blocks = motions[self.solid_of_block]
+        of_blocks = motions[self.label]
         of_blocks[:, :3] += np.cross(of_blocks[:, 3:], self.arms)
         return of_blocks
 
     def solid_motions(self, motions: FloatArray) -> FloatArray:
         """Motions of the solids, (n_solids, 6), from that of the first block of each."""
-        if self.solid_of_block is None:
-            return motions
         first = self.first_blocks
         of_solids = motions[first]
         of_solids[:, :3] -= np.cross(of_solids[:, 3:], self.arms[first])
@@ -126,9 +123,7 @@ class Solids:
     @property
     def first_blocks(self) -> IntArray:
         """First block of each solid, (n_solids,)."""
-        if self.solid_of_block is None:
-            return np.arange(len(self.model.blocks))
-        return np.asarray(np.unique(self.solid_of_block, return_index=True)[1])
+        return np.asarray(np.unique(self.label, return_index=True)[1])
 
 
 def solids_of(model: Model, contacts: Contacts) -> Solids:

@@ -38,26 +38,19 @@ LEAST_MEMORY, MEMORY_PER_BYTE = 96 * 1024**2, 60
 """bytes that reading may take: libraries believe the sizes that files announce, and unpack what is packed"""
 
 
-def _unreadable(error: OSError) -> GeometryFileError:
-    return GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}")
-
-
 def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geometry:
     """What a reader gives, in memory that is in proportion to the size of the file where the system can hold it to."""
+    size = 0
     try:
         with path.open("rb") as file:  # a folder, and a file without permission, are refused here
             size = os.fstat(file.fileno()).st_size
-    except OSError as error:
-        raise _unreadable(error) from error
-    if size > LARGEST_FILE:
-        words = f"is larger than {LARGEST_FILE // 1024**2} MB: divide it into several files"
-        raise GeometryFileError("geometry-too-large", words)
-    most = written() + LEAST_MEMORY + MEMORY_PER_BYTE * size if can_limit() else None
-    try:
-        with limited(most):
+        if size > LARGEST_FILE:
+            words = f"is larger than {LARGEST_FILE // 1024**2} MB: divide it into several files"
+            raise GeometryFileError("geometry-too-large", words)
+        with limited(written() + LEAST_MEMORY + MEMORY_PER_BYTE * size if can_limit() else None):
             return reader(path)
     except OSError as error:
-        raise _unreadable(error) from error
+        raise GeometryFileError("file-unreadable", f"cannot be read: {error.strerror or error}") from error
     except MemoryError as error:
         words = f"needs far more memory than its {size} bytes can hold blocks for: damaged or packed; export it anew"
         raise GeometryFileError("geometry-too-large", words) from error

@@ -17,7 +17,7 @@ from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
 from mbla.model.loads.tilt import tilt_loads
-from mbla.model.loads.travel import case_name, travel_loads, travel_of
+from mbla.model.loads.travel import case_name, travel_loads
 from mbla.model.model import LoadCase, TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import named, vector
@@ -68,9 +68,9 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
         tilt = tilt_loads(table, dead_loads, dead.total, path, site)
         live = live.plus(AppliedLoad(np.arange(len(site.blocks)), tilt.across, f"tilt about {vector(table.axis)}"))
-    if section.live and (number := travel_of(section.live)) is not None:
-        load = section.live[number]
-        positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
+    for number, load in enumerate(section.live or []):
+        if load.travel is not None:  # a rule of the deck: at most one does
+            positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
     sound = len(site.roster.faults) == before
     cases = []
     for position, applied in positions:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.loads import Load, Travel
+from mbla.deck.sections.loads import Travel
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
@@ -22,11 +22,6 @@ from mbla.model.wording import vector
 
 ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""
-
-
-def travel_of(loads: list[Load]) -> int | None:
-    """Which of the live loads travels; a rule of the deck: at most one does."""
-    return next((number for number, load in enumerate(loads) if load.travel is not None), None)
 
 
 def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPosition, AppliedLoad]] | None:

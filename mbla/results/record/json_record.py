@@ -71,8 +71,8 @@ def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, An
     record["model"] |= {
         "load_cases": [case.name for case in results.model.load_cases],
         "joints": {
-            name: {"interfaces": results.contacts.count_by_joint[name], "area": number(area)}
-            for name, area in results.contacts.area_by_joint.items()
+            name: {"interfaces": count, "area": number(area)}
+            for name, (count, area) in results.contacts.by_joint.items()
         },
         "slivers": len(report.slivers),
         "near_misses": len(report.near_misses),
