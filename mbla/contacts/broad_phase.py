@@ -1,11 +1,9 @@
-"""Broad phase: pairs of blocks, and of facets, that are near enough to be worth clipping.
+"""Broad phase: pairs of blocks that may share volume, and of facets that are near enough to be worth clipping.
 
 Near means within the reach of a pair: ten times its tolerance, so that pairs which just miss each other are seen.
 """
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,47 +25,29 @@ ten"""
 _COARSE_ANGLE = np.cos(np.radians(30))
 
 
-@dataclass(frozen=True)
-class BlockPairs:
-    """Pairs of blocks i < j whose bounding boxes come within reach of each other, sorted.
+def find_block_pairs(blocks: Blocks, tolerance: float) -> IntArray:
+    """Pairs of blocks i < j whose boxes share more than the tolerance along every axis, (n, 2), sorted.
 
-    blocks       : (n_pairs, 2)
-    sizes        : (n_pairs,) m    block size of the pair, the smaller of the two
-    box_depths   : (n_pairs,) m    how deep the boxes overlap, along the axis where it is least; negative for a gap
-    """
-
-    blocks: IntArray
-    sizes: FloatArray
-    box_depths: FloatArray
-
-    def __len__(self) -> int:
-        return len(self.sizes)
-
-
-def find_block_pairs(blocks: Blocks, tolerance: float) -> BlockPairs:
-    """Pairs of blocks within reach; tolerance is relative to block size.
+    tolerance : relative to the size of the smaller block
 
     Raises
     ------
     ContactsRefused
-        for far more of them than blocks that lie beside each other have
+        for far more blocks that touch each other's boxes than blocks that lie beside each other have
     """
     lower, upper = block_boxes(blocks)
-    # Half the reach on either box is enough for every pair; the exact reach of the pair is compared after.
-    margin = (NEAR_MISS * tolerance / 2 * blocks.sizes)[:, None]
     most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))
     try:
-        i, j = meeting_boxes(lower - margin, upper + margin, lower - margin, upper + margin, most)
+        i, j = meeting_boxes(lower, upper, lower, upper, most)
     except CrowdedError as crowded:
         words = (
             f"many blocks lie in one place, as {blocks.name(crowded.box)}: more than {most:,} pairs come near each "
             "other; no more can be handled"
         )
         raise ContactsRefused("too-many-units", words, ("blocks",)) from crowded
-    sizes = np.minimum(blocks.sizes[i], blocks.sizes[j])
     depths = (np.minimum(upper[i], upper[j]) - np.maximum(lower[i], lower[j])).min(axis=1, initial=np.inf)
-    keep = depths >= -NEAR_MISS * tolerance * sizes
-    return BlockPairs(np.stack([i[keep], j[keep]], axis=1), sizes[keep], depths[keep])
+    pairs = np.stack([i, j], axis=1)
+    return pairs[depths > tolerance * blocks.sizes[pairs].min(axis=1)]
 
 
 def block_boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.contacts.broad_phase import BlockPairs
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.errors import MOST_FAULTS
@@ -41,19 +40,16 @@ class Overlaps:
     unchecked: IntArray
 
 
-def find_overlaps(blocks: Blocks, facets: Facets, pairs: BlockPairs, tolerance: float) -> Overlaps:
-    """Overlaps deeper than the tolerance (relative to block size)."""
-    rows = np.flatnonzero(pairs.box_depths > tolerance * pairs.sizes)
+def find_overlaps(blocks: Blocks, facets: Facets, pairs: IntArray, tolerance: float) -> Overlaps:
+    """Overlaps of pairs of blocks, (n, 2), deeper than the tolerance (relative to block size)."""
     for one, other in ((0, 1), (1, 0)):
         n_facets, n_vertices = np.diff(facets.facet_start), np.diff(blocks.vertex_start)
-        first, second = pairs.blocks[rows, one], pairs.blocks[rows, other]
+        first, second, sizes = pairs[:, one], pairs[:, other], blocks.sizes[pairs].min(axis=1)
         small = n_facets[first] * np.maximum(n_vertices[first], n_vertices[second]) <= _LARGE
         together = ~small
-        together[small] = (
-            _clearances(blocks, facets, first[small], second[small]) < -tolerance * pairs.sizes[rows[small]]
-        )
-        rows = rows[together]
-    return _by_solids(blocks, pairs, rows, tolerance)
+        together[small] = _clearances(blocks, facets, first[small], second[small]) < -tolerance * sizes[small]
+        pairs = pairs[together]
+    return _by_solids(blocks, pairs, tolerance)
 
 
 def _clearances(blocks: Blocks, facets: Facets, one: IntArray, other: IntArray) -> FloatArray:
@@ -86,14 +82,13 @@ def _least_heights(blocks: Blocks, facets: Facets, one: IntArray, other: IntArra
     return least
 
 
-def _by_solids(blocks: Blocks, pairs: BlockPairs, rows: IntArray, tolerance: float) -> Overlaps:
+def _by_solids(blocks: Blocks, pairs: IntArray, tolerance: float) -> Overlaps:
     """Judge the pairs left over one by one, until there are more overlaps than are told."""
     found, depths, unchecked = [], [], []
-    triangles = triangulate_blocks(blocks, np.unique(pairs.blocks[rows]))
-    for row in rows:
-        a, b = (int(block) for block in pairs.blocks[row])
-        size = float(pairs.sizes[row])
-        origin = blocks.centroids[a if blocks.sizes[a] <= blocks.sizes[b] else b]
+    triangles = triangulate_blocks(blocks, np.unique(pairs))
+    for a, b in pairs.tolist():
+        smaller = a if blocks.sizes[a] <= blocks.sizes[b] else b
+        size, origin = float(blocks.sizes[smaller]), blocks.centroids[smaller]
         one, other = (_solid(blocks.vertices, triangles[block], origin, size) for block in (a, b))
         if one is None or other is None:
             unchecked.append((a, b))
