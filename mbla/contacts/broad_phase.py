@@ -47,7 +47,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> IntArray:
         raise ContactsRefused("too-many-units", words, ("blocks",)) from crowded
     depths = (np.minimum(upper[i], upper[j]) - np.maximum(lower[i], lower[j])).min(axis=1, initial=np.inf)
     pairs = np.stack([i, j], axis=1)
-    return pairs[depths > tolerance * blocks.sizes[pairs].min(axis=1)]
+    return np.asarray(pairs[depths > tolerance * blocks.sizes[pairs].min(axis=1)])
 
 
 def block_boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:

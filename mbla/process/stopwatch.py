@@ -1,21 +1,16 @@
 """Where the time of a run goes: seconds by stage, each without what the stages inside it take.
 
-A run opens a stopwatch (``timing``); whatever does a stage's work names it (``stage`` around a block, ``timed`` on a
-function). Without a stopwatch open both do nothing.
+A run opens a stopwatch (``timing``); whatever does a stage's work names it (``stage``, around a block or on a
+function). Without a stopwatch open it does nothing.
 """
 
 from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from functools import wraps
-from typing import ParamSpec, TypeVar
-
-P = ParamSpec("P")
-T = TypeVar("T")
 
 
 @dataclass
@@ -60,17 +55,3 @@ def stage(name: str) -> Iterator[None]:
         stopwatch.seconds[name] = stopwatch.seconds.get(name, 0.0) + own
         if stopwatch.inside:
             stopwatch.inside[-1] += whole
-
-
-def timed(name: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """The same function, its seconds added to a stage of the open stopwatch."""
-
-    def decorate(function: Callable[P, T]) -> Callable[P, T]:
-        @wraps(function)
-        def measured(*args: P.args, **kwargs: P.kwargs) -> T:
-            with stage(name):
-                return function(*args, **kwargs)
-
-        return measured
-
-    return decorate

@@ -17,7 +17,7 @@ from mbla.contacts.glue import Solids
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.assemble import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
 from mbla.program.reductions.steps import glued_step
@@ -38,7 +38,7 @@ class CaseProgram:
     convex: ConvexProgram | None = None
 
 
-@timed("assemble")
+@stage("assemble")
 def build_program(solids: Solids, load_case: LoadCase, analysis: AnalysisSection) -> CaseProgram:
     """The program of a load case on blocks by the contact model, the flow rule and the reductions of the analysis.
 

@@ -14,7 +14,7 @@ import pytest
 
 from mbla.process.collector import loading, no_collection
 from mbla.process.signals import held_signals
-from mbla.process.stopwatch import stage, timed, timing
+from mbla.process.stopwatch import stage, timing
 
 
 def test_a_signal_counts_at_the_end_of_the_block() -> None:
@@ -157,7 +157,7 @@ def test_a_stage_leaves_out_the_stages_inside_it(clock: Clock) -> None:
 
 
 def test_times_of_one_stage_add_up_also_inside_itself(clock: Clock) -> None:
-    @timed("again")
+    @stage("again")
     def work(times: int) -> None:
         clock.now += 1.0
         if times > 1:
@@ -170,7 +170,7 @@ def test_times_of_one_stage_add_up_also_inside_itself(clock: Clock) -> None:
 
 
 def test_a_stage_that_fails_is_timed_and_leaves_no_trace(clock: Clock) -> None:
-    @timed("inner")
+    @stage("inner")
     def break_off() -> None:
         clock.now += 1.0
         raise ValueError("broken")

@@ -112,7 +112,9 @@ def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
     defects = []
     face, loops = polyhedra.face_of_corner, polyhedra.loops
     keys = np.sort(face * len(polyhedra.vertices) + loops)
-    for key in _first_per_block(keys[1:][keys[1:] == keys[:-1]], polyhedra):
+    twice = keys[1:][keys[1:] == keys[:-1]]
+    _, first_of_block = np.unique(polyhedra.block_of_face[twice // len(polyhedra.vertices)], return_index=True)
+    for key in twice[first_of_block]:
         number, vertex = divmod(int(key), len(polyhedra.vertices))
         block = int(polyhedra.block_of_face[number])
         local = vertex - int(polyhedra.vertex_start[block])
@@ -124,11 +126,6 @@ def corner_defects(polyhedra: Polyhedra, extents: Extents) -> list[Defect]:
         words = f"vertices {one - first} and {other - first} lie at the same place"
         defects.append(Defect(block, Message("bad-polyhedron", words)))
     return defects
-
-
-def _first_per_block(keys: IntArray, polyhedra: Polyhedra) -> IntArray:
-    blocks = polyhedra.block_of_face[keys // len(polyhedra.vertices)]
-    return keys[np.unique(blocks, return_index=True)[1]]
 
 
 def _coincident_vertices(polyhedra: Polyhedra, extents: Extents) -> list[tuple[int, int]]:

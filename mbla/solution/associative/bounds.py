@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.nonassociative.law_state import LawState
@@ -49,7 +49,7 @@ class CertifiedGap:
     velocities: FloatArray
 
 
-@timed("repair")
+@stage("repair")
 def certified_gap(program: Program, state: LawState) -> CertifiedGap:
     """Bounds of the associative load factor that a state proves; no solver is asked."""
     repaired = repaired_forces(program, state.forces, state.load_factor)

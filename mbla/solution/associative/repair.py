@@ -24,7 +24,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
@@ -117,7 +117,7 @@ STEEP = 10.0
 that nothing is left of the latter in double precision."""
 
 
-@timed("repair")
+@stage("repair")
 def repaired_forces(
     program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
 ) -> tuple[FloatArray, float] | None:
@@ -241,7 +241,7 @@ def incompatibility(program: Program, velocities: FloatArray) -> float:
     return float(lack[np.isinf(program.limits.compression)].sum())
 
 
-@timed("repair")
+@stage("repair")
 def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
     """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
     mu, matrix = program.limits.friction, program.equilibrium_matrix

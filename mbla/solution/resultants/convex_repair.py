@@ -21,7 +21,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.ragged import next_item
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.kinematic import KinematicForm
 from mbla.program.program import Program
 from mbla.program.resultants import ConvexProgram, convex_form
@@ -56,7 +56,7 @@ THRESHOLDS = (0.0, 1e-6, np.inf)
 """Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""
 
 
-@timed("repair")
+@stage("repair")
 def repaired_convex_forces(
     convex: ConvexProgram, forces: FloatArray, load_factor: float
 ) -> tuple[FloatArray, float] | None:
@@ -91,7 +91,7 @@ def repaired_convex_forces(
     return form.contact_forces(best) * unit, -float(best[0]) * unit
 
 
-@timed("repair")
+@stage("repair")
 def repaired_convex_motions(
     convex: ConvexProgram, velocities: FloatArray, motions: FloatArray
 ) -> list[tuple[FloatArray, FloatArray]]:

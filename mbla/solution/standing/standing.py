@@ -17,7 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.process.sharing import shared
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.choice import cone_solver
@@ -51,7 +51,7 @@ class DeadLoadState:
     displacements: FloatArray | None
 
 
-@timed("standing")
+@stage("standing")
 def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
     """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""
     return _stress_free(program.without_live_load(), settings)

@@ -15,7 +15,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.process.stopwatch import timed
+from mbla.process.stopwatch import stage
 from mbla.program.assemble import yield_limits
 from mbla.solution.glued import rule_of, solution_on_solids
 from mbla.solution.solution import Checks, Solution, Standing, Status
@@ -48,7 +48,7 @@ APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
 
 
-@timed("verify")
+@stage("verify")
 def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
 
