@@ -167,7 +167,7 @@ class _Reporter:
             self.end()
             say(f"mbla: point {task.number} failed: {outcome.reason}", 0)
         if self._terminal:
-            rewrite_line(progress.bar())
+            rewrite_line(progress.words())
         elif outcome is None:
             known = f", {progress.earlier} are in the journal" if progress.earlier else ""
             say(f"mbla: {progress.total} points to solve{known}", 0)

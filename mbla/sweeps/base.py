@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,7 @@ from mbla.deck.text.include import confined
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
-from mbla.sweeps.base_keys import path_of_key, unit_at, vector_at
+from mbla.sweeps.base_keys import path_of_key, unit_of, vector_at
 from mbla.sweeps.base_rules import base_faults
 from mbla.sweeps.design.design import Point, Sources, Vector
 from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
@@ -101,8 +101,7 @@ class Base:
             return "degree"
         if any(isinstance(value, str) for value in parameter.values or ()):
             return parameter.unit  # a text may bring a unit of its own
-        units = {unit_at(path, self.deck.units) for path in self.paths[name]}
-        return (units.pop() if len(units) == 1 else "") or parameter.unit
+        return unit_of(self.paths[name], self.deck.units) or parameter.unit
 
 
 def read_base(sweep: Sweep) -> Base:
@@ -115,7 +114,10 @@ def read_base(sweep: Sweep) -> Base:
     """
     path = _deck_path(sweep)
     fixed = (*override_texts(sweep.content.set), *sweep.overrides)
-    deck = _told_here(sweep, lambda: read_deck(path, fixed))
+    try:
+        deck = read_deck(path, fixed)
+    except DeckError as error:
+        raise DeckError([_at_its_place(sweep, fault) for fault in error.faults]) from error
     tree = effective_tree(path, fixed)
     cases = tuple(sweep.content.cases or deck.content.load_cases)
     faults = [
@@ -149,15 +151,8 @@ def _deck_path(sweep: Sweep) -> Path:
     return path
 
 
-def _told_here(sweep: Sweep, read: Callable[[], Deck]) -> Deck:
-    """What a function returns; faults of values that `set` of the sweep file brings are told at their place there."""
-    try:
-        return read()
-    except DeckError as error:
-        raise DeckError([_at_its_place(sweep, fault) for fault in error.faults]) from error
-
-
 def _at_its_place(sweep: Sweep, fault: Fault) -> Fault:
+    """A fault of a value that `set` of the sweep file brings, at its place there; others as they are."""
     if fault.place.file != LABEL:
         return fault
     keys = list(sweep.content.set)
@@ -178,13 +173,9 @@ def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[Key
             try:
                 found[name] = (*found.get(name, ()), path_of_key(tree.data, key))
             except RefusedError as refusal:
-                remedy = "" if parameter.key is not None else _remedy(name)
+                remedy = "" if parameter.key or "." in name else "; or give the key path in the deck with key"
                 faults.append(sweep.fault_at(place, refusal.message.around(after=remedy)))
     return found
-
-
-def _remedy(name: str) -> str:
-    return "" if "." in name else "; or give the key path in the deck with key"
 
 
 def check_points(base: Base, points: Sequence[Point]) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -83,12 +84,13 @@ def _takes_plain_values(path: KeyPath) -> bool:
     )
 
 
-def unit_at(path: KeyPath, units: Units) -> str:
-    """The deck's unit of the value at a path; empty for plain numbers, for text, and where several are possible."""
-    dimensions = {
-        each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)
-    }
-    return units.unit(dimensions.pop()) if len(dimensions) == 1 else ""
+def unit_of(paths: Sequence[KeyPath], units: Units) -> str:
+    """The deck's unit of the values at some paths; empty for plain numbers, for text, where several are possible."""
+    found = set()
+    for path in paths:
+        at = {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
+        found.add(units.unit(at.pop()) if len(at) == 1 else "")
+    return found.pop() if len(found) == 1 else ""
 
 
 def _quantities(annotation: Any) -> Iterator[Quantity]:
@@ -108,17 +110,12 @@ def _quantities(annotation: Any) -> Iterator[Quantity]:
 
 def value_at(deck: Deck, path: KeyPath) -> Any:
     """Checked value at a path, in the deck's units; None where there is none."""
-    value: Any = deck.content
-    for key in path:
-        if isinstance(value, BaseModel):
-            fields = type(value).model_fields
-            name = next((name for name, field in fields.items() if key == (field.alias or name)), None)
-            value = None if name is None else getattr(value, name)
-        elif isinstance(value, dict):
-            value = value.get(key)
-        else:
-            value = value[key] if isinstance(value, (list, tuple)) and isinstance(key, int) else None
-    return value
+    value: Any = deck.content.model_dump(by_alias=True)
+    with suppress(KeyError, IndexError, TypeError):
+        for key in path:
+            value = value[key]
+        return value
+    return None
 
 
 def vector_at(deck: Deck, path: KeyPath) -> tuple[float, float, float] | None:

@@ -19,7 +19,7 @@ from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Finding, Message, Place
-from mbla.sweeps.base_keys import path_of_key, unit_at, value_at, vector_at
+from mbla.sweeps.base_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts
@@ -121,8 +121,7 @@ def _units(base: Base) -> Iterator[Finding]:
     for name, parameter in base.sweep.content.parameters.items():
         if not parameter.unit or any(isinstance(value, str) for value in parameter.values or ()):
             continue
-        units = {unit_at(path, base.deck.units) for path in base.paths[name]}
-        own = units.pop() if len(units) == 1 else ""
+        own = unit_of(base.paths[name], base.deck.units)
         if own and own != parameter.unit:
             message = f"the deck takes this in {own}, and values here are not converted: write them in {own}"
             yield Finding("sweep-unit", message, "parameters", name, "unit")

@@ -16,8 +16,6 @@ from mbla.sweeps.answers import ALIKE, answers_of
 from mbla.sweeps.plan import FAILED
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, as_text
 
-BAR = 24
-"""characters"""
 MINUTE, HOUR = 60.0, 3600.0
 
 
@@ -54,11 +52,6 @@ class Progress:
             words.append(f"{duration_words(self.seconds * (self.total - self.done) / (self.done - 1))} left")
         return ", ".join(words)
 
-    def bar(self) -> str:
-        """The same behind a bar, for a line that rewrites itself."""
-        full = BAR * self.done // self.total if self.total else BAR
-        return f"[{'#' * full}{'.' * (BAR - full)}] {self.words()}"
-
 
 def duration_words(seconds: float) -> str:
     """``29 s``, ``4 min 10 s``, ``3 h 20 min``."""
@@ -73,8 +66,6 @@ SHOWN = 5
 """failed points that are named one by one; the table has all of them"""
 COUNTED = 8
 """different texts of a result that are counted one by one"""
-NAMED = 6
-"""points with a least or greatest value whose parameters are told"""
 TEXTS = ("text", "bool")
 """kinds of results that are counted; others have a least and a greatest value"""
 DESIGN = ("parameter", "azimuth", "elevation")
@@ -135,11 +126,8 @@ def _range_lines(table: SweepTable, columns: Sequence[SweepColumn]) -> list[str]
     found = [_range_cells(table, column) for column in columns]
     head = ["result", "least", "point", "greatest", "point", "without"]
     lines = ["", *text_table(head, [cells for cells, _ in found])]
-    named = list(dict.fromkeys(row for _, rows in found for row in rows))
-    for row in named[:NAMED]:
+    for row in dict.fromkeys(row for _, rows in found for row in rows):
         lines += sentence(point_words(table, row))
-    if len(named) > NAMED:
-        lines += sentence(f"{counted(len(named) - NAMED, 'further point')}: see sweep.csv")
     return [*lines, ""]
 
 

@@ -10,7 +10,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.sweeps.base import Base, check_points
-from mbla.sweeps.base_keys import path_of_key, unit_at
+from mbla.sweeps.base_keys import path_of_key, unit_of
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
 from mbla.sweeps.identity import fingerprint_of, key_hash
@@ -63,7 +63,7 @@ def test_paths_units_vectors(base: Base) -> None:
 )
 def test_unit_of_key(tmp_path: Path, key: str, unit: str) -> None:
     base = base_of(tmp_path, GOOD, ARCH + "units: {length: cm}\n")
-    assert unit_at(path_of_key(base.tree.data, key), base.deck.units) == unit
+    assert unit_of([path_of_key(base.tree.data, key)], base.deck.units) == unit
 
 
 @pytest.mark.parametrize(

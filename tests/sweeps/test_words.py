@@ -15,7 +15,6 @@ from tests.sweeps.tables import synthetic
 def test_a_line_has_counts_rate_and_time_left() -> None:
     progress = Progress(total=100, done=10, failed=1, seconds=4.5)
     assert progress.words() == "10 of 100 points, 1 failed, 45 s left"
-    assert progress.bar() == "[##......................] 10 of 100 points, 1 failed, 45 s left"
 
 
 @pytest.mark.parametrize(

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mbla.deck.expressions import is_expression
-from mbla.deck.references import find
-from mbla.deck.suggestions import unknown
 from mbla.deck.text.include import read_files
 from mbla.deck.text.sources import FileKind
-from mbla.deck.text.tree import KeyPath, Tree
+from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, Message, ValueRefused, first_faults
+from mbla.errors import DeckError, Fault, Message, ValueRefused
 from mbla.process.collector import no_collection
 from mbla.sweeps.file import rules as rules
-from mbla.sweeps.file.content import KINDS, SweepContent
+from mbla.sweeps.file.content import SweepContent
 
 
 @dataclass(frozen=True)
@@ -65,8 +63,6 @@ def _read(path: Path, overrides: Sequence[str]) -> Sweep:
         raise DeckError([tree.fault(("mbla",), Message("sweep-file-and-deck", message), at_key=True)])
     content, faults = validate(tree, SweepContent, _number, reading.reported, reading.damaged)
     faults += reading.faults
-    seen = {(fault.place, fault.key) for fault in faults}
-    faults += [fault for fault in first_faults(_unknown_parameters(tree)) if (fault.place, fault.key) not in seen]
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
     return Sweep(path, content, tuple(overrides), tree.fault)
@@ -79,13 +75,3 @@ def _number(text: str, dimension: str) -> float:
             "sweep-values", "expressions belong to decks: write the number, or vary a parameter that the deck uses"
         )
     return Units().convert(text, dimension)
-
-
-def _unknown_parameters(tree: Tree) -> Iterator[Fault]:
-    """Faults of names in `of` that no parameter has."""
-    parameters = tree.data.get("parameters")
-    known = list(parameters) if isinstance(parameters, dict) else []
-    for kind in KINDS:
-        for path, name in find(tree.data, ["design", "#", kind, "of", "#"]):
-            if isinstance(name, str) and name not in known:
-                yield tree.fault(path, Message("unknown-name", unknown("parameter", name, known, "known")))

@@ -11,7 +11,7 @@ from typing import Any
 from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
 from mbla.deck.section import one_of, rule
-from mbla.deck.suggestions import listed
+from mbla.deck.suggestions import listed, unknown
 from mbla.deck.text.tree import KeyPath, shorten
 from mbla.errors import Finding
 from mbla.sweeps.design.directions import FULL_CIRCLE
@@ -162,7 +162,10 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
     owners: dict[str, int] = {}
     for number, part in enumerate(parts):
         for index, name in enumerate(part.of or ()):
-            if name in owners:
+            if name not in sweep.parameters:
+                words = unknown("parameter", name, sweep.parameters, "known")
+                yield Finding("unknown-name", words, *part.path, "of", index)
+            elif name in owners:
                 where = "this part" if owners[name] == number else f"part {owners[name] + 1} of the design"
                 yield Finding("sweep-parts", f"{name} stands in {where} already", *part.path, "of", index)
             owners.setdefault(name, number)

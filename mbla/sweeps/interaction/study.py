@@ -12,7 +12,7 @@ import numpy as np
 from mbla.deck import Deck
 from mbla.process.run_options import RunOptions
 from mbla.results.listing.text import number, percent, sentence, table
-from mbla.results.pictures.diagrams import dress, hollow, open_diagrams
+from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, INK, SKY
 from mbla.results.record.json_values import as_json
@@ -23,7 +23,7 @@ from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.interaction.domain import Domain, Points, corners_of, domain_of, points_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question, question_of
-from mbla.sweeps.pictures.sheet import MARKS, count_words, mark_handles
+from mbla.sweeps.pictures.sheet import count_words, draw_marks, mark_handles
 from mbla.sweeps.plan import Task
 from mbla.sweeps.studies import heading_lines, prepared_study, study_options
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
@@ -292,8 +292,5 @@ def draw_diagram(
         at_edge = points.ways / (np.abs(points.ways) / reach).max(axis=1)[:, None]
         marked = np.where(np.isfinite(values), points.ways * values, at_edge)
         marked[points.factors.of(Answer.NO_EQUILIBRIUM)] = 0.0
-        for answer, look in MARKS.items():
-            own = points.factors.of(answer)
-            if own.any():
-                axes.plot(*marked[own].T, zorder=7, clip_on=False, **hollow(page, look.marker, look.colour))
+        draw_marks(page, axes, *marked.T, points.factors.answer)
         sheet.add_legend([*handles, *mark_handles(page, points.factors.answer)])
