@@ -292,5 +292,5 @@ def draw_diagram(
         at_edge = points.ways / (np.abs(points.ways) / reach).max(axis=1)[:, None]
         marked = np.where(np.isfinite(values), points.ways * values, at_edge)
         marked[points.factors.of(Answer.NO_EQUILIBRIUM)] = 0.0
-        draw_marks(page, axes, *marked.T, points.factors.answer)
+        draw_marks(page, axes, marked[:, 0], marked[:, 1], points.factors.answer)
         sheet.add_legend([*handles, *mark_handles(page, points.factors.answer)])
