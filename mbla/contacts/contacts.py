@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
@@ -59,9 +57,9 @@ class Contacts:
     @property
     def by_joint(self) -> dict[str, tuple[int, float]]:
         """Number and total area [m2] of the interfaces of each joint law in use."""
-        counts, areas = (np.bincount(self.joints, weights, len(self.joint_names)) for weights in (None, self.areas))
-        found = zip(self.joint_names, counts.tolist(), areas.tolist(), strict=True)
-        return {name: (count, area) for name, count, area in found}
+        rows = [self.joints == law for law in range(len(self.joint_names))]
+        each = [(int(own.sum()), float(self.areas[own].sum())) for own in rows]
+        return dict(zip(self.joint_names, each, strict=True))
 
     @cached_property
     def interface_of_point(self) -> IntArray:

@@ -14,8 +14,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.overlay import frames_from_normals, unit
 from mbla.contacts.outlines.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.measures import face_geometry
-from mbla.model.solids.ragged import row_means
+from mbla.model.solids.ragged import next_item, row_means, row_sums
 
 # Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude
 # slower than floating arithmetic, which is enough where faces share their edges, and checked by the area.
@@ -65,7 +64,10 @@ def build_facets(blocks: Blocks) -> Facets:
     facet_of_corner = facet_of_face[blocks.face_of_corner]
     _, first_face = np.unique(facet_of_face, return_index=True)
     block_of_facet = blocks.block_of_face[first_face]
-    origins, frames = _fitted_planes(facet_of_face, centres, blocks.face_normals, face_geometry(blocks).areas)
+    arms = corners - centres[blocks.face_of_corner]
+    area_vectors = row_sums(np.cross(arms, arms[next_item(corner_start)]), corner_start) / 2
+    face_areas = np.einsum("fi,fi->f", area_vectors, blocks.face_normals)
+    origins, frames = _fitted_planes(facet_of_face, centres, blocks.face_normals, face_areas)
     local = np.einsum("kij,kj->ki", frames[facet_of_corner], corners - origins[facet_of_corner])
     polygons = _outlines(local[:, 1:], corner_start, facet_of_face, blocks.sizes[block_of_facet])
     by_facet = np.argsort(facet_of_corner, kind="stable")

@@ -106,12 +106,7 @@ Webs: TypeAlias = list[tuple[FloatArray, tuple[int, int], int, int]]
 
 
 def _vault(
-    item: VaultItem,
-    section: HalfSection,
-    member: str,
-    mitred_blocks: Sequence[FloatArray],
-    webs: Webs,
-    behind: FloatArray,
+    item: VaultItem, section: HalfSection, member: str, mitred_blocks: list[FloatArray], webs: Webs, behind: FloatArray
 ) -> Generated:
     """Mitred blocks (1, 3, 4, 3) of each course in all corners, units of the webs, keystone, springers, ground.
 
