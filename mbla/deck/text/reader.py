@@ -28,6 +28,7 @@ from mbla.errors import MOST_FAULTS, Fault, Message, Place, ValueRefused
 
 MAX_DEPTH = 64
 """Nesting of brackets and indentation; the deck's own types need ten."""
+TOO_DEEP = Message("nested-too-deeply", f"is nested more than {MAX_DEPTH} levels deep")
 
 MOST_KEYS, MOST_ITEMS = 10_000, 100_000
 """of one mapping, and of one list; what is larger is no deck, or geometry that belongs in a file of its own"""
@@ -162,7 +163,7 @@ class _Builder:
         if event.anchor or event.tag:
             self.refuse_properties(event, marks.own)
         if len(self.stack) >= MAX_DEPTH:
-            self.fault(marks.own, Message("nested-too-deeply", f"is nested more than {MAX_DEPTH} levels deep"), path=())
+            self.fault(marks.own, TOO_DEEP, path=())
             raise _StopError
         key = self.key
         self.put_value_or_key(data, marks)
@@ -279,4 +280,6 @@ class _Builder:
             words += f" (it began in line {line})"
         if self.source.text[offset : offset + 1] == "\t":
             words += " (indent with spaces, not with tabs)"
-        self.document.faults.append(Fault(self.source.place(offset), "", Message("not-yaml", words)))
+        # libyaml has a limit of its own, which a line of brackets may meet before the first of them is an event
+        message = TOO_DEEP if "nesting depth" in problem else Message("not-yaml", words)
+        self.document.faults.append(Fault(self.source.place(offset), "", message))
