@@ -20,7 +20,10 @@ from mbla.model.wording import vector
 
 
 def unplaced(path: KeyPath, message: Message) -> Fault:
-    """Stands for the places of a deck where there is none: everything in it was checked before."""
+    """Stands for the places of a deck where there is none: everything in it was checked before.
+
+    Raises AssertionError.
+    """
     raise AssertionError(f"no deck to find {path} in: {message}")
 
 

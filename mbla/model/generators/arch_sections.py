@@ -198,7 +198,7 @@ def springing_joints(section: Section) -> tuple[SpringingJoint, SpringingJoint]:
 
 
 def check_rise(joint: SpringingJoint, *path: str | int) -> None:
-    """Refuse the inclination of a joint that a pier cannot carry; key path below the item."""
+    """Raises ItemRefused for the inclination of a joint that a pier cannot carry; key path below the item."""
     if joint.rise < 0:
         words = "a pier needs a springing joint that is level or rises outwards: at most half a circle"
         raise ItemRefused(Finding("arch-shape", words, *path))

@@ -34,7 +34,7 @@ def malformed(kind: str, reason: str) -> GeometryFileError:
 
 @contextmanager
 def well_formed(kind: str) -> Iterator[None]:
-    """Refuses a document of JSON in which something is missing, or other than its format says."""
+    """Raises GeometryFileError for a document of JSON in which something is missing, or other than its format says."""
     try:
         yield
     except RecursionError:

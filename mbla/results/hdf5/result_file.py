@@ -81,6 +81,7 @@ def write_results_hdf5(results: Results) -> bytes:
     """The result file as bytes; the same results give the same bytes.
 
     Layout: schemas/results.md. It cannot fail for want of disk space; the caller writes the bytes.
+    Raises AssertionError for content that the layout does not have.
     """
     content, units = content_of(results), results.model.units
     scales: dict[str, Labelled] = {}

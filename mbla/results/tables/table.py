@@ -136,7 +136,7 @@ def unit_in(column: Quantity, units: Units) -> str:
 
 
 def table_of(kind: TableKind, results: Results, cases: tuple[CaseResult, ...]) -> Table:
-    """The table of that kind for some cases of a result."""
+    """The table of that kind for some cases of a result; raises AssertionError for columns of unequal length."""
     parts, columns, values = list(kind.parts(results, cases)), iter(kind.columns), list[Values]()
     for column in kind.record:
         found = [kind.values(column, part) for part in parts]

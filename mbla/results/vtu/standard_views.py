@@ -283,7 +283,7 @@ def here() -> Path:
 
 
 def main(words: list[str]) -> None:
-    """Build the views, and save them or show them."""
+    """Build the views, and save them or show them; raises SystemExit for a missing file or view."""
     arguments = read_arguments(words)
     cases = [arguments.case] if arguments.case else list(RESULT["cases"])
     missing = [

@@ -47,7 +47,7 @@ Answer = TypeVar("Answer")
 
 
 def outcomes_of_cluster(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-    """As ``outcomes_of`` of the engine."""
+    """As ``outcomes_of`` of the engine; raises FileError where the scheduler is gone."""
     left, strikes = deque(tasks), dict.fromkeys((task.key for task in tasks), 0)
     running: dict[str, tuple[Task, Any]] = {}  # and its future, by the key that Dask has for it
     finished: queue.Queue[str] = queue.Queue()
