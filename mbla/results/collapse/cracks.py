@@ -18,6 +18,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.solids.measures import connected_labels
+from mbla.model.solids.plane import meeting_boxes
 from mbla.model.solids.ragged import items_of_rows
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion, interface_radii
 from mbla.results.collapse.joint_planes import ClusterJoints
@@ -29,14 +30,13 @@ TOUCH = 0.01
 
 def touching_pairs(contacts: Contacts, interfaces: IntArray) -> IntArray:
     """Pairs of rows of ``interfaces`` that share a place, each pair once, (n, 2)."""
-    from scipy.spatial import cKDTree
-
     size = interface_radii(contacts)[interfaces]
     points = contacts.points[items_of_rows(contacts.point_start, interfaces)]
     row = np.repeat(np.arange(len(interfaces)), np.diff(contacts.point_start)[interfaces])
-    near = cKDTree(points).query_pairs(TOUCH * float(size.max()), output_type="ndarray")
-    apart = np.linalg.norm(points[near[:, 0]] - points[near[:, 1]], axis=1)
-    pairs = np.sort(row[near], axis=1)
+    lower, upper = points - TOUCH / 2 * size[row, None], points + TOUCH / 2 * size[row, None]
+    near, other = meeting_boxes(lower, upper, lower, upper, np.inf)
+    apart = np.linalg.norm(points[near] - points[other], axis=1)
+    pairs = np.sort(np.stack([row[near], row[other]], axis=1), axis=1)
     pairs = pairs[(pairs[:, 0] != pairs[:, 1]) & (apart <= TOUCH * size[pairs].min(axis=1))]
     return np.unique(pairs, axis=0)
 
