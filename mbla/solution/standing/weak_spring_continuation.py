@@ -129,11 +129,11 @@ def weaken_springs(
     kappa, u = 1.0, np.zeros(len(program.dead_load))
     for ratio in SHEAR_STIFFNESSES:
         problem = replace(whole, shear_stiffness=ratio)
-        outcome, last = _weaken(problem, blocks, kappa, u)
+        outcome, last, before = _weaken(problem, blocks, kappa, u)
         forces = joints_at(problem, 0.0, last.displacements).state.forces
         found.append(replace(outcome, forces=forces, displacements=last.displacements))
-        if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is the state a start for the next
-            kappa, u = last.kappa, last.displacements
+        if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is a state a start for the next: the one
+            kappa, u = before.kappa, before.displacements  # before the last leap (house: 1 s, from the last one 6)
         if outcome.outcome is Outcome.UNDECIDED:
             return found[-1]
     return agreed(*found)
@@ -199,12 +199,14 @@ class _State:
     block: int
 
 
-def _weaken(problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatArray) -> tuple[Weakening, _State]:
-    """Weaken the springs, from κ on, until the outcome is clear; the outcome with the last state."""
+def _weaken(
+    problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatArray
+) -> tuple[Weakening, _State, _State]:
+    """Weaken the springs, from κ on, until the outcome is clear; the outcome with the last state and the one before."""
     last = _State(kappa, start, np.nan, -1)
     elastic = None if problem.late or np.any(start) else _elastic_state(problem, blocks)
     if elastic is not None:
-        return _outcome(Outcome.CARRIED, elastic), elastic
+        return _outcome(Outcome.CARRIED, elastic), elastic, elastic
     states: list[_State] = []
     step, leaps, failures = DECADE, True, 0
     while True:
@@ -217,18 +219,18 @@ def _weaken(problem: SpringProblem, blocks: _Blocks, kappa: float, start: FloatA
             step, failures = float(np.sqrt(step)), failures + 1
             if problem.late or not states or step > CLOSEST_RATIO or failures > MOST_FAILURES:
                 why = "the time limit was reached" if problem.late else "no state on weak springs was found"
-                return _outcome(Outcome.UNDECIDED, last, why), last
+                return _outcome(Outcome.UNDECIDED, last, why), last, last
             kappa = step * last.kappa
             continue
         last = state
         states.append(state)
         if state.share < CARRIED_SHARE:
-            return _outcome(Outcome.CARRIED, state), state
+            return _outcome(Outcome.CARRIED, state), state, states[-2:][0]
         if _on_plateau(states):
-            return _outcome(Outcome.FALLS, state), state
+            return _outcome(Outcome.FALLS, state), state, state
         if kappa <= WEAKEST:
             why = "springs went on carrying part of the load as they got weaker"
-            return _outcome(Outcome.UNDECIDED, state, why), state
+            return _outcome(Outcome.UNDECIDED, state, why), state, state
         step = max(step**LENGTHENING, DECADE)
         kappa = max(_next(states, step, leaps), WEAKEST)
 
