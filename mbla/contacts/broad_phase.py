@@ -33,7 +33,7 @@ def find_block_pairs(blocks: Blocks, tolerance: float) -> IntArray:
     Raises
     ------
     ContactsRefused
-        for far more blocks that touch each other's boxes than blocks that lie beside each other have
+        for far more blocks that touch each other's boxes than blocks that lie next to each other have
     """
     lower, upper = block_boxes(blocks)
     most = max(MOST_PAIRS, PAIRS_OF_A_BLOCK * len(blocks))

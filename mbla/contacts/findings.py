@@ -84,7 +84,7 @@ def _glued_settlements(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
 
 
 def _without_effect(solids: Solids, case: LoadCase) -> bool:
-    """Whether nothing is left of the live loads on solids that move, beside the sizes of these and of their moments."""
+    """Whether the live loads on solids that move cancel, relative to the sizes of these and of their moments."""
     net = np.abs(solids.loads(case.live_load)[~solids.model.fixed]).max(axis=0)
     sizes = np.abs(case.live_load)
     sizes[:, 3:] += (
@@ -110,13 +110,13 @@ def bent_faults(deck: Deck, model: Model, contacts: Contacts) -> list[Fault]:
     blocks = bent.blocks[rows]
     defects = planarity_defects(blocks, bent.faces[rows], bent.deviations[rows], model.blocks.sizes, tolerance)
     touched = {int(block): model.body_name(int(other)) for block, other in zip(blocks, others, strict=True)}
-    told = [
+    extended = [
         replace(defect, message=defect.message.around(after=f", and it touches {touched[defect.block]} there"))
         for defect in defects
     ]
     item_of_block = np.full(len(model.blocks), -1)
     item_of_block[bent.blocks] = bent.items
-    return defects_in_words(deck, told, item_of_block, model.blocks)
+    return defects_in_words(deck, extended, item_of_block, model.blocks)
 
 
 def bent_contacts(model: Model, contacts: Contacts, tolerance: float) -> tuple[IntArray, IntArray]:

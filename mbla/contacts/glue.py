@@ -11,7 +11,7 @@ and from its motion (v, ω) about c come those of its members::
     v_b = v + ω × (c_b − c),    ω_b = ω
 
 Contact forces of glued interfaces are not asked for: they are inner forces of a rigid body. An interface of any other
-law between two members of one solid carries nothing that equilibrium could tell either and is left out with them.
+law between two members of one solid carries nothing that equilibrium could determine either and is left out with them.
 
 Guides of blocks that are glued into solids: the solid moves as its guided block does.
 

@@ -2,7 +2,7 @@
 
 Each of them alone would hold the piece with all of its cohesion, tensile and compressive strength; both together would
 count these twice. Of two supports with one joint law the earlier one has the piece, blocks before grounds, and the
-later ground what lies beside it: the piece is counted once. With different laws, or where one of the two can move,
+later ground what lies off it: the piece is counted once. With different laws, or where one of the two can move,
 nothing says which of them holds it, and the deck is refused.
 
 Blocks alone cannot hold a piece twice: they would overlap.

@@ -83,7 +83,7 @@ def _least_heights(blocks: Blocks, facets: Facets, one: IntArray, other: IntArra
 
 
 def _by_solids(blocks: Blocks, pairs: IntArray, tolerance: float) -> Overlaps:
-    """Judge the pairs left over one by one, until there are more overlaps than are told."""
+    """Judge the pairs left over one by one, until there are more overlaps than are reported."""
     found, depths, unchecked = [], [], []
     triangles = triangulate_blocks(blocks, np.unique(pairs))
     for a, b in pairs.tolist():

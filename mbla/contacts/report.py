@@ -78,7 +78,7 @@ def _without(bodies: IntArray, taken: IntArray, n_bodies: int) -> IntArray:
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
     """True where neither body of a pair can move but as a support that gives way, (n,).
 
-    Supports do not rub on each other: a footing that sinks beside another would lock against it by dilatancy alone.
+    Supports do not rub on each other: a footing that sinks next to another would lock against it by dilatancy alone.
     """
     still = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     return np.asarray(still[bodies[:, 0]] & still[bodies[:, 1]])

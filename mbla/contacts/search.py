@@ -94,8 +94,8 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
         glue=glue,
     )
     report = build_report(model, findings)
-    told = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
-    return _contacts(kept, areas, found, (law_of, names), replace(report, notices=told), glue.solid_of_block)
+    remarks = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
+    return _contacts(kept, areas, found, (law_of, names), replace(report, notices=remarks), glue.solid_of_block)
 
 
 def _verdicts(model: Model, facets: Facets, tolerance: float) -> tuple[Verdicts, SeparatedPairs]:

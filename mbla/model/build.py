@@ -116,7 +116,7 @@ class Structure:
 def structure_of(deck: Deck) -> Structure:
     """Build it, or take that of an earlier deck that says the same of it in the same files."""
     bare = _bare(deck)
-    keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is looked for where its name is given
+    keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is relative to where it is named
     files = tuple(str(source.path.absolute()) for source in deck.sources)
     content = (bare.content, bare.units, files, keys_set)
     structure = once("structure", content, lambda: _build(bare), lasts=lambda structure: not structure.roster.faults)
@@ -164,7 +164,7 @@ def _build(deck: Deck) -> Structure:
 UNLIMITED = 1e6
 """Greatest friction coefficient and tangent of the dilatancy angle, 0.2 seconds of arc from a right angle: what is
 steeper is taken for this. A load factor changes by a millionth between here and no limit; the power of sliding, which
-is rounding times friction, would be the whole answer at 1e15."""
+is rounding times friction, would be the entire answer at 1e15."""
 
 
 def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: PrescribedInterfaces | None) -> dict[str, Joint]:

@@ -1,6 +1,6 @@
 """Prescribed interfaces: a deck gives them as a table of their corners, instead of having them found.
 
-Each must lie on a face of either body, within the tolerance of contacts: what lies beside a face is no interface. Nor
+Each must lie on a face of either body, within the tolerance of contacts: what lies off a face is no interface. Nor
 may two of one pair of bodies lie on each other.
 """
 
@@ -49,7 +49,7 @@ class _Bodies:
 
 
 def read_interfaces(deck: Deck, roster: Roster, grounds: tuple[Ground, ...]) -> PrescribedInterfaces | None:
-    """Interfaces of the deck's table; None where it has none, or where it is at fault, which the roster is told."""
+    """Interfaces of the deck's table; None where it has none, or where it has faults, which go to the roster."""
     path: KeyPath = ("contacts", "table")
     if deck.contacts.table is None or roster.partial:
         return None

@@ -167,7 +167,7 @@ def _named(ground: Ground, labels: Labels) -> Ground:
 FROM_FILES = ("mesh", "table")
 """kinds of items whose blocks have names of their own"""
 MOST_FAULTS_PER_ITEM = 10
-"""defects of blocks of one item that are told one by one; a mesh in the wrong format has one in every block"""
+"""defects of blocks of one item that are reported one by one; a mesh in the wrong format has one in every block"""
 
 
 def defects_in_words(deck: Deck, defects: Sequence[Defect], item_of_block: IntArray, blocks: Blocks) -> list[Fault]:
@@ -176,18 +176,18 @@ def defects_in_words(deck: Deck, defects: Sequence[Defect], item_of_block: IntAr
     item_of_block : (n_blocks,) item of the deck that each block comes from
     """
     faults = []
-    told: Counter[int] = Counter()
+    counts: Counter[int] = Counter()
     for defect in defects:
         number = int(item_of_block[defect.block])
-        told[number] += 1
-        if told[number] <= MOST_FAULTS_PER_ITEM:
+        counts[number] += 1
+        if counts[number] <= MOST_FAULTS_PER_ITEM:
             path = _path(deck, defect.face, number)
             faults.append(
                 deck.fault_at(
                     path, defect.message.around(before=f"block {_called(deck, blocks, defect.block, number)}: ")
                 )
             )
-    for number, count in told.items():
+    for number, count in counts.items():
         if count > MOST_FAULTS_PER_ITEM:
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
             faults.append(deck.fault_at(_path(deck, None, number), Message("more-faults", message)))

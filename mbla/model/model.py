@@ -201,7 +201,7 @@ class Model:
     notices     : repairs and remarks from building it
     guides      : blocks that may move in given ways only; they count as free
     mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
-                  states are looked for
+                  states are searched
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
     bent        : faces that were split into triangles; none of them may be in contact, and none is in result files

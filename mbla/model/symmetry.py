@@ -1,4 +1,4 @@
-"""A model mirrored about a plane: the whole of a structure of which the deck gives half.
+"""A model mirrored about a plane: the whole structure from the half that the deck gives.
 
 With unit normal m and reflection R = I − 2 m mᵀ a block becomes its mirror image; a force F becomes R F, a moment M,
 which is an axial vector, −R M, and so velocity and angular velocity. A block that the plane cuts in two becomes one
@@ -129,8 +129,8 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
     own = polyhedra_of(blocks)
     image = moved(own, mirror.reflection)
-    whole = halves_joined(own, image, mirror.halves, mirror.point, mirror.normal, tolerance * blocks.sizes)
-    polyhedra = join_polyhedra([whole, take_polyhedra(image, others)])
+    joined = halves_joined(own, image, mirror.halves, mirror.point, mirror.normal, tolerance * blocks.sizes)
+    polyhedra = join_polyhedra([joined, take_polyhedra(image, others)])
     built = build_blocks(polyhedra, _labels(model, others), tolerance)
     assert not built.defects, "images of sound blocks are sound"
     centroids = built.blocks.centroids
@@ -150,12 +150,12 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     )
 
 
-def _with_masses(whole: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
+def _with_masses(joined: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
     """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
     rows = np.concatenate([np.arange(len(own)), mirror.image_of])
     points = np.concatenate([own.added_mass_points, mirror.reflection.points(own.added_mass_points)])
-    masses, centres = carried_masses(whole.centroids, rows, np.tile(own.added_masses, 2), points)
-    return replace(whole, added_masses=masses, added_mass_points=centres)
+    masses, centres = carried_masses(joined.centroids, rows, np.tile(own.added_masses, 2), points)
+    return replace(joined, added_masses=masses, added_mass_points=centres)
 
 
 def _labels(model: Model, others: IntArray) -> Labels:

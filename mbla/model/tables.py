@@ -1,7 +1,7 @@
 """Tables of text (CSV) that a deck names: a header line with the names of the columns, then one row per line.
 
 Columns are separated by commas; or by semicolons, and then numbers may have decimal commas, as spreadsheets write them
-in some countries. Empty lines and lines that begin with # are passed over. Every fault is told with file and line.
+in some countries. Empty lines and lines that begin with # are passed over. Every fault is reported with file and line.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from mbla.deck.suggestions import did_you_mean, listed
 from mbla.errors import Finding, Message
 
 MOST_FAULTS = 10
-"""faults of one table that are told one by one"""
+"""faults of one table that are reported one by one"""
 
 
 class TableRefused(Exception):  # noqa: N818 - an answer, not a defect
     """The table cannot be used; ``faults`` has a sentence with file and line for each reason."""
 
     def __init__(self, *faults: Message) -> None:
-        told = faults[:MOST_FAULTS]
+        listed = faults[:MOST_FAULTS]
         if len(faults) > MOST_FAULTS:
-            told = (*told, Message("more-faults", f"{len(faults) - MOST_FAULTS} more faults of this table"))
-        self.faults = told
-        super().__init__("; ".join(told))
+            listed = (*listed, Message("more-faults", f"{len(faults) - MOST_FAULTS} more faults of this table"))
+        self.faults = listed
+        super().__init__("; ".join(listed))
 
     def findings(self, *path: str | int) -> list[Finding]:
         """The faults at the key that names the file."""

@@ -54,7 +54,7 @@ IDENTITY = AffineMap(np.eye(3), np.zeros(3))
 def build_transform(transform: Sequence[TransformStep] | TransformStep) -> AffineMap | None:
     """The affine map of an item's steps; None where there are none."""
     steps = [transform] if isinstance(transform, TransformStep) else transform
-    return reduce(lambda whole, step: _step(step).after(whole), steps, IDENTITY) if steps else None
+    return reduce(lambda total, step: _step(step).after(total), steps, IDENTITY) if steps else None
 
 
 def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:

@@ -22,7 +22,7 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun if count == 1 else PLURALS.get(noun, f'{noun}s')}"
 
 
-def told(count: int, noun: str, words: str) -> str:
+def with_count(count: int, noun: str, words: str) -> str:
     """``1 face was left out``, ``3 faces were left out``."""
     return f"{counted(count, noun)} {'was' if count == 1 else 'were'} {words}"
 

@@ -150,7 +150,7 @@ FLAT = 1e-9
 
 
 def in_pieces(corners: Corners, chosen: BoolArray) -> tuple[Corners, IntArray]:
-    """The polygons chosen, (n_polygons,), in triangles unless they are parallelograms or triangles; the others whole.
+    """The polygons chosen, (n_polygons,), in triangles unless they are parallelograms or triangles; others unchanged.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def in_pieces(corners: Corners, chosen: BoolArray) -> tuple[Corners, IntArray]:
     real = np.abs(twice) > FLAT * np.bincount(row, np.abs(twice))[row]
     spots, row = spots[real], row[real]
     left = corners.take(~of_divided)
-    # rings of the pieces behind those of the polygons left whole, then all in the order of their polygons
+    # rings of the pieces behind those of the polygons left unchanged, then all in the order of their polygons
     points = np.concatenate([left.points, spots.reshape(-1, 2)])
     counts = np.concatenate([np.diff(left.ring_start), np.full(len(row), 3)])
     polygon_of_ring = np.concatenate([left.polygon_of_ring, rows[row]])

@@ -153,8 +153,8 @@ def _triangulated_points(
 ) -> InterfacePoints:
     """Points along the edges first, in the order of the corners, then those inside."""
     edge_points, edge_polygon = _along_edges(corners, parts), np.repeat(corners.polygon_of_corner, parts)
-    whole, row = _triangulated(corners, centroids, star)
-    nodes, third = _nodes_of_triangles(whole, parts)
+    triangles, row = _triangulated(corners, centroids, star)
+    nodes, third = _nodes_of_triangles(triangles, parts)
     node_polygon = np.repeat(row, nodes.shape[1])
     key = places(np.concatenate([edge_polygon, node_polygon]), np.concatenate([edge_points, nodes.reshape(-1, 2)]))
     on_edge, at_node = key[: len(edge_points)], key[len(edge_points) :]

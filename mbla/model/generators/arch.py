@@ -108,7 +108,7 @@ def _piers(item: ArchItem, piers: ArchPiers, section: Section, shear: float) -> 
 
 
 def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:
-    """Blocks over the whole width."""
+    """Blocks over the full width."""
     return prisms(polygons, np.tile([0.0, item.width], (len(polygons), 1)), shear)
 
 

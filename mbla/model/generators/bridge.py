@@ -44,7 +44,7 @@ from mbla.model.solids.polyhedra import prisms
 
 @dataclass(frozen=True)
 class _Frame:
-    """Arches in place, and the springer blocks between and beside them, with their springing joints."""
+    """Arches in place, and the springer blocks between and next to them, with their springing joints."""
 
     sections: tuple[Section, ...]
     joints: tuple[tuple[SpringingJoint, SpringingJoint], ...]
@@ -203,7 +203,7 @@ def _outline(frame: _Frame) -> Outline:
 
 
 def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[Part]:
-    """Through the whole width; or a wall along each face, and backing between them in the lowest courses."""
+    """Through the full width; or a wall along each face, and backing between them in the lowest courses."""
     if item.spandrel_thickness is None:
         return [_part("spandrel", polygons, (0.0, item.width), labels)]
     near, far = item.spandrel_thickness, item.width - item.spandrel_thickness
@@ -229,7 +229,7 @@ def _parapets(item: BridgeItem, frame: _Frame, masonry: Masonry, top: float, cou
     assert item.parapets is not None
     height = item.parapets.height
     if top + height == top:
-        message = f"is lost beside {top:g}, the height of the spandrels: make it larger"
+        message = f"is too small for {top:g}, the height of the spandrels: make it larger"
         raise ItemRefused(Finding("out-of-bounds", message, "parapets", "height"))
     masonry = replace(masonry, extent=min(masonry.extent, height))
     bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)

@@ -7,7 +7,7 @@ distance c cos(pi/n). It stands for a circle of radius r
     circumscribed with its flats on the circle:     c = r/cos(pi/n)
     equal_area    with the area of the circle:      c = r sqrt(2 pi/(n sin(2 pi/n)))
 
-With s the height over the foot of the shaft relative to its whole height, r0 and r1 the radii at both ends and e the
+With s the height over the foot of the shaft relative to its full height, r0 and r1 the radii at both ends and e the
 entasis, the radius at a joint is r0 + (r1 - r0) s + 4 e s (1 - s). Between its joints a drum is a frustum of a regular
 polygon, of volume A h (1 + q + q^2)/3 with A the area of its lower polygon and q the ratio of its radii.
 """

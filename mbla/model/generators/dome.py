@@ -8,7 +8,7 @@ t1).
 The keystone is the frustum of a pyramid, between the polygons at the last joint in intrados and extrados.
 
 Rings have planar faces. A circle is a regular polygon of n sides with its corners on the circle, the same for all
-rings, and each block spans a whole number of them, its facets: half a block more or less are still whole facets, so
+rings, and each block spans an integer number of them, its facets: half a block more or less are still full facets, so
 that the rings of a running bond meet facet on facet. Between two neighbouring meridians every joint is a plane, a
 trapezoid with two parallel sides; a bed joint that rises towards the outside is a funnel of such trapezoids, into which
 the blocks above fit and round which those below are cut. Blocks of several facets are not convex, but all their faces

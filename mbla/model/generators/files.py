@@ -48,11 +48,11 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
     blocks = repair(placed, site.tolerance, item.weld)
     if not len(blocks.polyhedra):
-        words = "the file holds no blocks: nothing is left of faces without area"
+        words = "the file holds no blocks: its faces have no area"
         raise ItemRefused(Finding("geometry-without-blocks", words, "file"))
     members = [member_name(name) for name in blocks.names]
-    told = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
-    notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in told)
+    remarks = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
+    notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
     return Generated((Part(blocks.polyhedra, member=members if any(members) else ""),), notices=notices)
 
 
@@ -169,7 +169,7 @@ class _Block:
 
 
 def _blocks(vertices: Table, faces: Table) -> dict[str, _Block]:
-    """Blocks by name in the order of their first vertices; what is wrong is told by the tables."""
+    """Blocks by name in the order of their first vertices; the tables report what is wrong."""
     blocks: dict[str, _Block] = {}
     points, names = vertices.numbers("xyz"), zip(vertices.columns["block"], vertices.columns["vertex"], strict=True)
     for row, (name, vertex) in enumerate(names):

@@ -3,7 +3,7 @@
 Level courses are cut by the outline from below and by upright joints. A course between two beds exists where the
 outline lies below its upper bed. Joints follow a running bond about the middle of the bridge. Three rules keep slivers
 away, in units of the masonry's own size: beds keep clear of crowns; a joint that would leave a short piece at the tip
-of a course is left out, the piece then being part of its neighbour; and where a whole stretch of a course would be a
+of a course is left out, the piece then being part of its neighbour; and where an entire stretch of a course would be a
 sliver, above a narrow pier for example, the course on top reaches down.
 """
 
@@ -143,8 +143,8 @@ def course_pieces(
         middle = float(outline.heights(np.array([(start + end) / 2]))[0])
         if end - start <= same or middle >= course.high - same:
             continue
-        whole = _piece(outline, course, start, end, same)
-        if end - start < np.ptp(ends) and _area(whole) < LEAST_STRETCH * masonry.length * masonry.height:
+        entire = _piece(outline, course, start, end, same)
+        if end - start < np.ptp(ends) and _area(entire) < LEAST_STRETCH * masonry.length * masonry.height:
             pits.append((start, end))
         else:
             pieces += _cut(outline, course, (start, end), masonry)

@@ -20,7 +20,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, parse_json, well_formed
 from mbla.model.solids.polyhedra import polyhedra_from_lists
-from mbla.model.wording import told
+from mbla.model.wording import with_count
 
 SUPPORT = "support"
 CLASS_NAMES = frozenset({"Mesh", "Block", "Box", "Polyhedron", "Part", "Element", "Assembly", "Graph", "Model"})
@@ -68,11 +68,11 @@ def read_compas_json(path: Path) -> Geometry:
         raise GeometryFileError("geometry-without-blocks", words)
     notices = [*empty_objects(found.empty)]
     if total := found.others.total():
-        words = told(total, "object", f"left out, of type {kinds}: no meshes")
+        words = with_count(total, "object", f"left out, of type {kinds}: no meshes")
         notices.append(Notice("warning", "mesh-cells-left-out", words))
     if supports := found.names.count(SUPPORT):
         words = f"marked as support; a deck fixes them with supports: [{{blocks: {{group: ..., member: {SUPPORT}}}}}]"
-        notices.append(Notice("notice", "mesh-supports-marked", told(supports, "block", words)))
+        notices.append(Notice("notice", "mesh-supports-marked", with_count(supports, "block", words)))
     surfaces = polyhedra_from_lists(found.points, found.faces)
     return Geometry(surfaces, tuple(notices), tuple(found.names) if any(found.names) else ())
 

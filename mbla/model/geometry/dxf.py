@@ -22,7 +22,7 @@ from mbla.model.solids.defects import LARGEST_COORDINATE
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.plane import signed_areas
 from mbla.model.solids.polyhedra import prisms
-from mbla.model.wording import told
+from mbla.model.wording import with_count
 
 CURVES = frozenset({"LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
 SILENT = frozenset(
@@ -162,10 +162,10 @@ def _close_networks(drawing: _Drawing) -> list[Notice]:
         fields, loose = enclosed_fields(lines)
         drawing.outlines += [(layer, outline) for outline in fields]
         if fields:
-            words = told(len(fields), "field", f"taken as outlines between lines of layer {layer}")
+            words = with_count(len(fields), "field", f"taken as outlines between lines of layer {layer}")
             notices.append(Notice("notice", "drawing-fields", words))
         if loose:
-            words = told(loose, "line", f"left out of layer {layer}: no field is enclosed")
+            words = with_count(loose, "line", f"left out of layer {layer}: no field is enclosed")
             notices.append(Notice("warning", "drawing-lines-left-out", words))
     return notices
 
@@ -176,7 +176,7 @@ def _left_out(drawing: _Drawing) -> list[Notice]:
         words = ", ".join(f"{count} of type {kind}" for kind, count in drawing.left_out.items())
         notices.append(Notice("warning", "mesh-cells-left-out", f"entities were left out: {words}; no outlines"))
     for layer, count in drawing.hidden.items():
-        words = told(count, "outline or line", f"left out of layer {layer}, which is off or frozen")
+        words = with_count(count, "outline or line", f"left out of layer {layer}, which is off or frozen")
         notices.append(Notice("warning", "drawing-layer-hidden", words))
     return notices
 

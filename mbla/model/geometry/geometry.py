@@ -17,7 +17,7 @@ from mbla.arrays import IntArray
 from mbla.deck.suggestions import listed
 from mbla.errors import Notice, Refusal
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.wording import counted, told
+from mbla.model.wording import counted, with_count
 
 LONGEST_REASON = 500
 """characters of what is said of a file that is refused, some of which libraries say, or the file itself"""
@@ -92,7 +92,7 @@ def empty_objects(names: Sequence[str]) -> tuple[Notice, ...]:
     if not names:
         return ()
     called = listed([name or "without a name" for name in names], "and")
-    return (Notice("warning", "objects-empty", told(len(names), "object", f"left out, without faces: {called}")),)
+    return (Notice("warning", "objects-empty", with_count(len(names), "object", f"left out, without faces: {called}")),)
 
 
 def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, ...]:
@@ -101,7 +101,7 @@ def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, 
     if not counts:
         return ()
     words = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
-    reason = "beside volume cells only those are blocks" if beside_volumes else "these cells are not blocks"
+    reason = "in files with volume cells only these become blocks" if beside_volumes else "these cells are not blocks"
     return (Notice("notice", "mesh-cells-left-out", f"cells were left out: {words}; {reason}"),)
 
 
@@ -122,7 +122,7 @@ def unused_points(count: int, used: IntArray) -> tuple[Notice, ...]:
     unused = count - len(np.unique(used))
     if unused <= 0:
         return ()
-    words = f"{unused} of the {counted(count, 'vertex')} of the file used by no face: is it whole?"
+    words = f"{unused} of the {counted(count, 'vertex')} of the file used by no face: is it complete?"
     return (Notice("warning", "file-vertices-unused", words),)
 
 

@@ -61,7 +61,7 @@ WORDS = {"vtu": "VTU", "gmsh": "Gmsh .msh"}
 SECTIONS = {b"Nodes": "node", b"Elements": "element"}
 """sections of a Gmsh file of version 2 that begin with their number of lines"""
 COMPRESSION = 1
-"""level of zlib in VTU files, which meshio cannot be told: coordinates and forces hardly get smaller by a higher one
+"""level of zlib in VTU files, which meshio has no option for: coordinates and forces hardly get smaller by a higher one
 (0.4 % of an animation frame of 10,000 blocks), and writing takes twice as long at its 6"""
 
 

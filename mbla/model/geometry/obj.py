@@ -22,7 +22,7 @@ from mbla.model.geometry.geometry import (
     unused_points,
 )
 from mbla.model.geometry.welding import surfaces_by_label
-from mbla.model.wording import counted, told
+from mbla.model.wording import counted, with_count
 
 SILENT = frozenset(
     {"vn", "vt", "vp", "vw", "s", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel"}
@@ -69,7 +69,7 @@ def read_obj(path: Path) -> Geometry:
         except (ValueError, IndexError) as error:
             raise GeometryFileError("geometry-file", f"line {number} cannot be read: {error}") from error
     notices = tuple(
-        Notice("warning", "mesh-cells-left-out", told(count, noun, "left out: no block"))
+        Notice("warning", "mesh-cells-left-out", with_count(count, noun, "left out: no block"))
         for noun, count in content.left_out.items()
     )
     if not content.left_out:

@@ -1,7 +1,7 @@
 """PLY, as text or binary: one surface, whose closed parts are the blocks.
 
 Coordinates and the lists of the faces' corners count, wherever they stand; other properties and elements are passed
-over. Every element has to be there in full, and nothing beside them.
+over. Every element has to be there in full, and nothing besides.
 
 Source: G. Turk, The PLY polygon file format, https://gamma.cs.unc.edu/POWERPLANT/papers/ply.pdf
 """

@@ -1,6 +1,6 @@
 """What a geometry file holds, made into blocks: repaired where that cannot change their shape, and split.
 
-Every repair is told in a notice. What it takes two meanings to repair (holes, faces that cross, surfaces inside each
+Every repair is reported in a notice. What could be repaired in two ways (holes, faces that cross, surfaces inside each
 other) is left as it is, to be refused by block when the blocks are built. So are objects with coordinates that cannot
 be computed with, and those of which a repair would leave nothing.
 
@@ -8,7 +8,7 @@ Tolerances are relative to the shortest edge at a vertex: a file of many blocks 
 are not known before its faces are joined. So no repair makes two corners of a face one, unless the deck gives a
 distance within which it wants that (``weld``).
 
-Vertices in the middle of another face's edge become corners of it. They are looked for only at edges that one face
+Vertices in the middle of another face's edge become corners of it. They are sought only at edges that one face
 alone has, among the vertices of such edges: a closed surface has none.
 
 Flat faces have no area although no two of their corners coincide: all lie on one line, as where a modeller split an
@@ -33,7 +33,7 @@ from mbla.model.solids.defects import Defects, coordinate_defects
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.wording import told
+from mbla.model.wording import with_count
 
 
 @dataclass
@@ -51,20 +51,20 @@ class _Work:
     def put(self, polyhedra: Polyhedra) -> None:
         """Take these instead; those without a face left go."""
         rows = with_faces(polyhedra)
-        whole = len(rows) == len(polyhedra)
-        self.polyhedra = polyhedra if whole else take_polyhedra(polyhedra, rows)
+        every = len(rows) == len(polyhedra)
+        self.polyhedra = polyhedra if every else take_polyhedra(polyhedra, rows)
         self.source = self.source[rows]
 
-    def tell(self, identifier: str, count: int, noun: str, words: str) -> None:
+    def note(self, identifier: str, count: int, noun: str, words: str) -> None:
         """A notice of what was done to so many things; none of nothing."""
         if count:
-            self.notices.append(Notice("notice", identifier, told(count, noun, words)))
+            self.notices.append(Notice("notice", identifier, with_count(count, noun, words)))
 
     def take_welded(self, welded: Welded, identifier: str, words: str, *, count_merged: bool = True) -> None:
         """Take what welding made."""
         self.put(welded.polyhedra)
-        self.tell(identifier, welded.merged if count_merged else 0, "vertex", f"merged with another {words}")
-        self.tell("faces-collapsed", welded.collapsed, "face", "left out, without area: corners at the same place")
+        self.note(identifier, welded.merged if count_merged else 0, "vertex", f"merged with another {words}")
+        self.note("faces-collapsed", welded.collapsed, "face", "left out, without area: corners at the same place")
 
 
 def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = None) -> Geometry:
@@ -136,7 +136,7 @@ def _pool_open_objects(work: _Work) -> None:
 def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
     if (dropped := find(work.polyhedra)).any():
         work.put(take_faces(work.polyhedra, ~dropped))
-        work.tell(identifier, int(dropped.sum()), "face", f"left out, {what}")
+        work.note(identifier, int(dropped.sum()), "face", f"left out, {what}")
 
 
 def _close_gaps(work: _Work, tolerance: float) -> None:
@@ -149,7 +149,7 @@ def _close_gaps(work: _Work, tolerance: float) -> None:
     polyhedra, count = insert_t_junctions(work.polyhedra, tolerance * shortest_edges(work.polyhedra))
     if count:
         work.put(polyhedra)
-    work.tell("t-junctions", count, "vertex", "made corners of the face in the middle of whose edge they lie")
+    work.note("t-junctions", count, "vertex", "made corners of the face in the middle of whose edge they lie")
 
 
 def _split(work: _Work, geometry: Geometry) -> None:
@@ -157,12 +157,12 @@ def _split(work: _Work, geometry: Geometry) -> None:
     before = len(work.polyhedra)
     split = split_surfaces(work.polyhedra)
     counts = np.bincount(split.source, minlength=before)
-    work.tell("surfaces-repeated", split.twins, "closed surface", "left out: the faces of another once more")
+    work.note("surfaces-repeated", split.twins, "closed surface", "left out: the faces of another once more")
     several = np.flatnonzero(counts > 1)
     if geometry.names and not work.pooled and len(several):
         first = geometry.names[work.source[several[0]]] or "without a name"
         words = f"split into {counts[several].sum()} closed surfaces, a block each; first {first}"
-        work.tell("objects-split", len(several), "object", words)
+        work.note("objects-split", len(several), "object", words)
     work.polyhedra, work.source = split.polyhedra, work.source[split.source]
 
 
@@ -212,7 +212,7 @@ def insert_t_junctions(polyhedra: Polyhedra, reach: FloatArray) -> tuple[Polyhed
 
 
 def _in_face(polyhedra: Polyhedra, face: IntArray, vertex: IntArray) -> BoolArray:
-    """Whether each vertex is a corner of the face beside it already, (n,)."""
+    """Whether each vertex is a corner of the face paired with it already, (n,)."""
     n = len(polyhedra.vertices)
     return np.isin(face * n + vertex, polyhedra.face_of_corner * n + polyhedra.loops)
 

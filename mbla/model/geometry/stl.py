@@ -64,7 +64,7 @@ def _solids(text: str) -> Geometry:
             complete = True
     cut = [name for name, each in zip(names, corners, strict=True) if len(each) % 3]
     if cut:
-        raise malformed("STL", f"the corners of solid {cut[0]!r} make no whole triangles")
+        raise malformed("STL", f"the corners of solid {cut[0]!r} make no complete triangles")
     if not complete:
         raise malformed("STL", "its last solid has no end")
     return _geometry([np.array(each, dtype=np.float64).reshape(-1, 3, 3) for each in corners], names)

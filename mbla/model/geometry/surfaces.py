@@ -66,7 +66,7 @@ def split_surfaces(surfaces: Polyhedra) -> Split:
 def _first_of_twins(codes: IntArray, part: IntArray, n_parts: int) -> BoolArray:
     """Parts that do not have the faces of an earlier one, (n_parts,).
 
-    A part is known by the sum of random numbers that stand for its faces, exact in whole numbers.
+    A part is known by the sum of random numbers that stand for its faces, exact in integers.
     """
     random = np.random.default_rng(0).integers(0, 2**63, size=int(codes.max()) + 1, dtype=np.uint64)
     sums = np.zeros(n_parts, dtype=np.uint64)

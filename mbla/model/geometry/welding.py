@@ -74,14 +74,14 @@ def _merged(polyhedra: Polyhedra, target: IntArray) -> Welded:
     loops = target[polyhedra.loops]
     kept = loops != loops[next_item(polyhedra.loop_start)]
     corners = np.bincount(polyhedra.face_of_corner[kept], minlength=len(polyhedra.block_of_face))
-    whole = corners >= 3
-    kept &= whole[polyhedra.face_of_corner]
-    face_counts = np.bincount(polyhedra.block_of_face[whole], minlength=len(polyhedra))
+    valid = corners >= 3
+    kept &= valid[polyhedra.face_of_corner]
+    face_counts = np.bincount(polyhedra.block_of_face[valid], minlength=len(polyhedra))
     welded = Polyhedra(
-        polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[whole]), starts(face_counts)
+        polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[valid]), starts(face_counts)
     )
     merged = int((target != np.arange(len(target))).sum())
-    return Welded(drop_unused_vertices(welded)[0], merged, int((~whole).sum()))
+    return Welded(drop_unused_vertices(welded)[0], merged, int((~valid).sum()))
 
 
 def take_faces(polyhedra: Polyhedra, kept: BoolArray) -> Polyhedra:

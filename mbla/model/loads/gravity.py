@@ -15,7 +15,7 @@ With y = x - c from the centroid c of the block and the outward normal n of its 
     ∫ h dV = ∮ h²/2 (n . a) dA,        ∫ y h dV = ∮ (y h²/2 - a h³/6) (n . a) dA,
 
 for the divergence of a y h²/2 is y h + a h²/2, and that of a h³/6 is h²/2. Of each face
-counts what lies above the level l; in a fan of triangles over it what is left is a cubic on each of them, which the
+counts what lies above the level l; in a fan of triangles over it the rest is a cubic on each of them, which the
 rule of seven points (corners, middles of edges, centroid) integrates exactly.
 """
 

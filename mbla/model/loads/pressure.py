@@ -8,7 +8,7 @@ The pressure acts on the free parts of faces, unless all of them are asked for: 
 them, nor on the ground, whether or not the contact of the two carries anything there.
 
 Each face is a polygon in coordinates of its own plane. The faces of other blocks that lie against it are taken away
-from it; what is left is divided into triangles.
+from it; the rest is divided into triangles.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ def face_parts(
         for row, against in zip(np.unique(mine).tolist(), groups, strict=False):
             polygons[row] = shapely.difference(polygons[row], shapely.union_all(against))
         left = np.where(_on_ground(faces, blocks, grounds, tolerance), 0.0, shapely.area(polygons))
-        left[left <= 2.0 * tolerance * areas] = 0.0  # what is left beside is the rounding of outlines
+        left[left <= 2.0 * tolerance * areas] = 0.0  # rounding of outlines
         polygons[left == 0.0] = shapely.Polygon()
     return FaceParts(*frames.triangles(polygons), areas, areas - left)
 

@@ -1,7 +1,7 @@
-"""Blocks as arrays: the polyhedra of the whole model in flat, ragged form.
+"""Blocks as arrays: the polyhedra of the entire model in flat, ragged form.
 
-Labels tell where in its group a block lies: the member of a composite item, and counted positions such as the course.
-A generator knows them, selectors ask for them (``{group: facade, course: 3}``), and results say them.
+Labels say where in its group a block lies: the member of a composite item, and counted positions such as the course.
+A generator knows them, selectors ask for them (``{group: facade, course: 3}``), and results list them.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ class Blocks(Polyhedra):
     loop_start       : (n_faces + 1,)   corners of face f are loops[loop_start[f]:loop_start[f + 1]]
     face_start       : (n_blocks + 1,)  faces of block b are face_start[b] ... face_start[b + 1] - 1
     facet_of_face    : (n_faces,)       faces of one block that lie on one plane and share edges carry one number;
-                       numbered from 0 over the whole model, in order of blocks
+                       numbered from 0 over the entire model, in order of blocks
     face_normals     : (n_faces, 3)     unit, outward
     convex           : (n_blocks,)      true where every vertex lies behind every face
     volumes          : (n_blocks,) m3
     centroids        : (n_blocks, 3) m
     densities        : (n_blocks,) kg/m3
-    added_masses     : (n_blocks,) kg, what blocks carry along beside their own mass
+    added_masses     : (n_blocks,) kg, what blocks carry in addition to their own mass
     added_mass_points : (n_blocks, 3) m, its centroid; that of the block where there is none
     groups           : group of each block
     group_indices    : (n_blocks,)      position of the block in its group, from 0

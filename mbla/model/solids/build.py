@@ -38,7 +38,7 @@ from mbla.model.solids.polyhedra import (
     turn_faces,
 )
 from mbla.model.solids.self_intersection import intersection_defects
-from mbla.model.wording import counted, named, told
+from mbla.model.wording import counted, named, with_count
 
 PLANAR = 1e-9
 """departure of a corner from the plane of its face, relative to block size, that is rounding and not reported"""
@@ -186,7 +186,7 @@ def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:
 def _counted(identifier: str, numbers: IntArray, noun: str, words: str, labels: Labels) -> list[Notice]:
     """``3 faces were turned outwards in 2 blocks (a[0], a[1])``, from how many things each block has, (n_blocks,)."""
     blocks = np.flatnonzero(numbers)
-    words = told(int(numbers.sum()), noun, f"{words} in {_blocks_in_words(blocks, labels)}")
+    words = with_count(int(numbers.sum()), noun, f"{words} in {_blocks_in_words(blocks, labels)}")
     return [Notice("notice", identifier, words)] if len(blocks) else []
 
 

@@ -3,7 +3,7 @@
 Every limit is relative to the block: to the diagonal of its bounding box, and to the digits that its distance from
 the origin leaves. Thin blocks are blocks: a plate or a needle of slenderness 1e-4 passes.
 
-Blocks may be so far from the origin that their coordinates are too coarse to tell their shape. A coordinate has sixteen
+Blocks may be so far from the origin that their coordinates are too coarse for their shape. A coordinate has sixteen
 digits, of which the distance from the origin takes its part: at 1e8 m corners lie on a grid of 1.5e-8 m. What is
 computed here takes differences first, so that nothing else is lost; but the corners themselves are rounded before the
 program sees them. Measured on a wall of blocks of 0.4 m: the load factor changes by about ten times the grid over the
@@ -87,7 +87,7 @@ def wild_vertices(polyhedra: Polyhedra) -> BoolArray:
 def coordinate_defects(polyhedra: Polyhedra) -> Iterator[Defect]:
     """Coordinates that are not finite, or too large to compute with; and blocks that are too small for that.
 
-    A block whose vertices all lie at one place is told as that.
+    A block whose vertices all lie at one place is reported as such.
     """
     bad, start = wild_vertices(polyhedra), polyhedra.vertex_start
     if not len(bad):
@@ -185,7 +185,7 @@ def not_planar(polyhedra: Polyhedra, faces: FaceGeometry, sizes: FloatArray, tol
     sizes : (n,) cube roots of the volumes; tolerance : relative to them
     """
     size = sizes[polyhedra.block_of_face]
-    return np.flatnonzero((faces.deviations > tolerance * size) & (size > 0))  # what has no volume is told as that
+    return np.flatnonzero((faces.deviations > tolerance * size) & (size > 0))  # what has no volume is reported as such
 
 
 def planarity_defects(
@@ -216,7 +216,7 @@ def far_away(polyhedra: Polyhedra, name: Callable[[int], str], tolerance: float)
     A fault where they are rounded by more than ``contacts.tolerance``, a warning where the load factor may lose digits.
     """
     if not len(polyhedra.vertices) or wild_vertices(polyhedra).any():
-        return None  # told by itself
+        return None  # reported on its own
     extents = find_extents(polyhedra)
     rounding, diagonals = extents.rounding, extents.diagonals
     shares = np.divide(rounding, diagonals, out=(rounding > 0).astype(np.float64), where=diagonals > 0)

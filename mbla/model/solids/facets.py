@@ -1,7 +1,7 @@
 """Faces that lie on one plane joined to facets, and faces that lie on none split into triangles.
 
 Facets are faces of one block that share edges and lie on one plane, within the tolerance: meshes split planar surfaces
-into triangles or quadrilaterals, and contacts are found between whole facets.
+into triangles or quadrilaterals, and contacts are found between complete facets.
 
 Bent faces have corners that leave their plane by more than the tolerance. Outlines of free faces (a rubble face, a
 doubly curved extrados) decide volume and mass only, and two triangles in place of a bent quadrilateral are as good.
@@ -27,7 +27,7 @@ STEEPEST = 0.99
 """cosine of the greatest angle between neighbouring faces of one facet, about 8 degrees"""
 LADDER = (1.0, 0.1, 0.01, 0.001)
 """parts of the tolerance tried in turn: a surface with many small faces, each nearly in line with the next, may be
-curved as a whole; then only faces that lie closer to each other's planes are joined"""
+curved in total; then only faces that lie closer to each other's planes are joined"""
 
 
 def find_facets(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, allowed: FloatArray) -> IntArray:

@@ -65,7 +65,7 @@ MOST_HITS = 20_000_000
 
 
 class CrowdedError(Exception):
-    """Far more boxes share a point than those of things that lie beside each other; ``box`` has most partners."""
+    """Far more boxes share a point than those of things that lie next to each other; ``box`` has most partners."""
 
     def __init__(self, box: int) -> None:
         super().__init__(box)
@@ -79,7 +79,7 @@ def meeting_boxes(
 
     most : the others are the boxes themselves, each pair i < j is given once, and there are hardly more than so many
 
-    The tree works on the two axes along which the others are smallest against the whole; the third is compared after.
+    The tree works on the two axes along which the others are smallest relative to all; the third is compared after.
 
     Raises
     ------

@@ -49,7 +49,7 @@ def intersection_defects(polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry
 def _near_pairs(polyhedra: Polyhedra, edges: Edges, extents: Extents) -> tuple[IntArray, IntArray]:
     """Edges and faces of one polyhedron whose bounding boxes meet; with the face's own, for outlines that cross.
 
-    Polyhedra are laid out beside each other along x, three diagonals apart, for one search among all of them.
+    Polyhedra are laid out next to each other along x, three diagonals apart, for one search among all of them.
     """
     scale = 1 / np.where(extents.diagonals > 0, extents.diagonals, 1.0)
     of_vertex = polyhedra.block_of_vertex
@@ -106,7 +106,7 @@ def _corner_of_face(polyhedra: Polyhedra, ends: IntArray, face: IntArray) -> Boo
 
 
 def _in_planes(polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray) -> tuple[Any, FloatArray]:
-    """Outlines of faces, (n,), and points beside each, (n, k, 3), in coordinates of their planes, (n, k, 2)."""
+    """Outlines of faces, (n,), and points for each, (n, k, 3), in coordinates of their planes, (n, k, 2)."""
     import shapely
 
     axes, counts = plane_axes(faces.normals[face]), np.diff(polyhedra.loop_start)[face]

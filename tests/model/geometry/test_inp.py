@@ -66,7 +66,7 @@ def test_shells_of_the_sides_of_a_block(tmp_path: Path) -> None:
 def test_other_elements_are_left_out_with_a_notice(tmp_path: Path) -> None:
     geometry = read(tmp_path, f"{LOW}{HIGH}{TWO}*ELEMENT, TYPE=B31\n3, 1, 2\n*ELEMENT, TYPE=S4\n4, 1, 2, 3, 4\n")
     assert [notice.message for notice in geometry.notices] == [
-        "cells were left out: 1 of type B31, 1 of type S4; beside volume cells only those are blocks"
+        "cells were left out: 1 of type B31, 1 of type S4; in files with volume cells only these become blocks"
     ]
 
 

@@ -137,7 +137,7 @@ def test_boundary_triangles_beside_volume_cells_are_left_out_with_a_notice(tmp_p
     geometry = blocks_of(path)
     assert len(geometry.polyhedra) == 9
     assert [notice.message for notice in geometry.notices] == [
-        "cells were left out: 108 of type triangle; beside volume cells only those are blocks"
+        "cells were left out: 108 of type triangle; in files with volume cells only these become blocks"
     ]
 
 

@@ -152,5 +152,5 @@ def test_lines_go_on_after_a_backslash_even_where_the_file_ends(tmp_path: Path) 
 def test_vertices_that_no_face_uses_are_counted(tmp_path: Path, extra: str, words: str) -> None:
     obj(tmp_path).write_text(f"{CUBE}{extra}{FACES}")
     assert [(notice.identifier, notice.message) for notice in read_obj(obj(tmp_path)).notices] == [
-        ("file-vertices-unused", f"{words} used by no face: is it whole?")
+        ("file-vertices-unused", f"{words} used by no face: is it complete?")
     ]

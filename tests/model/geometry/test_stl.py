@@ -64,7 +64,7 @@ def test_binary(tmp_path: Path, header: bytes) -> None:
         ("solid\nvertex 1 2 x\nendsolid", "line 2 is no vertex"),
         ("solid\nvertex 1 2 3\nendloop\nendsolid", "the loop that ends in line 3 is no triangle"),
         ("solid\n", "its last solid has no end"),
-        ("solid a\nvertex 1 2 3\nendsolid", "the corners of solid 'a' make no whole triangles"),
+        ("solid a\nvertex 1 2 3\nendsolid", "the corners of solid 'a' make no complete triangles"),
     ],
 )
 def test_malformed_text(tmp_path: Path, content: str, message: str) -> None:

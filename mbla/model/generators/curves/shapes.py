@@ -1,8 +1,8 @@
-"""Curves of arches and vaults: points beside them, directions along them, division into equal lengths.
+"""Curves of arches and vaults: points at offsets, directions along them, division into equal lengths.
 
 A curve C(u) runs in a vertical plane from the left springing to the right one, coordinates (x, z), with unit tangent
 T = (c, s) and unit normal N = (-s, c) to the left of the direction of travel, which is outside. The line at the offset
-o beside it is C + o N. Along it
+o from it is C + o N. Along it
 
     dl = (1 + o k) ds,   k the curvature, positive where the curve turns to the right (as an arch does),
 
@@ -216,12 +216,12 @@ class Pointed:
 
     def divide(self, count: int, offset: float) -> FloatArray:
         """Parameters (n,) as ``Smooth.divide``; the apex is a joint where the number of voussoirs is even."""
-        whole = float(np.arccos((self.radius - self.span / 2) / (self.radius + offset)))
-        left = 2 * whole * np.arange((count + 1) // 2) / count
+        total = float(np.arccos((self.radius - self.span / 2) / (self.radius + offset)))
+        left = 2 * total * np.arange((count + 1) // 2) / count
         return np.concatenate([left, [APEX] if count % 2 == 0 else [], np.pi - left[::-1]])
 
     def points(self, parameters: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Points (n, k, 2) as ``Smooth.points``; at the apex the lines beside the curve meet."""
+        """Points (n, k, 2) as ``Smooth.points``; at the apex the offset lines meet."""
         reach = self.radius + offsets
         left = parameters < APEX
         turned = np.where(left, parameters, np.pi - parameters)[:, None]

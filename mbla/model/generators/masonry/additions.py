@@ -169,7 +169,7 @@ LEAST_TOP_COURSE = 0.25
 
 
 def levels_with_top(levels: FloatArray, rise: float, height: float) -> FloatArray:
-    """Bed joints (n,) of the level courses, then those up to the apex: whole courses and a rest [length]."""
+    """Bed joints (n,) of the level courses, then those up to the apex: full courses and a remainder [length]."""
     above = max(int(np.ceil(rise / height - LEAST_TOP_COURSE)), 1)
     tops = float(levels[-1]) + height * np.arange(1, above + 1)
     tops[-1] = float(levels[-1]) + rise

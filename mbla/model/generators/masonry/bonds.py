@@ -73,7 +73,7 @@ def pattern(item: Masonry, course: int, length: float, second: bool, corner: boo
     unit, width, _ = item.unit
     if item.bond == "english" and not second:
         return _of_one_kind(_regular(1.5 * width if corner else unit, unit, length), False)
-    if corner:  # headers that begin at the face of the wall that they abut, a whole number of them from the corner
+    if corner:  # headers that begin at the face of the wall that they abut, an integer number of them from the corner
         return _of_one_kind(_regular(width if second else 0.5 * width, width, length), True)
     if item.bond == "header":
         return _of_one_kind(_regular(0.5 * width if second else width, width, length), True)

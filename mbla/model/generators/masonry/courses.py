@@ -135,7 +135,7 @@ def _random(leg: Leg, course: int, stretch: Stretch, below: FloatArray, numbers:
 
 
 def _within(leg: Leg, stretch: Stretch, joints: FloatArray) -> FloatArray:
-    """Joints that leave whole units at both ends of a stretch, apart from closers cut to fit."""
+    """Joints that leave full units at both ends of a stretch, apart from closers cut to fit."""
     unit = leg.item.unit[0]
     overlap = least_overlap(leg.item) * (1 - ROUNDING)
     fitted = leg.fitted or bonded(leg.item)
@@ -205,11 +205,11 @@ def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tup
     if not cut:
         return cuboids(least, greatest)
     numbers = np.array([number for number, _ in cut])
-    whole = np.setdiff1d(np.arange(len(boxes)), numbers)
+    uncut = np.setdiff1d(np.arange(len(boxes)), numbers)
     made = join_polyhedra(
-        [cuboids(least[whole], greatest[whole]), prisms_in(leg, [o for _, o in cut], across[numbers])]
+        [cuboids(least[uncut], greatest[uncut]), prisms_in(leg, [o for _, o in cut], across[numbers])]
     )
-    return take_polyhedra(made, np.argsort(np.concatenate([whole, numbers]), kind="stable"))
+    return take_polyhedra(made, np.argsort(np.concatenate([uncut, numbers]), kind="stable"))
 
 
 def prisms_in(leg: Leg, outlines: Sequence[FloatArray], across: FloatArray) -> Polyhedra:

@@ -32,7 +32,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Void:
-    """What is left free of units, in courses bottom <= course < top.
+    """Opening that is free of units, in courses bottom <= course < top.
 
     left, right : along the wall at its bottom [length]
     lean        : by how much it widens at either side for each length that it rises
@@ -63,8 +63,8 @@ class Void:
 
     def meets(self, other: Void, room: float) -> bool:
         """Whether it overlaps another by more than some length, in a course at least."""
-        beside = other.left < self.right - room and other.right > self.left + room
-        return beside and other.bottom < self.top and other.top > self.bottom
+        along = other.left < self.right - room and other.right > self.left + room
+        return along and other.bottom < self.top and other.top > self.bottom
 
 
 def solid_stretches(outside: Stretch, voids: Iterable[Stretch], least: float) -> Iterator[Stretch]:

@@ -128,7 +128,7 @@ def passages_of(lines: Sequence[Line], courses: int) -> list[tuple[tuple[int, Pa
 
 
 def check_plan(lines: Sequence[Line]) -> Iterator[Finding]:
-    """Walls meet in whole squares, and do not lie on each other; key paths below the item."""
+    """Walls meet in full squares, and do not lie on each other; key paths below the item."""
     for first, second, box in _shared(lines):
         room = SAME_PLACE * lines[first].thickness
         if lines[first].along_x == lines[second].along_x:
