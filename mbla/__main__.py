@@ -6,7 +6,7 @@ from mbla.process.signals import Terminated, hear_termination, held_signals
 
 
 def command() -> int:
-    """Load the command line and run it; the exit status. An interruption before it is there is told as later ones."""
+    """Load the command line and run it; the exit status. An interruption while loading is reported as later ones."""
     try:
         hear_termination()
         with held_signals():  # it gives them back when all is loaded

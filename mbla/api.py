@@ -42,7 +42,7 @@ def run(
     Parameters
     ----------
     deck
-        Path of a deck; or the text of one: a str with a line break. Files that a text names are looked for in the
+        Path of a deck; or the text of one: a str with a line break. Files that a text names are relative to the
         current folder.
     set
         Values replaced before anything is evaluated, ``{"parameters.mu": 0.5}`` or ``["parameters.mu=0.5"]``.

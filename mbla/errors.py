@@ -13,12 +13,12 @@ Anything else that reaches the command line is a defect of mbla (exit status 1).
 
 Every error has an identifier, one for each kind of error: what differs in cause and remedy, not in wording. It is
 stable and in kebab case; the command line prints it in brackets behind the message, JSON has it under ``identifiers``,
-and ``mbla explain`` tells what it means. A new error takes the identifier of its kind where there is one. Else
+and ``mbla explain`` says what it means. A new error takes the identifier of its kind where there is one. Else
 
 1. it is written as a literal where the message is made: ``FileError("result-exists", f"{path}: exists already")``,
    or ``Message("face-not-planar", "...")`` for what becomes a :class:`Fault` where its place is known; whoever hands
    an error on keeps the identifier: ``FileError(error.identifier, ...)``, ``error.message.around(before=...)``;
-2. it gets an entry beside those of its like in ``mbla/results/messages.toml`` (cause, remedy, example);
+2. it gets an entry next to similar ones in ``mbla/results/messages.toml`` (cause, remedy, example);
 3. it gets a test: a file of ``tests/invalid_decks`` or ``tests/invalid_sweeps`` for what is
    wrong in one, else a case in ``tests/trust/messages``, whose checks find what lacks any of the three.
 """
@@ -175,16 +175,16 @@ class Finding(tuple[tuple[str | int, ...], Message]):
 
 
 MOST_FAULTS = 1000
-"""of one kind that are told; a file that has more is none that somebody corrects fault by fault"""
+"""of one kind that are reported; a file that has more is none that somebody corrects fault by fault"""
 
 
 def first_faults(faults: Iterable[Fault]) -> list[Fault]:
     """The first of many faults, and where the others are left out a last one that says so."""
-    told = list(islice(faults, MOST_FAULTS + 1))
-    if len(told) > MOST_FAULTS:
-        words = f"more faults follow: only the first {MOST_FAULTS} are told"
-        told[-1] = Fault(told[-1].place, "", Message("more-faults", words))
-    return told
+    listed = list(islice(faults, MOST_FAULTS + 1))
+    if len(listed) > MOST_FAULTS:
+        words = f"more faults follow: only the first {MOST_FAULTS} are listed"
+        listed[-1] = Fault(listed[-1].place, "", Message("more-faults", words))
+    return listed
 
 
 class DeckError(MblaError):
@@ -204,7 +204,7 @@ class DeckError(MblaError):
 class Notice:
     """A remark that does not stop the run; ``identifier`` is stable and in kebab case (``faces-turned-outwards``).
 
-    case : load case that it is about; empty where it is about the whole run
+    case : load case that it is about; empty where it is about the entire run
     """
 
     severity: Literal["notice", "warning"]

@@ -43,7 +43,7 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
     DeckError, UsageError, FileError, LimitError, SolverError
         nothing is written then, and an earlier result stays as it was
     StoppedRun
-        of whatever else ends it when load cases are done: these are written beside it
+        of whatever else ends it when load cases are done: these are written with it
         (:mod:`mbla.results.write`)
     """
     started = time.perf_counter()

@@ -1,6 +1,6 @@
 """The command line: parse arguments, print, return the exit status; nothing else.
 
-Each command has its options and its action in one module beside this one; no other modules print.
+Each command has its options and its action in one module of this folder; no other modules print.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status: int = options.action(options)
         sys.stdout.flush()
         return status
-    except BrokenPipeError:  # the reader of our output went away: not our error, but the output is not whole
+    except BrokenPipeError:  # the reader of our output went away: not our error, but the output is incomplete
         drop_output()
         return FileError.exit_status
     except ENDINGS as error:

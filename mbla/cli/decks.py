@@ -135,7 +135,7 @@ def check(options: argparse.Namespace) -> int:
 
 
 def read_given_deck(path: Path, options: RunOptions) -> tuple[Deck, float]:
-    """The deck, and the seconds it took; a faulty one is told before anything heavy is imported."""
+    """The deck, and the seconds it took; a faulty one is reported before anything heavy is imported."""
     with loading():
         from mbla.deck import read_deck
 

@@ -1,7 +1,7 @@
 """Options that several commands share, and the values that options take, with one line of what was wanted.
 
 A command is a parser with an ``action``, which gets the options and returns the exit status, and ``about``: by the keys
-of a JSON object of failure, the options with the files that a command with one object for the whole is about.
+of a JSON object of failure, the options with the files that a command with one object for everything is about.
 """
 
 from __future__ import annotations
@@ -60,11 +60,11 @@ seconds = _number(float, lambda value: 0 < value < float("inf"), "a positive num
 relative = _number(float, lambda value: 0 <= value < float("inf"), "a relative difference, 0 or more")
 relative_above_zero = _number(float, lambda value: 0 < value < 1, "a relative error between 0 and 1")
 degrees = _number(float, lambda value: -720 <= value <= 720, "an angle from -720 to 720 degrees")
-threads = _number(int, lambda value: 1 <= value <= MOST, f"a whole number of threads, 1 to {MOST}")
-workers = _number(int, lambda value: 1 <= value <= MOST, f"a whole number of processes, 1 to {MOST}")
-points = _number(int, lambda value: True, "a whole number of points")
+threads = _number(int, lambda value: 1 <= value <= MOST, f"an integer number of threads, 1 to {MOST}")
+workers = _number(int, lambda value: 1 <= value <= MOST, f"an integer number of processes, 1 to {MOST}")
+points = _number(int, lambda value: True, "an integer number of points")
 """how many may be depends on what is asked"""
-dots = _number(int, lambda value: True, "a whole number of dots per inch")
+dots = _number(int, lambda value: True, "an integer number of dots per inch")
 
 
 # --- options that commands share ------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ def add_explain(commands: Any) -> None:
     command = commands.add_parser(
         "explain",
         help="what an identifier of a warning, a status or an error means, and what to do",
-        description="Explain an identifier, such as near-misses, approximate or exit-4. A word or a whole message "
+        description="Explain an identifier, such as near-misses, approximate or exit-4. A word or a complete message "
         "finds it too. Without ID: all identifiers, each in a line.",
     )
     command.set_defaults(action=explain)

@@ -45,7 +45,7 @@ def show(options: argparse.Namespace) -> int:
 
 
 def verify(options: argparse.Namespace) -> int:
-    """Recompute what the file claims; the exit status tells what it is worth by that."""
+    """Recompute what the file claims; the exit status says whether it was confirmed."""
     with loading():
         from mbla.results.listing.listing import verification_lines
         from mbla.results.record.json_record import verification_json

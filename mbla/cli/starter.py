@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import file_errors, write_whole
+from mbla.results.disk import file_errors, write_complete
 
 
 def write_starter(name: str, *, replace: bool) -> Path:
@@ -25,7 +25,7 @@ def write_starter(name: str, *, replace: bool) -> Path:
     if not replace and os.path.lexists(path):
         raise FileError("result-exists", f"{path}: exists already; --force replaces it")
     with file_errors(path):
-        write_whole(path, starter_text(path).encode("utf-8"))
+        write_complete(path, starter_text(path).encode("utf-8"))
     return path
 
 
@@ -37,7 +37,7 @@ def starter_text(path: Path) -> str:
 
 
 def _schema_address() -> str:
-    """Where editors find the schema that came with the program: inside the installed package, or beside its source."""
+    """Where editors find the schema that came with the program: inside the installed package, or next to its source."""
     package = Path(__file__).resolve().parents[1]
     places = [folder / "schemas" / "deck.schema.json" for folder in (package, package.parent)]
     return next((place.as_uri() for place in places if place.is_file()), "schemas/deck.schema.json")

@@ -132,7 +132,7 @@ def tradeoff(options: argparse.Namespace) -> int:
 
 
 def _run_study(options: argparse.Namespace, run: RunOptions, study: Callable[[], Any]) -> int:
-    """Read the deck, solve what is asked of it and tell what came out; the exit status.
+    """Read the deck, solve what is asked of it and print what came out; the exit status.
 
     study : imports what solves it
     """

@@ -107,7 +107,7 @@ def sweep(options: argparse.Namespace) -> int:
 
 
 def solved(options: argparse.Namespace, solve: Callable[[Any], Finished]) -> Finished:
-    """What a sweep ends with, its progress told meanwhile."""
+    """What a sweep ends with, its progress reported meanwhile."""
     report = None if options.quiet else _Reporter()
     try:
         return solve(report)

@@ -1,4 +1,4 @@
-"""The type of a whole deck: the source of the schema, of the checks on single values and of the key reference.
+"""The type of a complete deck: the source of the schema, of the checks on single values and of the key reference.
 
 Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
 Sections and items of `blocks` stand in ``sections`` and ``items``, with their rules; here are `units`, `output` and
@@ -45,7 +45,7 @@ class OutputSection(Section):
     vtu: Switch = Field(True, description="VTU and PVD files for ParaView")
     frames: Annotated[int, Integer(ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
     plots: Switch = Field(
-        False, description="pictures of model, mechanisms and forces beside the results, as of ``mbla plot``"
+        False, description="pictures of model, mechanisms and forces next to the results, as of ``mbla plot``"
     )
     positions: Literal["worst", "all"] = Field(
         "worst", description="positions of a travelling load that have files, pictures and a section of the listing"
@@ -79,7 +79,7 @@ def expectation(item: Expectation) -> Iterator[Finding]:
 
 
 class DeckContent(Section):
-    """A whole deck."""
+    """A complete deck."""
 
     mbla: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(description="version of the deck format")
     title: Line = Field("", description="shown in every result")

@@ -126,7 +126,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     tree, reading = _files(path, text)
     for number, text in enumerate(overrides, start=1):
         reading.faults += apply_override(tree, text, number)
-    if not reading.whole:  # what could not be read would be reported as missing
+    if not reading.complete:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)
     if "mbla_sweep" in tree.data and "mbla" not in tree.data:
         words = "this is a sweep file, not a deck: mbla sweep runs it"
@@ -142,7 +142,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         reading.reported,
         reading.damaged,
     )
-    if len(faults) > MOST_FAULTS:  # no more of them are told
+    if len(faults) > MOST_FAULTS:  # no more of them are reported
         raise DeckError(list(dict.fromkeys(faults + reading.faults)))
     faults += [tree.fault(("parameters", name), message) for name, message in parameters.failures()]
     faults += reading.faults

@@ -12,11 +12,11 @@ KEYS: Mapping[str, str] = {
     "contacts.inset": "write contacts.points.inset",
     "analysis.second_opinion": "leave it out, the proved bounds say how good the load factor is",
     "analysis.form": "leave it out, the associative program is solved in velocities",
-    "analysis.path": "leave it out, the load path is followed where a peak is looked for, and listed",
+    "analysis.path": "leave it out, the load path is followed where a peak is searched for, and listed",
     "analysis.forces": "leave it out, contact forces of associative flow are those that prove its load factor",
     "analysis.proximal": "leave it out, the default scheme has no parameters but analysis.search",
     "analysis.interior": "leave it out, the default scheme has no parameters but analysis.search",
-    "analysis.lowest": "leave it out, analysis.search says how far lower load factors are looked for",
+    "analysis.lowest": "leave it out, analysis.search says how far to search for lower load factors",
     "analysis.friction_cone": "leave it out, the cone is circular: programs with polyhedra took 3 to 26 times as "
     "long, and bracketed a load factor that the cone gives with proved bounds",
     "analysis.sides": "leave it out, the friction cone is circular",
@@ -26,7 +26,7 @@ KEYS: Mapping[str, str] = {
 """Section and key, at whatever depth below the section -> what to do"""
 
 CHOICES: Mapping[tuple[str, str], str] = {
-    ("scheme", "path"): "use auto; where a peak is looked for the load path is followed and listed",
+    ("scheme", "path"): "use auto; where a peak is searched for the load path is followed and listed",
     ("scheme", "proximal"): "use auto, which ends lower",
     ("scheme", "interior"): "use auto, which ends lower",
     ("scheme", "lowest"): "use auto, which looks for lower load factors; analysis.search says how far",

@@ -76,14 +76,14 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Integer:
-    """Annotation of a field for whole numbers, with its bounds; ``6.0`` and expressions that give 6 are whole."""
+    """Annotation of a field for integers, with its bounds; ``6.0`` and expressions that give 6 are integers."""
 
     ge: int
     le: int
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         number = core_schema.int_schema(strict=True, ge=self.ge, le=self.le)
-        return core_schema.union_schema([number, _from_text("number", _whole, number)], mode="left_to_right")
+        return core_schema.union_schema([number, _from_text("number", _integer, number)], mode="left_to_right")
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         bounds = {"minimum": self.ge, "maximum": self.le}
@@ -117,8 +117,8 @@ def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -
     return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])
 
 
-def _whole(value: Any) -> Any:
-    """The whole number that a float is, up to the rounding of an expression such as 0.3 / 0.1."""
+def _integer(value: Any) -> Any:
+    """The integer that a float is, up to the rounding of an expression such as 0.3 / 0.1."""
     if isinstance(value, float) and abs(value) < 1e15 and abs(value - round(value)) <= 1e-9 * max(1.0, abs(value)):
         return round(value)
     return value

@@ -1,6 +1,6 @@
 """Names that one part of the deck gives and another uses: materials, joint laws, groups, load cases.
 
-They are looked up in the deck as read rather than in its checked types, so that a wrong name is reported beside
+They are looked up in the deck as read rather than in its checked types, so that a wrong name is reported with
 every other fault.
 
 So are the names of files: meshes and tables.
@@ -147,7 +147,7 @@ SIDE_FILES = (
 
 
 def side_files(value: Any, at: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
-    """Key paths and names of the files that a value of the deck names; ``at`` is where it stands, () the whole deck."""
+    """Key paths and names of the files that a value of the deck names; ``at`` is where it stands, () the full deck."""
     for pattern in SIDE_FILES:
         words = pattern.split(".")
         if len(words) >= len(at) and all(

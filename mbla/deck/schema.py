@@ -29,7 +29,7 @@ MARKERS = ("<!-- keys:begin -->", "<!-- keys:end -->")
 
 
 def deck_schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of a whole deck."""
+    """JSON Schema (draft 2020-12) of a complete deck."""
     schema = DeckContent.model_json_schema(by_alias=True)
     definitions = {name: tidy(definition) for name, definition in schema.pop("$defs").items()}
     for section, keys in EXACTLY_ONE.items():
@@ -94,7 +94,7 @@ def key_reference() -> str:
 
 
 def section_tables(root: type[BaseModel], name: str) -> Iterator[str]:
-    """A table for every section of a kind of file; ``name`` is the title of the whole."""
+    """A table for every section of a kind of file; ``name`` is the title of the file."""
     places: dict[type[BaseModel], list[str]] = {}
     _collect(root, "", places)
     short = {section: _joined(titles) or name for section, titles in places.items()}
@@ -174,7 +174,7 @@ def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
         if isinstance(item, Quantity):
             return _quantity(item)
         if isinstance(item, Integer):
-            return _whole(item)
+            return _integer(item)
         if getattr(item, "pattern", None) in (NAME_PATTERN, PARAMETER_PATTERN):
             return "name"
     origin, arguments = get_origin(annotation), get_args(annotation)
@@ -202,17 +202,17 @@ def _plural(words: str) -> str:
     """``numbers [L]``, ``lists of 3 numbers``, ``names or mappings``."""
     if words[0].isdecimal():
         return f"lists of {words}"
-    for noun in ("number", "name", "mapping", "list", "text", "value"):
+    for noun in ("integer", "number", "name", "mapping", "list", "text", "value"):
         words = re.sub(rf"\b{noun}\b(?!:)", f"{noun}s", words)
     return words
 
 
-def _whole(item: Integer) -> str:
-    """``whole number, 2 to 1000``; limits beyond a million are none."""
+def _integer(item: Integer) -> str:
+    """``integer, 2 to 1000``; limits beyond a million are none."""
     least, most = item.ge > -1_000_000, item.le < 1_000_000
     if not least:
-        return f"whole number, {item.le} or less" if most else "whole number"
-    return f"whole number, {item.ge} " + (f"to {item.le}" if most else "or more")
+        return f"integer, {item.le} or less" if most else "integer"
+    return f"integer, {item.ge} " + (f"to {item.le}" if most else "or more")
 
 
 def _quantity(quantity: Quantity) -> str:

@@ -109,7 +109,7 @@ class Section(BaseModel):
         try:
             section = handler(value)
         except ValidationError as error:
-            wrong.add(max(error.error_count() - (wrong.number - before), 0))  # beside what was counted below it
+            wrong.add(max(error.error_count() - (wrong.number - before), 0))  # besides what was counted below it
             raise
         findings = [finding for kind in cls.__mro__ for check in RULES.get(kind, ()) for finding in check(section)]
         if findings:
@@ -119,7 +119,7 @@ class Section(BaseModel):
 
 
 def built(kind: type[Model]) -> type[Model]:
-    """A type whose validator is there; signals wait, as pydantic tells an interruption as a fault of the type."""
+    """A type whose validator is there; signals wait, as pydantic reports an interruption as a fault of the type."""
     with held_signals():
         kind.model_rebuild()
     return kind

@@ -27,7 +27,7 @@ def validate(
     """Checked content, or everything wrong with it.
 
     tree     : the deck as read, with inclusions and overrides
-    root     : type of the whole content
+    root     : type of the entire content
     convert  : (text, dimension) -> number in the deck's units, ValueError otherwise
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
@@ -145,7 +145,7 @@ _MESSAGES = {
 _BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _TYPES = {
     "float_type": Message("not-a-number", "must be a number"),
-    "int_type": Message("not-a-number", "must be a whole number"),
+    "int_type": Message("not-a-number", "must be an integer"),
     "string_type": Message("wrong-type", "must be a text"),
 }
 

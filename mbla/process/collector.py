@@ -30,7 +30,7 @@ def no_collection() -> Iterator[None]:
 def loading() -> Iterator[None]:
     """Import modules: the collector is paused, and passes over them, as over all else that is there, from then on.
 
-    Where none was new nothing is kept from it. Signals wait, as libraries that are being loaded may tell an
+    Where none was new nothing is kept from it. Signals wait, as libraries that are being loaded may report an
     interruption as an error of their own.
     """
     before = len(sys.modules)

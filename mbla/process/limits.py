@@ -3,7 +3,7 @@
 **Threads.** These libraries take every core for products that are too small for it. On a busy machine of two cores
 waking them made one scalar product of 14,000 numbers last 6 ms, and a solver that does little else four times slower.
 They read the variables when they are loaded, so these are set before. What can use several threads are products of
-dense matrices; qdldl, SuperLU, CHOLMOD (with the BLAS that its wheels bring), HiGHS and clarabel are serial.
+dense matrices; qdldl, SuperLU, CHOLMOD (with the BLAS that its wheels bring) and clarabel are serial.
 
 **Memory**, while a point is solved, or a file is read by a library that sets no limit: on what can be written
 (RLIMIT_DATA: heap and private mappings, Linux since 4.7; getrlimit(2)), above what the process holds before. An

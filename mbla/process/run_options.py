@@ -1,4 +1,4 @@
-"""What a run is asked for beside its deck; imports nothing, so that the command line can read a deck first."""
+"""What a run is asked for in addition to its deck; imports nothing, so that the command line can read a deck first."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 class RunOptions:
     """What the command line adds to a deck.
 
-    folder    : for the results; the deck's name with .out beside it if None
+    folder    : for the results; DECK_NAME.out next to the deck if None
     overrides : key.path=value texts
     cases     : names of the load cases to solve; all if empty
     force     : replace an earlier result

@@ -1,4 +1,4 @@
-"""Interruptions that wait: until files are whole, until modules are loaded, until foreign code has returned.
+"""Interruptions that wait: until files are complete, until modules are loaded, until foreign code has returned.
 
 Python raises the exception of a signal wherever the program happens to be. In a callback of the cone solver it would be
 printed and forgotten, in the building of the deck's types it comes back as their fault, between two renames it leaves
@@ -36,7 +36,7 @@ def _terminate(number: int, frame: FrameType | None) -> NoReturn:
 def held_signals() -> Iterator[Callable[[], bool]]:
     """SIGINT and SIGTERM that arrive in the block count at its end, as they would have before it.
 
-    Gives a function that tells whether one has arrived. Signals that are ignored stay so, as under nohup. Only the main
+    Gives a function that says whether one has arrived. Signals that are ignored stay so, as under nohup. Only the main
     thread is ever interrupted; in others nothing is held.
     """
     if threading.current_thread() is not threading.main_thread():

@@ -50,8 +50,8 @@ def stage(name: str) -> Iterator[None]:
     try:
         yield
     finally:
-        whole = time.perf_counter() - started
-        own = whole - stopwatch.inside.pop()
+        total = time.perf_counter() - started
+        own = total - stopwatch.inside.pop()
         stopwatch.seconds[name] = stopwatch.seconds.get(name, 0.0) + own
         if stopwatch.inside:
-            stopwatch.inside[-1] += whole
+            stopwatch.inside[-1] += total

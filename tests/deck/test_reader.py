@@ -130,7 +130,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for fault in document.faults:
         assert 1 <= fault.place.line <= len(lines) + 1
-    assert document.whole or document.faults
+    assert document.complete or document.faults
 
 
 JSON = st.recursive(

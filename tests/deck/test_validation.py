@@ -92,7 +92,7 @@ def test_the_first_of_very_many_wrong_items_are_told(tmp_path: Path, count: int,
     told = faults(write(tmp_path, BLOCK + "masses:\n" + f"  - {item}\n" * count))
     assert told[0].startswith(f"deck.yaml:{BLOCK.count(chr(10)) + 2}:5 masses[0]")
     assert len(told) == MOST_FAULTS + 1
-    assert told[-1].endswith("more faults follow: only the first 1000 are told")
+    assert told[-1].endswith("more faults follow: only the first 1000 are listed")
 
 
 def test_of_very_many_wrong_names_none_is_told(tmp_path: Path) -> None:

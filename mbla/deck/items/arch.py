@@ -78,7 +78,7 @@ class ArchItem(SpringingItem):
 
 SIDE_ANGLE = 60.0
 """of a basket arch [degrees] unless given"""
-LEAST_WHOLE = 1e-100
+LEAST_LENGTH = 1e-100
 """of chords through points, whose inverse and its powers a spline needs; blocks are larger by far"""
 SHAPES_WITH = {
     "span": ("semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"),
@@ -108,15 +108,15 @@ def arch_points(arch: ArchItem) -> Iterator[Finding]:
     """A spline over the length of its chords needs chords, and a finite sum of them."""
     points = arch.points or []
     chords = [math.hypot(other[0] - one[0], other[1] - one[1]) for one, other in pairwise(points)]
-    whole = sum(chords)  # infinite where beyond what a double holds
-    if not math.isfinite(whole):
-        yield Finding("arch-shape", "the points lie too far apart to be told by a number: use other units", "points")
+    length = sum(chords)  # infinite where beyond what a double holds
+    if not math.isfinite(length):
+        yield Finding("arch-shape", "the points lie too far apart to compute with: use other units", "points")
         return
-    if 0 < whole < LEAST_WHOLE:
+    if 0 < length < LEAST_LENGTH:
         yield Finding("arch-shape", "the points lie too close together to compute with: use other units", "points")
         return
     for number, chord in enumerate(chords):
-        if chord <= ROUNDING * whole:
+        if chord <= ROUNDING * length:
             yield Finding("arch-shape", "is the same point as the one before", "points", number + 1)
 
 
@@ -142,7 +142,7 @@ def range_of_rise(
     None is so flat that its rise over its span is none.
     """
     if not rise / span:
-        yield Finding("out-of-bounds", f"is lost beside the span, {span:g}: make it larger", *path)
+        yield Finding("out-of-bounds", f"is too small for the span, {span:g}: make it larger", *path)
         return
     if shape == "pointed" and rise <= span / 2 * (1 + ROUNDING):
         yield Finding("out-of-bounds", f"must be > {span / 2:g}, half the span, for shape: pointed", *path)

@@ -74,7 +74,7 @@ class BridgeItem(Item):
     piers: BridgePiers | None = Field(None, description="piers; needed with more than one span")
     abutments: BridgeAbutments = Field(description="abutments")
     spandrels: Literal["full", "edges", "none"] = Field(
-        "full", description="full: through the whole width; edges: a wall along each face; none: bare arches"
+        "full", description="full: through the full width; edges: a wall along each face; none: bare arches"
     )
     unit: tuple[PositiveLength, PositiveLength] | None = Field(
         None, description="spandrels: length and height of a unit; courses are evened out to fit"

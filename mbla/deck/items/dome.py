@@ -78,7 +78,7 @@ def dome_shape(dome: DomeItem) -> Iterator[Finding]:
 
 @rule(DomeItem)
 def dome_bond(dome: DomeItem) -> Iterator[Finding]:
-    """Half a block is a whole number of facets."""
+    """Half a block is an integer number of facets."""
     if dome.bond == "running" and dome.facets is not None and dome.facets % 2:
         words = "must be even in running bond: rings are turned by half a block; or write bond: stack"
         yield Finding("out-of-bounds", words, "facets")

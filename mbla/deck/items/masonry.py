@@ -27,7 +27,7 @@ from mbla.errors import Finding
 
 
 class Lintel(Section):
-    """One block over an opening, through the whole wall; the courses beside it are cut around it."""
+    """One block over an opening, through the full wall; the courses next to it are cut around it."""
 
     bearing: PositiveLength = Field(description="length that rests on the wall at either side")
     courses: Count = Field(1, description="its height in courses")
@@ -35,7 +35,7 @@ class Lintel(Section):
 
 
 class OpeningArch(Section):
-    """Arch over an opening with a level top, joints towards one centre and skewbacks cut into the courses beside it."""
+    """Arch over an opening with a level top, joints towards one centre and skewbacks cut into the adjacent courses."""
 
     voussoirs: Annotated[int, Integer(ge=2, le=10_000)] = Field(description="number of voussoirs")
     courses: Count = Field(1, description="its height above the springing, in courses")
@@ -82,7 +82,7 @@ class Irregular(Section):
 
 
 class Gable(Section):
-    """Triangle on top of a wall, over its whole length, the courses cut to its slopes."""
+    """Triangle on top of a wall, over its full length, the courses cut to its slopes."""
 
     rise: PositiveLength = Field(description="height of the apex above the top of the wall")
     apex: Length | None = Field(None, description="distance of the apex along the wall; the middle unless given")
@@ -101,7 +101,7 @@ class Buttress(Section):
     courses: Count | None = Field(None, description="height of its level part; that of the wall less the slope")
     bonded: Switch = Field(True, description="true: odd courses run through the wall; false: it stands against it")
     slope: NonNegativeLength = Field(
-        0.0, description="height over which the top slopes back to the face, a whole number of courses; 0: level top"
+        0.0, description="height over which the top slopes back to the face, an integer number of courses; 0: level top"
     )
 
 
@@ -179,7 +179,7 @@ def check_opening(wall: Masonry, opening: Opening, length: float) -> Iterator[Fi
             words = f"must be < {min(room, half):g}: half the opening, and the height of the arch in courses"
             yield Finding("out-of-bounds", words, *path)
         elif not opening.arch.rise / half:
-            yield Finding("out-of-bounds", f"is lost beside half the opening, {half:g}: make it larger", *path)
+            yield Finding("out-of-bounds", f"is too small for half the opening, {half:g}: make it larger", *path)
 
 
 def check_gable(wall: Masonry, gable: Gable, length: float) -> Iterator[Finding]:
@@ -198,7 +198,7 @@ def check_buttress(wall: Masonry, buttress: Buttress, length: float) -> Iterator
         )
     sloped = buttress.slope / wall.unit[2]
     if not math.isfinite(sloped) or abs(sloped - round(sloped)) > ROUNDING * max(sloped, 1.0):
-        yield Finding("out-of-bounds", f"must be a whole number of courses of {wall.unit[2]:g}", "slope")
+        yield Finding("out-of-bounds", f"must be an integer number of courses of {wall.unit[2]:g}", "slope")
     elif buttress.courses is None and round(sloped) >= wall.courses:
         yield Finding("wall-shape", "must leave a level part: it is as high as the wall", "slope")
     elif buttress.courses is not None and buttress.courses + round(sloped) > wall.courses:

@@ -52,7 +52,7 @@ class SegmentOpening(Opening, OnSegment):
 
 
 class SegmentGable(Gable, OnSegment):
-    """Gable on one wall of a plan, over its whole length with the corners."""
+    """Gable on one wall of a plan, over its full length with the corners."""
 
 
 class SegmentButtress(Buttress, OnSegment):

@@ -8,7 +8,7 @@ what it leaves alone costs little or changes the structure that is analysed:
   load factor of associative flow to 1e-5, as every other answer that is called solved;
 - the proof of that load factor takes 3 to 15 % of an associative run, and is never left out; nor is the program that
   shows that the dead load is carried, without which a load factor means nothing;
-- standing, range and a peak are other answers beside the load factor, and none changes it. A draft goes without, save
+- standing, range and a peak are answers in addition to the load factor, and none changes it. A draft goes without, save
   for the standing where flow is not associative: what stands by self-stress only has no collapse load;
 - without normality a draft ends at the first state near the law, and looks for no lower one: on walls that is 1 to 3 %
   above what the search of the standard finds, on rooms and vaults up to 10 %, in a third to a half of its time;
@@ -38,7 +38,7 @@ class Knobs:
     residual  : wanted of flow without normality: largest residual at which a scheme has found its state
     search    : flow without normality: iterations spent on lower load factors, over those of the first state found
     range     : whether the least and greatest load factor for the mechanism found are computed
-    peak      : whether a greater load factor on the way is looked for
+    peak      : whether a greater load factor on the way is searched for
     standing  : whether it is assessed that the structure stands under its dead load
     """
 

@@ -73,8 +73,8 @@ class AnalysisSection(Section):
     )
     peak: Switch | None = Field(
         None,
-        description="non-associative flow: a greater load factor that the structure passes before it comes to rest, "
-        "looked for below 85 % of the associative one; " + set_by_accuracy("peak"),
+        description="non-associative flow: a greater load factor that the structure carries before it moves, "
+        "searched for below 85 % of the associative one; " + set_by_accuracy("peak"),
     )
     standing: Switch | None = Field(
         None,

@@ -84,7 +84,7 @@ class ContactsSection(Section):
     table: str | None = Field(
         None,
         min_length=1,
-        description="CSV file with the interfaces, which are then not looked for: a header line with the columns "
+        description="CSV file with the interfaces, which are then not searched for: a header line with the columns "
         "interface,group_a,index_a,group_b,index_b,x,y,z, then a row for each corner, in order around each interface. "
         "For a ground plane the group is `ground` and the index its number. Each must lie on faces of both bodies. A "
         "further column `joint` may give the law of single interfaces, which then holds before overrides. Not with "
@@ -93,7 +93,7 @@ class ContactsSection(Section):
     isolated: Literal["fail", "allow"] = Field(
         "fail",
         description="blocks that touch nothing at all, no block and no ground: fail, the run ends with exit status 4; "
-        "allow, it is told and no more",
+        "allow, it is only reported",
     )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")

@@ -31,7 +31,7 @@ class LoadCaseSection(Section):
     """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
 
     dead: list[Load] | None = Field(
-        None, description="what acts beside gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
+        None, description="loads besides gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
     )
     live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
     settlement: SettlementSection | None = Field(
@@ -56,5 +56,5 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     if len(special) == 1 and special[0][1] == "tilt" and len(case.live or []) > 1:
         other = next(number for number in range(len(case.live or [])) if number != special[0][0])
         yield Finding(
-            "load-misplaced", "must not stand beside tilt, whose answer is an angle: make it a dead load", "live", other
+            "load-misplaced", "cannot go with tilt, whose answer is an angle: make it a dead load", "live", other
         )

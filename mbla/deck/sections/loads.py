@@ -66,7 +66,7 @@ class HeightPattern(Section):
 def height_pattern(pattern: HeightPattern) -> Iterator[Finding]:
     """From base to top, or through points with rising heights."""
     for key in given(pattern, ("base", "top")) if pattern.points is not None else []:
-        yield Finding("key-of-another-choice", "does not apply beside points", key)
+        yield Finding("key-of-another-choice", "does not apply together with points", key)
     if pattern.base is not None and pattern.top is not None and not pattern.base < pattern.top:
         yield Finding("out-of-bounds", f"must be > {pattern.base:g}, the base", "top")
     heights = [height for height, _ in pattern.points or []]
@@ -83,9 +83,7 @@ class LineLoad(Section):
     force_per_length: tuple[ForcePerLength, ForcePerLength, ForcePerLength] = Field(
         description="force per length of the line; it acts where the line is drawn, with its moment"
     )
-    towards: Direction = Field(
-        (0.0, 0.0, -1.0), description="direction in which the blocks under the line are looked for"
-    )
+    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the blocks under the line are sought")
 
 
 @rule(LineLoad)
@@ -155,7 +153,7 @@ class Travel(Section):
         description="forces that follow the first one, as the axles of a lorry; none acts before it is on the path and "
         "beyond its end",
     )
-    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is looked for")
+    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is sought")
 
 
 @rule(Travel)

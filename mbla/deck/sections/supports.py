@@ -35,9 +35,9 @@ class SymmetryPlane(Plane):
     """A plane of symmetry: exactly one of x, y, z (normal along that axis), or a point and a normal.
 
     Blocks, supports, guides, settlements and forces given in the deck appear on both sides, images in the groups of
-    what they are images of; results are those of the whole. A block with a face on the plane meets its image there,
-    with the joint law that contacts gives for the two. Of several planes each mirrors what those before it have made,
-    and its halves are chosen from that.
+    what they are images of; results are those of the whole structure. A block with a face on the plane meets its image
+    there, with the joint law that contacts gives for the two. Of several planes each mirrors what those before it have
+    made, and its halves are chosen from that.
     """
 
     halves: Selector | None = Field(
@@ -49,7 +49,7 @@ class SymmetryPlane(Plane):
 def plane_normal(plane: Plane) -> Iterator[Finding]:
     """A normal goes with a point."""
     if plane.point is not None and plane.normal is None:
-        yield Finding("missing-key", "needs a normal beside its point")
+        yield Finding("missing-key", "needs a normal in addition to its point")
     if plane.normal is not None and plane.point is None:
         yield Finding("key-of-another-choice", "applies with point only", "normal")
 
@@ -71,7 +71,7 @@ class Support(Section):
     ground: GroundPlane | None = Field(None, description="rigid ground")
     joint: Name | None = Field(None, description="joint law on the ground; that of contacts unless given")
     blocks: Selector | None = Field(
-        None, description="blocks that do not move, or only as told; with ground: the only blocks it carries"
+        None, description="blocks that do not move, or only as given; with ground: the only blocks it carries"
     )
     fixed: Annotated[list[Component], Field(min_length=1)] | None = Field(
         None,

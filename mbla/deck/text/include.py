@@ -54,7 +54,7 @@ def _read_file(reading: Reading, source: SourceText) -> Tree:
     reading.faults += document.faults
     reading.reported |= document.reported
     reading.damaged |= document.damaged
-    reading.whole &= document.whole
+    reading.complete &= document.complete
     tree = _mapping_root(reading, document)
     if source.path is not None and reading.kind.includes:
         reading.active.append(source.path)
@@ -69,11 +69,11 @@ def _mapping_root(reading: Reading, document: Document) -> Tree:
         return Tree(document.data, document.marks, reading.sources)
     mark = own_mark(document.marks)
     tree = Tree({}, MappingMarks(mark), reading.sources)
-    if document.whole:
+    if document.complete:
         found = "is empty" if document.data is None else "is not a mapping"
         words = f"{found}: a {reading.kind.name} is a mapping that begins with {reading.kind.begins}"
         reading.faults.append(Fault(tree.place_of(mark), "", Message("not-a-mapping", words)))
-    reading.whole = False
+    reading.complete = False
     return tree
 
 
@@ -86,7 +86,7 @@ def _with_included(reading: Reading, tree: Tree, source: SourceText) -> Tree:
     if len(names) > MAX_FILES:
         words = f"names {len(names)} files: at most {MAX_FILES} are read"
         reading.faults.append(tree.fault(("include",), Message("too-many-files", words)))
-        reading.whole = False
+        reading.complete = False
         return tree
     for index, name in enumerate(names):
         if not isinstance(name, str):
@@ -97,7 +97,7 @@ def _with_included(reading: Reading, tree: Tree, source: SourceText) -> Tree:
             reading.faults += (
                 error.faults if isinstance(error, DeckError) else [tree.fault(("include", index), error.message)]
             )
-            reading.whole = False
+            reading.complete = False
             continue
         if included is None:
             continue

@@ -103,7 +103,7 @@ def item_index(data: list[Any], key: str) -> int:
 
 
 def _check_name(data: dict[str, Any], path: KeyPath, key: str, value: Any) -> None:
-    """Refuse a misspelt name where names are free: it would be added beside the right one and change nothing."""
+    """Refuse a misspelt name where names are free: it would be added next to the right one and change nothing."""
     if key in data or not takes_names(DeckContent, path):
         return
     if path != ("parameters",) and isinstance(value, dict):

@@ -45,13 +45,13 @@ class Remarks:
     faults  : everything that was wrong with the texts
     reported: marks of the values that are reported already, so that nobody complains of them twice
     damaged : marks of the mappings in which a key had to be left out
-    whole   : false where a text could not be read to its end
+    complete: false where a text could not be read to its end
     """
 
     faults: list[Fault] = field(default_factory=list)
     reported: set[int] = field(default_factory=set)
     damaged: set[int] = field(default_factory=set)
-    whole: bool = True
+    complete: bool = True
 
 
 @dataclass
@@ -80,7 +80,7 @@ def read_yaml(source: SourceText, file: int, offset: int = 0, kind: FileKind = D
     except yaml.YAMLError as error:
         builder.syntax_fault(error)
     except _StopError:
-        builder.document.whole = False
+        builder.document.complete = False
     finally:
         parser.dispose()
     return builder.document
@@ -266,7 +266,7 @@ class _Builder:
             self.fault(mark, Message("yaml-not-allowed", f"tags ({shorten(tag)}) are not allowed"))
 
     def syntax_fault(self, error: yaml.YAMLError) -> None:
-        self.document.whole = False
+        self.document.complete = False
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         begun = getattr(error, "context_mark", None)
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read"
@@ -275,7 +275,7 @@ class _Builder:
         first = self.base & OFFSET_MASK
         offset = first + (mark.index if mark else 0)
         if begun and offset >= len(self.source.text.rstrip()):
-            offset = first + begun.index  # what never ends is better looked for where it begins
+            offset = first + begun.index  # what never ends is better shown where it begins
         elif begun and (line := self.source.place(first + begun.index).line) != self.source.place(offset).line:
             words += f" (it began in line {line})"
         if self.source.text[offset : offset + 1] == "\t":

@@ -87,7 +87,7 @@ def _read_bytes(path: Path, label: str) -> bytes:
 
 
 def read_source(path: Path, label: str, kind: FileKind = DECK) -> SourceText:
-    """Text of a deck or another file of its like: strict UTF-8, a byte order mark allowed, no control characters.
+    """Text of a deck or another file of that kind: strict UTF-8, a byte order mark allowed, no control characters.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def read_source(path: Path, label: str, kind: FileKind = DECK) -> SourceText:
 
 def source_of_text(text: str, path: Path, label: str) -> SourceText:
     """A text as that of a file; DeckError as ``read_source``."""
-    content = text.encode("utf-8", "surrogatepass")  # a lone surrogate is no text: told like any bad byte
+    content = text.encode("utf-8", "surrogatepass")  # a lone surrogate is no text: reported like any bad byte
     return SourceText(label, _decode(content, label, DECK), path.resolve())
 
 

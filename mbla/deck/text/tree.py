@@ -87,14 +87,14 @@ class Tree:
 
     def fault(self, path: KeyPath, message: Message, at_key: bool = False) -> Fault:
         """Fault of the value at a path, or of its key; what does not exist is reported where its mapping begins."""
-        place, written = self._told(path, at_key)
+        place, written = self._reported(path, at_key)
         return Fault(place, key_text(path), message, written)
 
     def place_at(self, path: KeyPath) -> Place:
-        """Where a fault of the value at a path would be told."""
-        return self._told(path, at_key=False)[0]
+        """Where a fault of the value at a path would be reported."""
+        return self._reported(path, at_key=False)[0]
 
-    def _told(self, path: KeyPath, at_key: bool) -> tuple[Place, str | None]:
+    def _reported(self, path: KeyPath, at_key: bool) -> tuple[Place, str | None]:
         """Place of a fault, and the value there as written."""
         marks: Marks = self.marks
         data: Any = self.data
@@ -170,7 +170,7 @@ _WORDS: dict[str, Scalar] = {
     **dict.fromkeys(("false", "False", "FALSE"), False),
 }
 _EXACT = 2**53
-"""Up to here every whole number is a float too; beyond, the deck's numbers are floats."""
+"""Up to here every integer is a float too; beyond, the deck's numbers are floats."""
 
 
 def plain_scalar(text: str) -> Scalar:
