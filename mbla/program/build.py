@@ -30,7 +30,7 @@ class CaseProgram:
 
     solids  : for blocks, and the way back to these
     reduced : of the contact points: its parts, and what each reduction left out
-    convex  : with conditions on interfaces, solved as a whole; None where there are none
+    convex  : with conditions on interfaces, solved together; None where there are none
     """
 
     solids: Solids

@@ -79,10 +79,10 @@ class Program:
     free               : (n_free,) the block to which each six rows of the spatial program belong
     n_blocks           : blocks of the model
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
-    reduction          : where this program came from, None for that of the whole model
+    reduction          : where this program came from, None for that of the full model
     guided             : the reduction is to motions that guides allow
     halved             : the reduction is to one half of a structure with a plane of symmetry
-    allowed            : of the program of the whole model: (n_rows, n_rows) projector on the motions that guides allow,
+    allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
     settles            : a support gives way: what the load factor counts from is chosen, and 0 says nothing of how the
                          structure stands
@@ -103,7 +103,7 @@ class Program:
     settles: bool = False
 
     def without_live_load(self) -> Program:
-        """What of it is the same whatever the live load, down to the program of the whole model."""
+        """What of it is the same whatever the live load, down to the program of the full model."""
         way = self.reduction
         return replace(
             self,
@@ -136,7 +136,7 @@ class Program:
     def own_unit(self) -> float:
         """Load factor that is the unit of this part: mean dead load of a block over root mean square of the live loads.
 
-        1 for the program of the whole model. What depends on the size of load factors must not change because parts
+        1 for the program of the full model. What depends on the size of load factors must not change because parts
         that cannot interact are solved together or apart.
         """
         dead, live = (np.linalg.norm(load, axis=1) for load in self._loads_of_blocks())

@@ -5,7 +5,7 @@
     min ½ ‖x‖²     s.t.   A x + f_D = 0,   ‖T‖ ≤ μ N + c,   −f_t ≤ N ≤ f_c
 
 *Given mechanism:* every force that is compatible with it, with the law without normality. At a contact point that
-moves, the joint law fixes the force or leaves it one unknown; at a point at rest it leaves the whole cone. With d the
+moves, the joint law fixes the force or leaves it one unknown; at a point at rest it leaves the entire cone. With d the
 direction of the shear at a sliding point (against the sliding velocity)::
 
     min or max λ   s.t.   A x + f_D + λ f_L = 0

@@ -1,11 +1,11 @@
 """Solution: load factor, forces and mechanism of a program, and their verification.
 
 ``solve`` goes through the parts of a structure; ``part`` alone decides by which flow rule and scheme each is solved and
-what is found beside its load factor, by one record of ``settings``. ``associative`` proves a factor from both sides,
-``nonassociative`` has one file a scheme on the same joint law, ``standing`` the state of the stress-free assembly,
-``resultants`` the same with conditions on interfaces.
+what is found in addition to its load factor, by one record of ``settings``. ``associative`` proves a factor from both
+sides, ``nonassociative`` has one file a scheme on the same joint law, ``standing`` the state of the stress-free
+assembly, ``resultants`` the same with conditions on interfaces.
 
 ``verification`` recomputes everything from model, contacts and solution, without a solver. ``cone_solvers`` is the door
-to those who solve cone programs: the interior-point method of this package, and clarabel and HiGHS, each behind its
+to those who solve cone programs: the interior-point method of this package, and clarabel, each behind its
 adapter; ``linear_algebra`` factorises by the library that is there. Records of programs say who solved them.
 """

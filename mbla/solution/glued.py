@@ -1,4 +1,4 @@
-"""A solution for solids told for the blocks that glue joins in them, and back (see :mod:`mbla.contacts.glue`).
+"""A solution for solids restated for the blocks that glue joins in them, and back (see :mod:`mbla.contacts.glue`).
 
 Motions are mapped; forces, contact velocities and modes belong to contact points, which both have in common.
 """

@@ -1,4 +1,4 @@
-"""From the variables of a program to forces, velocities, mechanism and modes of the whole model.
+"""From the variables of a program to forces, velocities, mechanism and modes of the full model.
 
 The mode says what a contact point does: stick, slide, open or crush. The joint law leaves one of two small at every
 point: opening or normal force, sliding or reserve of shear. In numbers neither is zero, so that pairs of ratios are
@@ -111,7 +111,7 @@ def lifted(program: Program, state: LawState) -> LawState:
 
 
 def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:
-    """Velocities at the contact points of a spatial program of the whole model in the deck's units, (n_points, 3)."""
+    """Velocities at the contact points of a spatial program of the full model in the deck's units, (n_points, 3)."""
     return (
         program.scaling.scaled_forces((program.equilibrium_matrix.T @ velocities).reshape(-1, 3)) * program.scaling.live
     )

@@ -1,6 +1,6 @@
 """Which method solves one part of a structure, whose blocks can interact: by flow rule, scheme and what is asked for.
 
-Associative first; where another flow rule is asked for, the scheme that the deck names; then what is found beside the
+Associative first; where another flow rule is asked for, the scheme that the deck names; then, in addition to the
 load factor, a peak of the load path, the range for the mechanism found and the standing, none of which changes it but
 the path.
 """
@@ -86,7 +86,7 @@ class PartResult:
     range       : of the load factor without normality, for the mechanism found
     remarks     : on the figure, besides those of the sequence
     peak        : last state of the load path that stands, where that lies above the load factor
-    more        : programs solved for what is found beside the load factor
+    more        : programs solved for what is found in addition to the load factor
     """
 
     program: Program
@@ -149,7 +149,7 @@ class PartResult:
 
 
 def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
-    """The part by the flow rule of the analysis, with everything that is asked for beside its load factor.
+    """The part by the flow rule of the analysis, with everything that is requested in addition to its load factor.
 
     Raises
     ------
@@ -269,7 +269,7 @@ def _falls_before(result: PartResult, state: LawState, most: float, settings: So
 
 
 def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
-    """The range where it is asked for; where lower states are looked for its lower end is the answer, asked for or not.
+    """The range where it is asked for; where lower states are searched its lower end is the answer, asked for or not.
 
     Only of a state that fits the law: the mechanism of another one belongs to nothing.
     """

@@ -40,7 +40,7 @@ def assemble_parts(
     log: Log,
     collapse: Sequence[LawState | None] = (),
 ) -> tuple[Program, LawState] | None:
-    """A state of one part as one of the whole model, the other parts at rest; None where these do not carry it.
+    """A state of one part as one of the full model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
 
@@ -87,7 +87,7 @@ def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) 
 
 
 def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:
-    """The program of the whole model, and the state in it."""
+    """The program of the full model, and the state in it."""
     while program.reduction is not None:
         state, program = lifted(program, state), program.reduction.full
     return program, state

@@ -25,7 +25,7 @@ class SolverSettings:
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
     search         : iterations spent on lower load factors, over those of the first state found
-    range, peak, standing : whether these are found beside the load factor
+    range, peak, standing : whether these are found in addition to the load factor
     analysis       : flow rule, scheme with its parameters, ranges of forces
     """
 

@@ -170,7 +170,7 @@ class Solution:
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the load path that was followed
     size        : what reached the solver
-    reductions  : what each reduction left out, in the order in which they were applied; empty where none was looked for
+    reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
     tolerance_requested : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis
                   asks for, where the answer is no sharper only because no more was asked for; None otherwise

@@ -61,18 +61,18 @@ class _Stage:
     def mechanics(
         self, part: int, state: LawState | None, flow_rule: str, collapse: Sequence[LawState | None] = ()
     ) -> Mechanics | None:
-        """A state of one part as mechanics of the whole model; None where the other parts do not carry it.
+        """A state of one part as mechanics of the full model; None where the other parts do not carry it.
 
         collapse : of each part its own state at collapse
         """
         if state is None:
             return None
-        whole = assemble_parts(self.parts, part, state, self.settings, self.log, collapse)
-        return None if whole is None else mechanics_of(*whole, flow_rule)
+        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse)
+        return None if assembled is None else mechanics_of(*assembled, flow_rule)
 
 
 def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None) -> Solution:
-    """Load factor of one load case by the flow rule of the analysis, and what is asked for beside it, on all blocks.
+    """Load factor of one load case by the flow rule of the analysis, and what is requested in addition, on all blocks.
 
     log : called once per iteration of a cone program, as it goes
     """
@@ -111,7 +111,7 @@ def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = No
 
 
 def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
-    """A list of the iterations to come, and the log that fills it beside the one given."""
+    """A list of the iterations to come, and the log that fills it as well as the one given."""
     iterations: list[IterationRecord] = []
 
     def record(iteration: IterationRecord) -> None:
@@ -123,7 +123,7 @@ def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
 
 
 def _result_of(program: Program, settings: SolverSettings, log: Log) -> PartResult:
-    """What was found for one part; a system of equations that nobody expected to be singular is a failure told."""
+    """What was found for one part; a system of equations that nobody expected to be singular is a reported failure."""
     try:
         return solve_part(program, settings, log)
     except np.linalg.LinAlgError as error:

@@ -1,4 +1,4 @@
-"""Reductions: planar, mirrored and separate parts found by themselves, with the exact way back to the whole model."""
+"""Reductions: planar, mirrored and separate parts found by themselves, with the exact way back to the full model."""
 
 from mbla.program.reductions.reduce import ModelSize, Reduced, reduce_program, unreduced
 from mbla.program.reductions.steps import ProgramSize, ReductionStep, StepState, allowed_reductions

@@ -175,7 +175,7 @@ def _matched_points(here: FloatArray, there: FloatArray, apart: float) -> IntArr
 
 
 def _middles_of_interfaces(scene: Scene) -> FloatArray:
-    """Mean of the points of its interface for every point, (n_points, 3): it tells points in one place apart."""
+    """Mean of the points of its interface for every point, (n_points, 3): it distinguishes points in one place."""
     count = np.maximum(np.bincount(scene.interfaces), 1)
     means = np.column_stack([np.bincount(scene.interfaces, axis) / count for axis in scene.points.T])
     return np.asarray(means[scene.interfaces])

@@ -10,7 +10,7 @@ limit analysis leaves open are found by joints on springs (the state under the d
 one at every point. Points of a refined interface stand for unlike shares: on a grid one at a corner for a quarter of
 one inside. With forces in the unknowns y, x = √s y, equally stiff springs for y are springs of stiffness s for x, and ½
 ‖y‖² is ½ Σ ‖x‖²/s: the sum that goes to the integral over the interface with the square of the distance of points. s is
-the share over the mean of the interface, so that its stiffness as a whole stays. The joint law is that of x; strengths
+the share over the mean of the interface, so that its total stiffness stays. The joint law is that of x; strengths
 come divided by √s, velocities of the points multiplied.
 
 Where all points are corners of the interface all are equally stiff: a corner stands for a hinge, not for a share. A

@@ -43,7 +43,7 @@ class ModelSize:
 class Reduced:
     """The programs of the parts, in the order of their first blocks, and what was left out.
 
-    interface_of_point : (n_points of the whole program,)
+    interface_of_point : (n_points of the full program,)
     steps              : what each reduction did, in the order in which they were applied
     """
 
@@ -110,11 +110,11 @@ def _steps_of_planes(
 
     mirrored : halves may be left out at all
     """
-    whole = [part.program for part in scenes]
-    planar = [program if program.components == 2 else part for part, (program, _) in zip(whole, smaller, strict=True)]
+    full = [part.program for part in scenes]
+    planar = [program if program.components == 2 else part for part, (program, _) in zip(full, smaller, strict=True)]
     n_planar = sum(program.components == 2 for program in planar)
     n_halved = sum(mirror is not None for _, mirror in smaller)
-    sizes = size_of(whole), size_of(planar), size_of([program for program, _ in smaller])
+    sizes = size_of(full), size_of(planar), size_of([program for program, _ in smaller])
     return [
         switches.step("planar", True, n_planar, sizes[0], sizes[1]),
         switches.step("mirror", switches.mirror and mirrored, n_halved, sizes[1], sizes[2]),
@@ -161,7 +161,7 @@ def _guided(part: Scene, smaller: Program) -> Program:
 
 
 OFF_PLANE = 1e-6
-"""Distance of the middle of a part from a plane of symmetry, relative to block size, that is rounding: a part beside
+"""Distance of the middle of a part from a plane of symmetry, relative to block size, that is rounding: a part next to
 the plane that happens to be symmetric about a parallel one is apart from it by the size of blocks."""
 
 Mirrors = tuple[tuple[float, float, float, float], ...]

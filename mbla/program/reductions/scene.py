@@ -84,7 +84,7 @@ class Scene:
 
 
 def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
-    """The scene of the program of the whole model."""
+    """The scene of the program of the full model."""
     row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
     row[program.free] = np.arange(len(program.free))
     units = program.scaling.row.reshape(-1, 6)
@@ -183,6 +183,6 @@ def _alone(scene: Scene, blocks: IntArray, points: IntArray) -> Scene:
 
 
 def _unit_of_force(dead_load: FloatArray) -> float:
-    """Mean dead load of the blocks that have one, (n_blocks, 6); the unit of the whole where none has."""
+    """Mean dead load of the blocks that have one, (n_blocks, 6); the unit of the model where none has."""
     sizes = np.linalg.norm(dead_load, axis=1)
     return float(sizes[sizes > 0].mean()) if np.any(sizes > 0) else 1.0

@@ -94,7 +94,7 @@ def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
 
 
 REDUCTIONS = ("planar", "mirror", "parts", "unloaded", "points")
-"""Names of what is looked for and left out before the solver; the answer is the same without.
+"""Names of what is searched for and left out before the solver; the answer is the same without.
 
 planar structures are solved with three unknowns a block; of a symmetric structure only one half, under associative
 flow; parts that cannot interact are solved apart; parts without live load only have to stand, which is shown apart;
@@ -127,5 +127,5 @@ def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
     Mirror symmetry is not used for the range of forces, which is wider than that of symmetric forces. For that range
     the points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
     """
-    whole = analysis.force_ranges
-    return ReductionSwitches(analysis.reductions, mirror=not whole, points=not whole)
+    ranges = analysis.force_ranges
+    return ReductionSwitches(analysis.reductions, mirror=not ranges, points=not ranges)

@@ -275,7 +275,7 @@ def without_crushing(limits: YieldLimits) -> YieldLimits:
 
 
 def size_of_convex(convex: ConvexProgram) -> ProgramSize:
-    """Unknowns of the conditions are velocities too, and their cones count beside the friction cones of the points."""
+    """Unknowns of the conditions are velocities too, and their cones count in addition to the friction cones."""
     program = convex.program
     unknowns = len(program.dead_load)
     conditions = sum(int(np.count_nonzero(rows.cone_sizes > 1)) for rows in convex.conditions)

@@ -7,7 +7,7 @@ others are needed (interfaces of other outlines come in such pieces, :mod:`mbla.
 *Corner* (L, Q_1, Q_2; K):  L³ ≤ K Q_1 Q_2. Where full stress covers a triangle at a corner it holds with equality.
     parallelogram  L = N,      Q_i ≤ N ∓ s_i·m,         K = 9/8 F     s_i = ν_i/d_i: gauge of a pair of edges
     triangle       L = N,      Q = p_i, p_j,            K = 9 F       p_i = N/3 + m·∇λ_i: forces at the corners
-    and the same of what is left of full stress, with F − N and −m in place of N and m.
+    and the same of the complement to full stress, with F − N and −m in place of N and m.
 *Edge* (parallelogram):  N² + 3 (s_j·m)² ≤ F (N ∓ s_i·m). Where full stress ends on both edges of the other pair it
     holds with equality: N(y), the force of the strip at y, has its first moment at least N(y)²/2f_c from the edge, and
     ∫N(y)² is least, with N and its moment along y given, where N(y) is linear.
@@ -137,8 +137,8 @@ def _triangle_corners(rows: IntArray, total: FloatArray, normal: FloatArray, for
     left = (np.array([1.0, 0.0, 0.0, 0.0]) / 3.0) - forces / total[:, None, None]
     for pair in ([0, 1], [1, 2], [2, 0]):
         found.append(Corners(rows, np.ones(n), 9.0 * total, normal, forces[:, pair].reshape(-1, 4), owner, side))
-        whole = _complement(normal, total)
-        found.append(Corners(rows, total, np.full(n, 9.0), whole, left[:, pair].reshape(-1, 4), owner, side))
+        rest = _complement(normal, total)
+        found.append(Corners(rows, total, np.full(n, 9.0), rest, left[:, pair].reshape(-1, 4), owner, side))
     return found
 
 

@@ -22,7 +22,7 @@ class FrictionLimit:
     """Sizes at given resultants, (n,), and their derivatives by all resultants, (n, 6 n_interfaces).
 
     total : V = μN + cA
-    share : R, what acts as over the whole area; both not less than zero
+    share : R, what acts as over the full area; both not less than zero
     """
 
     total: FloatArray

@@ -229,5 +229,5 @@ def corner_weights(values: FloatArray) -> FloatArray:
     others = np.where(single, 0.0, t / 3.0)
     part = size * np.where(single, 1.0 - others.sum(axis=-1, keepdims=True), others)
     has_single = single.any(axis=-1, keepdims=True)
-    whole = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
-    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), whole * np.ones_like(values)))
+    inner = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
+    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), inner * np.ones_like(values)))

@@ -8,7 +8,7 @@ rectangle a × b the rectangle a − 2|p_1| by b − 2|p_2|. Its torsional radiu
     polygon: s_e = ν_e/d_e      rectangle: s_e = (2/ρ)(± ∂ρ/∂a, ± ∂ρ/∂b)
 
 the first exactly, the second because ρ(a, b) is convex and homogeneous of degree 1, so that its tangent lies below it.
-The shear strength V = μN + cA is divided: the share that acts as over the whole area, R ≤ μ N w + cA, carries torsion
+The shear strength V = μN + cA is divided: the share that acts as over the full area, R ≤ μ N w + cA, carries torsion
 and shear by the safe curve of :mod:`mbla.program.resultants.friction_curve`; the rest carries shear alone::
 
     (T − T', M_n) within the safe curve of R        ‖T'‖ ≤ V − R

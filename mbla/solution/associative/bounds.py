@@ -21,7 +21,7 @@ CHARGED = 2.0
 """Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
 
 LOCKED_IN = 1e4
-"""Normal force, over the whole dead load, that would have to be locked in to hold a structure that a motion with
+"""Normal force, over the total dead load, that would have to be locked in to hold a structure that a motion with
 rounding says to fall."""
 
 WORK_ROUNDING = 1e-13
@@ -76,7 +76,7 @@ def factor_size(program: Program) -> float:
 def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | None:
     """Velocities near the given ones, (n_rows,), proving that the dead load alone is not carried; None where none do.
 
-    They are compatible, what rounding leaves is charged as if the whole dead load were locked in many times over, and
+    They are compatible, what rounding leaves is charged as if the total dead load were locked in many times over, and
     the dead load does more work in them than the joints dissipate. They are scaled to a largest entry of 1: a solver's
     certificate of infeasibility may have any size, whose square need not be a number.
     """
@@ -95,7 +95,7 @@ def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | Non
 def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> float:
     """Load factor that velocities, (n_rows,), prove to be at or above the collapse value, NaN where none.
 
-    charge : normal force with which what is left of incompatibility is charged
+    charge : normal force with which the remaining incompatibility is charged
     """
     live_power = float(program.live_load @ velocities)
     if not live_power > 0.0:

@@ -74,7 +74,7 @@ def force_ranges(
 ) -> ForceRanges:
     """Ranges over the forces that fit an associative state, or a state at rest.
 
-    interface_of_point : (n_points of the whole model,)
+    interface_of_point : (n_points of the full model,)
     first              : number of the first program in the sequence of the load case
     """
     sums = normal_sums(program, interface_of_point)

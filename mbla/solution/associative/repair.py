@@ -110,7 +110,7 @@ MARGIN = 1e-12
 """Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
 
 NO_FORCE = 1e-18
-"""Share of the largest force that is no normal force beside a shear."""
+"""Share of the largest force that is no normal force next to a shear."""
 
 STEEP = 10.0
 """Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
@@ -168,7 +168,7 @@ def least_carried(program: Program, x: FloatArray) -> FloatArray:
 def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     """The nearest simple change that puts every force strictly inside: normal force off its ends, shear shortened.
 
-    By little beside what the lighter block there has to balance: much of its load may be little beside the others'.
+    By little relative to what the lighter block has to balance: much of its load may be little relative to the others'.
     """
     inside, limits = x.copy(), program.limits
     largest = np.minimum(max(float(np.abs(x[:, 0]).max(initial=0.0)), 1e-288), least_carried(program, x))

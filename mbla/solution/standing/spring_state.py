@@ -1,7 +1,7 @@
 """State of a stress-free assembly that weak springs hold, by the exact non-associative joint law (``spring_problem``).
 
-Semismooth Newton on the whole law (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X) is tried first. Where it
-fails the assembly moves there in time: dashpots η W act beside the springs, ::
+Semismooth Newton on the full law (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X) is tried first. Where it
+fails the assembly moves there in time: dashpots η W act parallel to the springs, ::
 
     A x(v) + f − κ W u − η W (u − u_before) = 0
 
@@ -35,7 +35,7 @@ MOST_UPHILL = 2
 
 
 def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
-    """Newton's method on the whole law; whether it converged, and the iterate nearest to balance.
+    """Newton's method on the full law; whether it converged, and the iterate nearest to balance.
 
     Steps are shortened until they come nearer to balance. At a kink of the law none may: then the shortened step that
     is left nearest is taken all the same, a few times in a row, for on its other side the way often goes on.

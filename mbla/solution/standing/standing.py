@@ -43,7 +43,7 @@ class DeadLoadState:
 
     forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
                     None where they do not balance it
-    displacements : (n_rows,) that bring them about: what the verification needs beside the forces
+    displacements : (n_rows,) that bring them about: what the verification needs in addition to the forces
     """
 
     standing: StandingResult

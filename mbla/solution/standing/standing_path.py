@@ -130,8 +130,8 @@ class StandingPath:
         """Whether it stands at a load factor, whatever becomes of it on the way there."""
         self.looks += 1
         load: Load = "live_load" if self.weightless else "dead_load"
-        beside = load_factor - 1.0 if self.weightless else load_factor
-        found = weaken_springs(self.program, load, self.program.limits, self.settings, live=beside)
+        live = load_factor - 1.0 if self.weightless else load_factor
+        found = weaken_springs(self.program, load, self.program.limits, self.settings, live=live)
         state = PathState(load_factor, found)
         if state.falls and (self.fall is None or load_factor < self.fall.load_factor):
             self.fall = state

@@ -122,13 +122,13 @@ def weaken_springs(
         return Weakening(Outcome.CARRIED, None, 0.0)
     blocks = _Blocks(*springs_of(program, load))
     acting = getattr(program, load) + live * program.live_load
-    whole = spring_problem(program.equilibrium_matrix, acting, limits, blocks.springs, settings.deadline)
+    basis = spring_problem(program.equilibrium_matrix, acting, limits, blocks.springs, settings.deadline)
     if program.n_points and is_diagonal(blocks.springs):
-        whole = replace(whole, pattern=LatePattern(program))
+        basis = replace(basis, pattern=LatePattern(program))
     found: list[Weakening] = []
     kappa, u = 1.0, np.zeros(len(program.dead_load))
     for ratio in SHEAR_STIFFNESSES:
-        problem = replace(whole, shear_stiffness=ratio)
+        problem = replace(basis, shear_stiffness=ratio)
         outcome, last, before = _weaken(problem, blocks, kappa, u)
         forces = joints_at(problem, 0.0, last.displacements).state.forces
         found.append(replace(outcome, forces=forces, displacements=last.displacements))
@@ -140,7 +140,7 @@ def weaken_springs(
 
 
 def is_diagonal(matrix: sp.csr_array) -> bool:
-    """Whether nothing is stored beside the diagonal of a matrix, (n, n), but zeros."""
+    """Whether all entries of a matrix off its diagonal, (n, n), are zeros."""
     return bool(matrix.count_nonzero() == np.count_nonzero(matrix.diagonal()))
 
 
@@ -156,7 +156,7 @@ def agreed(first: Weakening, second: Weakening) -> Weakening:
 class _Blocks:
     """Springs W of the program, (n_rows, n_rows), and velocities of the model's blocks from those of the program.
 
-    index : (n_free,) block of the model to which each six rows of the whole program belong
+    index : (n_free,) block of the model to which each six rows of the full program belong
     """
 
     springs: sp.csr_array

@@ -86,7 +86,7 @@ class Case:
         return power(self.load_case.dead_load, mechanism), power(self.load_case.live_load, mechanism)
 
     def unbalanced_wrenches(self, forces: FloatArray, factor: float) -> FloatArray:
-        """What loads and contact forces leave on each block beside what its guides take, (n_blocks, 6) N, N m."""
+        """What loads and contact forces leave on each block besides what its guides take, (n_blocks, 6) N, N m."""
         loads = self.load_case.dead_load + factor * self.load_case.live_load
         acting = contact_resultants(self.model, self.contacts, forces) + loads
         return left_to_balance(self.model, acting, self.scale.arms)

@@ -1,4 +1,4 @@
-"""What is claimed beside the load factor, each judged with statics and kinematics of its own.
+"""What is claimed in addition to the load factor, each judged with statics and kinematics of its own.
 
 *Standing*: the dead load is carried from the stress-free assembly. Forces balance the dead load within the yield
 conditions, and displacements of the blocks show how they come about. On joints of unit stiffness each is pressed by
@@ -132,8 +132,8 @@ LASTING = 1e-6
 carry a million times what they are asked for before it matters."""
 
 MOST = 1e-3
-"""What rounding may leave at most, over the mean live load of a block: beside forces large enough, any load would be
-rounding."""
+"""What rounding may leave at most, over the mean live load of a block: relative to forces large enough any load would
+be rounding."""
 
 
 def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: FloatArray) -> tuple[Message, ...]:

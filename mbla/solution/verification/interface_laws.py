@@ -2,7 +2,7 @@
 
 Closed forms in place of the rows of the cone program. With N' = N + f_t A, m = (−M_2, M_1), V = μN + cA:
 
-*Torsion.* R = μ N' w + (c − μ f_t) A, w the gauge of what is left of the area; t = max(‖T‖ − V + R, 0), m = |M_n|/ρ.
+*Torsion.* R = μ N' w + (c − μ f_t) A, w the gauge of the reduced area; t = max(‖T‖ − V + R, 0), m = |M_n|/ρ.
 The curve t² = (R' − m)(R' + (1 − θ) m) through (t, m) has the size
 
     R' = ½ [θ m + √(θ² m² + 4 (1 − θ) m² + 4 t²)]
@@ -46,7 +46,7 @@ from mbla.program.resultants.shapes import (
 
 @dataclass(frozen=True)
 class InterfaceLaws:
-    """Strengths of all interfaces in the deck's units, forces over the whole area.
+    """Strengths of all interfaces in the deck's units, forces over the full area.
 
     shapes     : outlines, torsional radii
     friction   : (n,) μ
@@ -114,7 +114,7 @@ def moment_of(resultants: FloatArray) -> FloatArray:
 
 
 def _reduced_normal(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
-    """N' w: the normal force over what is left of the area, in terms of torsional radius, (n,)."""
+    """N' w: the normal force over the reduced area, in terms of torsional radius, (n,)."""
     shapes, moment = laws.shapes, moment_of(resultants)
     normal = resultants[:, 0] + laws.tension
     offset = largest(shapes, (shapes.edge_slopes() * moment[shapes.interface_of_corner]).sum(axis=1))

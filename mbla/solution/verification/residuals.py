@@ -109,9 +109,9 @@ def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arm
     return share_of(float(closing.max(initial=0.0)), speed)
 
 
-def share_of(part: float, whole: float) -> float:
-    """A part over the whole, NaN where there is none."""
-    return part / whole if whole > 0 else np.nan
+def share_of(part: float, total: float) -> float:
+    """A part over the total, NaN where there is none."""
+    return part / total if total > 0 else np.nan
 
 
 @dataclass(frozen=True)

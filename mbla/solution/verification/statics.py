@@ -12,7 +12,7 @@ Pu = u.
 What the relative measures of the verification are relative to.
 
 A residual is judged by the loads and forces of the block it acts on, not by the mean of the structure alone: a light
-block on a heavy one may fall with an unbalanced force that is nothing beside the heavy block's weight.
+block on a heavy one may fall with an unbalanced force that is negligible relative to the heavy block's weight.
 """
 
 from __future__ import annotations
