@@ -66,7 +66,7 @@ def _replaced(base: Base) -> Iterator[Fault]:
         key = text.partition("=")[0].strip()
         own.append((key, partial(Fault, Place(LABEL, number, 1), key)))
     for key, fault in own:
-        with suppress(RefusedError):  # a whole section, which holds more than parameters replace
+        with suppress(RefusedError):  # an entire section, which holds more than parameters replace
             fixed = path_of_key(base.tree.data, key.strip())
             for name, _, _, path in _places(base):
                 if fixed[: len(path)] == path:
@@ -79,7 +79,7 @@ def _without_effect(base: Base) -> Iterator[Finding]:
     # without its expectations: what only they use does not change a point
     deck = read_deck(base.path, base.fixed, expected=False) if base.deck.content.expected else base.deck
     ends = (UNUSED.search(notice.message) for notice in deck.notices if notice.identifier.endswith("-unused"))
-    idle = {(match[1], match[2]) for match in ends if match}
+    unused = {(match[1], match[2]) for match in ends if match}
     parameters = base.sweep.content.parameters.values()
     texts = [value for each in parameters for value in each.values or () if isinstance(value, str)]
     for _, place, _, path in _places(base):
@@ -88,7 +88,7 @@ def _without_effect(base: Base) -> Iterator[Finding]:
             message = f"has no effect: load case {shorten(thing)} is not among the cases to solve"
             yield Finding("sweep-without-effect", message, *place)
         named = any(thing in text for text in texts)  # another parameter may bring it into use
-        if (section, thing) in idle and not named:
+        if (section, thing) in unused and not named:
             message = f"has no effect: the deck does not use {section}.{shorten(thing)}"
             yield Finding("sweep-without-effect", message, *place)
 
@@ -152,7 +152,7 @@ def _columns(base: Base) -> Iterator[Finding]:
 
 
 def _fragility(base: Base) -> Iterator[Finding]:
-    """The result is a column of numbers, or one in each load case, and what has no load factor can be told apart."""
+    """The result is a column of numbers, or one in each load case, and what has no load factor can be distinguished."""
     results, asked = base.sweep.content.results, base.sweep.content.fragility
     if asked is None or any(result_fault(path, base.cases) for path in results):
         return
@@ -165,8 +165,8 @@ def _fragility(base: Base) -> Iterator[Finding]:
         yield Finding("sweep-fragility", f"{asked.result} is no number", "fragility", "result")
     elif any(column.path in FACTORS for column in chosen) and STATUS not in results:
         message = (
-            f"must have {STATUS} too: for the probability of {shorten(asked.result)} it tells what does not stand from "
-            "what no load brings down"
+            f"must have {STATUS} too: for the probability of {shorten(asked.result)} it distinguishes what does not "
+            "stand from what no load brings down"
         )
         yield Finding("sweep-fragility", message, "results")
 

@@ -22,7 +22,7 @@ from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
-from mbla.sweeps.journal import WHOLE, JournalHeader, journal_name, journals_in, merged, open_journal
+from mbla.sweeps.journal import SINGLE, JournalHeader, journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import counts, sweep_json
@@ -44,12 +44,12 @@ Report = Callable[[Progress, Task | None, Outcome | None], None]
 class SweepOptions:
     """What the command line adds to a sweep file.
 
-    folder       : of all files; the sweep's name with .out beside it if None
+    folder       : of all files; SWEEP_NAME.out next to the sweep file if None
     shard        : part and number of parts, counted from 1: only these points, for job arrays
     resume       : go on with the journal that is there
     force        : begin anew and replace earlier files
     retry_failed : on resuming, solve failed points again
-    goes_on      : how a sweep that was broken off is gone on with, in words
+    goes_on      : how a sweep that was broken off is continued, in words
     """
 
     folder: Path | None = None
@@ -74,7 +74,7 @@ class Prepared:
     name, deck : sweep file and base deck as the user names them
     keys       : of each point of the design, in its order
     columns    : of results
-    files      : that are written beside sweep.csv and sweep.json
+    files      : that are written next to sweep.csv and sweep.json
     conclude   : what follows from the table of all points
     """
 
@@ -174,7 +174,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
     )
     part, parts = options.shard or (1, 1)
     asked = prepared.tasks[part - 1 :: parts]  # neighbours take about as long as each other, and so do shards then
-    path = folder / (WHOLE if options.shard is None else journal_name(part, parts))
+    path = folder / (SINGLE if options.shard is None else journal_name(part, parts))
     check_options(options.engine)
     refuse_tables(folder, prepared.files, replace=options.force or options.resume)
     how = {"resume": options.resume, "force": options.force, "retry_failed": options.retry_failed}

@@ -52,12 +52,12 @@ def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confi
         for at, rows in _combinations(table):
             values, points = answers.values[rows][answers.good[rows]], len(rows)
             fallen, unknown = int(answers.below[rows].sum()), int(answers.unknown[rows].sum())
-            told = []
+            counts = []
             for demand in map(float, demands):
                 below = fallen + int((values < demand - SAME * abs(demand)).sum())
                 probability = [below / points, (below + unknown) / points]
                 ends = list(interval(below, unknown, points, confidence))
-                told.append({"demand": demand, "below": below, "probability": probability, "interval": ends})
+                counts.append({"demand": demand, "below": below, "probability": probability, "interval": ends})
             found.append(
                 {
                     "result": column.name,
@@ -68,7 +68,7 @@ def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confi
                     "points": points,
                     "left_out": size - points,
                     "unknown": unknown,
-                    "demands": told,
+                    "demands": counts,
                 }
             )
     return found

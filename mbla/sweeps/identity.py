@@ -86,7 +86,7 @@ def _file_hash(path: Path) -> str:
 
 PACKAGE = Path(__file__).parents[1]
 LETTERS = 12
-"""of the hash, 48 bits: it tells versions apart, it is no protection against a forged one"""
+"""of the hash, 48 bits: it distinguishes versions, it is no protection against a forged one"""
 LIBRARIES = ("numpy", "scipy", "clarabel", "qdldl", "shapely", "manifold3d", "cvxopt")
 """libraries on which the last digits of an answer depend; the last two are used where they are found"""
 

@@ -1,8 +1,8 @@
-"""The journal of a sweep: CSV, one row for each finished point, on the disk before anybody is told that it is finished.
+"""The journal of a sweep: CSV, one row for each finished point, on the disk before it is reported as finished.
 
-The file is read by ``pandas.read_csv(path, comment="#")``. It appears whole with its header; each row is one write,
-synced when ``add`` returns. Only the last row can be torn, by a kill or a loss of power, and nobody was told of that
-one: it is cut off when the journal is gone on with. A whole run is alone in its folder; shards, parts of a sweep that
+The file is read by ``pandas.read_csv(path, comment="#")``. It appears complete with its header; each row is one write,
+synced when ``add`` returns. Only the last row can be torn, by a kill or a loss of power, and that one was not reported
+yet: it is cut off when the journal is continued. An unsharded run is alone in its folder; shards, parts of a sweep that
 jobs of an array solve on their own, have a journal each and share it.
 """
 
@@ -28,7 +28,7 @@ from mbla.results.disk import (
     holder,
     locked,
     missing_folders,
-    write_whole,
+    write_complete,
 )
 from mbla.sweeps.identity import difference
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
@@ -40,12 +40,12 @@ FIRST = ("key", "number", "state", "exit_code", "reason", "tries", "seconds")
 """columns before those of results"""
 SETTINGS = "settings"
 """column after them: values by key path as JSON"""
-WHOLE = "journal.csv"
+SINGLE = "journal.csv"
 """name of the journal of a run that is no shard"""
 BEGIN_ANEW = "--force begins anew and drops what it holds, -o FOLDER writes elsewhere"
 _SHARD = re.compile(r"journal\.(?P<part>[1-9][0-9]*)-of-(?P<parts>[1-9][0-9]*)\.csv")
 _SWEEP = "sweep"
-"""what is locked in the folder: alone by a whole run, together by shards"""
+"""what is locked in the folder: alone by an unsharded run, together by shards"""
 
 
 @dataclass(frozen=True)
@@ -113,15 +113,15 @@ def read_row(header: JournalHeader, line: bytes) -> Outcome:
 
 
 class JournalRows(NamedTuple):
-    """Finished points of a journal by key, bytes up to the end of its last whole row, and bytes after that."""
+    """Finished points of a journal by key, bytes up to the end of its last complete row, and bytes after that."""
 
     finished: dict[str, Outcome]
-    whole: int
+    complete: int
     torn: int
 
 
 def read_journal(path: Path, header: JournalHeader) -> JournalRows:
-    """Every whole row of a journal.
+    """Every complete row of a journal.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
     """
     finished: dict[str, Outcome] = {}
     with file_errors(path), path.open("rb") as stream:
-        whole = _check_header(path, header, stream.readline(), stream.readline())
+        complete = _check_header(path, header, stream.readline(), stream.readline())
         for number, line in enumerate(stream, start=3):
             try:
                 outcome = read_row(header, line)
@@ -142,8 +142,8 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
             if not line.endswith(b"\n"):
                 break
             keep(finished, outcome)
-            whole += len(line)
-        return JournalRows(finished, whole, os.fstat(stream.fileno()).st_size - whole)
+            complete += len(line)
+        return JournalRows(finished, complete, os.fstat(stream.fileno()).st_size - complete)
 
 
 def keep(finished: dict[str, Outcome], outcome: Outcome) -> None:
@@ -179,7 +179,7 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
     ours, theirs = ({**each.belongs, "results": " ".join(each.columns)} for each in (header, found))
     if words := difference(ours, theirs):
         raise FileError(
-            "journal-of-another-sweep", f"{path}: of another sweep ({words}): it cannot be gone on with; {BEGIN_ANEW}"
+            "journal-of-another-sweep", f"{path}: of another sweep ({words}): it cannot be continued; {BEGIN_ANEW}"
         )
     return len(first) + len(second)
 
@@ -193,7 +193,7 @@ def journal_name(part: int | str, parts: int | str) -> str:
 
 
 def journals_in(folder: Path) -> tuple[Path, ...]:
-    """Every journal in a folder, that of whole runs first, then those of shards by number of parts and part."""
+    """Every journal in a folder, that of unsharded runs first, then those of shards by number of parts and part."""
     try:
         names = [path.name for path in folder.iterdir()]
     except (FileNotFoundError, NotADirectoryError):
@@ -201,7 +201,7 @@ def journals_in(folder: Path) -> tuple[Path, ...]:
     shards = sorted(
         (int(match["parts"]), int(match["part"]), match[0]) for name in names if (match := _SHARD.fullmatch(name))
     )
-    return tuple(folder / name for name in (*([WHOLE] if WHOLE in names else []), *(name for *_, name in shards)))
+    return tuple(folder / name for name in (*([SINGLE] if SINGLE in names else []), *(name for *_, name in shards)))
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------
@@ -212,7 +212,7 @@ class Journal:
     """A journal that is being written.
 
     finished   : the outcome of every finished point by its key: what the journals of the folder held, where they are
-                 gone on with, and what was added since; results without a value are None
+                 continued, and what was added since; results without a value are None
     notices    : what was repaired
     descriptor : of the open file
     """
@@ -229,7 +229,7 @@ class Journal:
         Raises
         ------
         FileError
-            it could not be written; the journal ends with its last whole row then, or will when it is gone on with
+            it could not be written; the journal ends with its last complete row then, or will when it is continued
         """
         row = row_bytes(self.header, task, outcome)
         kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
@@ -241,7 +241,7 @@ class Journal:
                     left = left[os.write(self.descriptor, left) :]
                 os.fsync(self.descriptor)
         except BaseException:
-            with contextlib.suppress(OSError):  # what is left of the row is cut off when the journal is gone on with
+            with contextlib.suppress(OSError):  # the rest of the row is cut off when the journal is continued
                 os.ftruncate(self.descriptor, end)
             raise
         self.finished[outcome.key] = kept
@@ -251,17 +251,18 @@ class Journal:
 def open_journal(
     path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
 ) -> Iterator[Journal]:
-    """The journal in a ``with`` block, in which nobody else writes it, and a whole run is alone in its folder.
+    """The journal in a ``with`` block, in which nobody else writes it, and an unsharded run is alone in its folder.
 
     Parameters
     ----------
     path
-        ``journal.csv`` of a whole run, or as ``journal_name`` for a shard; its folder is made if missing.
+        ``journal.csv`` of an unsharded run, or as ``journal_name`` for a shard; its folder is made if missing.
     resume
         Go on with this journal, and take the finished points of every other one in the folder as finished, whatever
         shards they are of. Where there is none, it begins.
     force
-        Begin anew: the earlier journal is replaced by the new one, and a whole run removes those of shards as well.
+        Begin anew: the earlier journal is replaced by the new one, and an unsharded run removes those of shards as
+        well.
     retry_failed
         Points that failed are not finished; their rows stay, and the last one of a point counts.
 
@@ -289,8 +290,8 @@ def open_journal(
         finished = {} if own is None else own.finished
         for outcome in merged(others, header).values() if resume else ():
             keep(finished, outcome)
-        if own is None:  # in place of an earlier one only once its header is whole
-            write_whole(path, header_bytes(header))
+        if own is None:  # in place of an earlier one only once its header is complete
+            write_complete(path, header_bytes(header))
             with file_errors(folder):
                 flush_to_disk(folder)
         for each in () if resume else earlier:
@@ -301,7 +302,7 @@ def open_journal(
             descriptor = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
             stack.callback(os.close, descriptor)
             if own is not None:
-                os.ftruncate(descriptor, own.whole)
+                os.ftruncate(descriptor, own.complete)
                 os.fsync(descriptor)
         if retry_failed:
             finished = {key: outcome for key, outcome in finished.items() if outcome.state != FAILED}
@@ -311,7 +312,7 @@ def open_journal(
 def _repaired(path: Path, own: JournalRows | None) -> tuple[Notice, ...]:
     if own is None or not own.torn:
         return ()
-    words = f"its last row was not whole and was cut off ({own.torn} bytes); the point is solved again"
+    words = f"its last row was incomplete and was cut off ({own.torn} bytes); the point is solved again"
     return (Notice("notice", "journal-repaired", f"{path}: {words}"),)
 
 
@@ -326,5 +327,5 @@ def _make_folder(folder: Path) -> None:
 
 def _who_is_in(folder: Path) -> str:
     holders = [(path, holder(path)) for path in journals_in(folder)]
-    told = [f"{path}: {who} {AT_WORK}" for path, who in holders if who]
-    return "\n".join(told) or f"{folder}: another sweep {AT_WORK}"
+    busy = [f"{path}: {who} {AT_WORK}" for path, who in holders if who]
+    return "\n".join(busy) or f"{folder}: another sweep {AT_WORK}"

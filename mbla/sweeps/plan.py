@@ -102,7 +102,7 @@ SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
 
 
 def as_named(plan: Plan, deck: str, outcome: Outcome) -> Outcome:
-    """An outcome that tells of files as the user names them, not by the folders of this machine.
+    """An outcome that names files as the user does, not by the folders of this machine.
 
     deck : the base deck as the sweep file names it
     """

@@ -23,7 +23,7 @@ OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
 TIME_OF_CASE = ("time.total", "time.solver")
 OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
-"""columns that every table of a sweep has beside those of parameters and results"""
+"""columns that every table of a sweep has in addition to those of parameters and results"""
 STATUS = "status"
 FACTORS = (
     "load_factor",
@@ -34,7 +34,7 @@ FACTORS = (
     "associative_load_factor",
 )
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
-no load brings down, which their status tells"""
+no load brings down, which their status says"""
 UNBOUNDED = "unbounded"
 """status of a position that nothing brings down: others may still be the worst"""
 
@@ -45,7 +45,7 @@ def is_of_run(path: str) -> bool:
 
 
 def result_places(results: Sequence[str], cases: Sequence[str]) -> list[tuple[str, str, str]]:
-    """Name, load case and key path of each column: case by case, then those of the whole run, which have no case.
+    """Name, load case and key path of each column: case by case, then those of the entire run, which have no case.
 
     The name is the path, with ``CASE.`` before it where several load cases are solved.
     """

@@ -13,7 +13,7 @@ from mbla.sweeps.command import Prepared, SweepOptions
 from mbla.sweeps.design.design import Design, Dimension, Point
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
-from mbla.sweeps.journal import WHOLE
+from mbla.sweeps.journal import SINGLE
 from mbla.sweeps.plan import Plain, Plan
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
@@ -21,13 +21,13 @@ from mbla.sweeps.tables.write_tables import Conclusion, TableFiles, refuse_table
 
 
 def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions) -> SweepOptions:
-    """Where the files of a study go, ``DECK_NAME.out`` unless that is given; one that was broken off is gone on with.
+    """Where the files of a study go, ``DECK_NAME.out`` unless that is given; one that was broken off is continued.
 
     Raises FileError where an earlier study is in the way.
     """
     folder = run.folder or deck.path.with_name(f"{deck.path.stem}_{name}.out")
     refuse_tables(folder, TableFiles(), replace=run.force)
-    resume = not run.force and (folder / WHOLE).exists()
+    resume = not run.force and (folder / SINGLE).exists()
     return SweepOptions(folder, engine, resume=resume, force=run.force, goes_on="the same command goes on")
 
 

@@ -87,9 +87,9 @@ def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
         if axis.sampling and (keep.any(i) != keep.all(i)).any():
             remarks.append(f"constraints leave out points of {name}: shares of its points are of those that stay")
     if len(samples) > 1:
-        told = " and ".join(axis.dimension.name for axis in samples)
+        names = " and ".join(axis.dimension.name for axis in samples)
         remarks.append(
-            f"{told} are combined point by point, so that together they are no random sample: one part for all "
+            f"{names} are combined point by point, so that together they are no random sample: one part for all "
             "random parameters makes them one"
         )
     return remarks
@@ -100,7 +100,7 @@ def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
 
 def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list[Axis]]:
     """Parts of the design, each with the names of its axes, and the axes, slowest first."""
-    told: list[tuple[Part, tuple[str, ...]]] = []
+    parts_made: list[tuple[Part, tuple[str, ...]]] = []
     axes: list[Axis] = []
     faults: list[Fault] = []
     taken = set(sources.content.parameters)
@@ -113,10 +113,10 @@ def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list
             continue
         taken.update(axis.dimension.name for axis in made)
         axes += made
-        told.append((part, tuple(axis.dimension.name for axis in made)))
+        parts_made.append((part, tuple(axis.dimension.name for axis in made)))
     if faults:
         raise DeckError(faults)
-    return told, axes
+    return parts_made, axes
 
 
 def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
@@ -136,7 +136,7 @@ def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
             u = np.column_stack([next(drawn) for _ in own]) if sampled else grid_quantiles(parameters[name])
             values, settings = filled(parameters[name], u, sources.vectors.get(name))
             if not sampled and key in RANGES and len(set(map(str, values[0]))) < len(u):
-                few = f"has {len(u)} points that numbers do not tell apart: widen the range, or take fewer"
+                few = f"has {len(u)} points that numbers cannot distinguish: widen the range, or take fewer"
                 raise WayError("sweep-values", few)
         except WayError as error:
             faults.append(sources.fault_at(("parameters", name, key), error.message))

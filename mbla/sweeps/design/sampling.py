@@ -60,9 +60,9 @@ def _sobol(points: int, seed: int, names: Sequence[str]) -> FloatArray:
 
     order = sorted(range(len(names)), key=lambda i: names[i])
     sequence = qmc.Sobol(len(names), bits=SOBOL_BITS, **_by(_generator(seed, sorted(names))))
-    whole = max(0, (points - 1).bit_length())
+    exponent = max(0, (points - 1).bit_length())
     drawn = np.empty((points, len(names)))
-    drawn[:, order] = sequence.random_base2(whole)[:points] + 0.5 ** (SOBOL_BITS + 1)
+    drawn[:, order] = sequence.random_base2(exponent)[:points] + 0.5 ** (SOBOL_BITS + 1)
     return drawn
 
 

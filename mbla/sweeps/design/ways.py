@@ -6,7 +6,7 @@ Values are written as a person would write them: 0.13, not 0.13000000000000003. 
 more than anybody measures, few enough that the rounding of the arithmetic and the last digits of mathematical
 libraries, which differ from machine to machine, do not show.
 
-A distribution that is cut off is what remains of the whole one, in proportion: with F its distribution function,
+A distribution that is cut off is what remains of the full one, in proportion: with F its distribution function,
 x(u) = F⁻¹(F(a) + u (F(b) − F(a))). The logarithm of a lognormal value of mean m and standard deviation s is normal with
 variance v = ln(1 + (s/m)²) and mean ln m − v/2.
 
@@ -104,11 +104,11 @@ def _numbers(section: Any, u: FloatArray) -> Sequence[Plain]:
         return _between(float(section.start), float(section.end), u)
     if isinstance(section, types.LogRange):
         return _log(float(section.start), float(section.end), u)
-    if isinstance(section, types.WholeRange):
+    if isinstance(section, types.IntegerRange):
         count = section.end - section.start + 1
-        whole: list[Plain] = (section.start + np.floor(u * count).astype(np.int64)).tolist()
-        return whole
-    with np.errstate(over="ignore", invalid="ignore"):  # infinite values are told with the place in the file
+        integers: list[Plain] = (section.start + np.floor(u * count).astype(np.int64)).tolist()
+        return integers
+    with np.errstate(over="ignore", invalid="ignore"):  # infinite values are reported with the place in the file
         if isinstance(section, types.Normal):
             values = cut_normal(u, section.mean, section.deviation, section.least, section.greatest)
             return rounded_within(values, section.least, section.greatest)
@@ -137,7 +137,7 @@ def rounded_within(values: FloatArray, least: float | None, greatest: float | No
 def _between(start: float, end: float, u: FloatArray) -> list[float]:
     """Values at shares u (n,) of the range, both ends exact, others to DIGITS digits of the span."""
     if start == end or not math.isfinite(end - start):
-        raise WayError("sweep-values", "has ends that numbers do not tell apart, or lie too far apart for them")
+        raise WayError("sweep-values", "has ends that numbers cannot distinguish, or lie too far apart for them")
     of_span = DIGITS - 1 - math.floor(math.log10(abs(end - start)))
     of_size = EXACT_DIGITS - 1 - math.floor(math.log10(max(abs(start), abs(end))))
     values = [round(value, min(of_span, of_size)) for value in (start * (1 - u) + end * u).tolist()]
@@ -159,7 +159,7 @@ def _log(start: float, end: float, u: FloatArray) -> list[float]:
 
 
 def _kind_of(values: Sequence[Plain]) -> str:
-    """Kind of the column: that of all values, ``float`` for whole and broken numbers together, else ``text``."""
+    """Kind of the column: that of all values, ``float`` for integers and fractions together, else ``text``."""
     if all(isinstance(value, bool) for value in values):
         return "bool"
     if any(isinstance(value, bool) or not isinstance(value, (int, float)) for value in values):

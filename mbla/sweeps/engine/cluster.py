@@ -2,7 +2,7 @@
 
 A sliding window of points is under way, so that neither the scheduler nor this process holds more than that of a sweep
 of any length. What was delivered stays, whatever becomes of the rest. Nothing waits without end: a scheduler or workers
-that are gone are told in words, with the remedy.
+that are gone are reported in words, with the remedy.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ PARTING = 1.0
 """seconds for taking leave of a scheduler; one that does not answer is left without"""
 CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 WINDOW = 2
-"""points under way for each thread of the workers: one is solved, the next waits beside it"""
+"""points under way for each thread of the workers: one is solved, the next waits with it"""
 TRIES = 2
 """times that Dask may find a point to have ended its workers before it is given up: one of its neighbours may have"""
 GIVEN_UP = "its worker was ended, as was that of each try before; given up"
@@ -195,7 +195,7 @@ class Connection:
         path = self._options.scheduler_file
         assert path is not None
         for _ in self._pauses():
-            with suppress(OSError, ValueError, KeyError, TypeError):  # or not yet the whole of it
+            with suppress(OSError, ValueError, KeyError, TypeError):  # or not yet complete
                 return str(json.loads(path.read_text(encoding="utf-8"))["address"])
         words = "there is no file with an address; `dask scheduler --scheduler-file` writes it"
         raise UsageError("scheduler-file", f"--scheduler-file {path}: {words}")
@@ -239,7 +239,7 @@ class Connection:
 
 @contextmanager
 def silenced() -> Iterator[None]:
-    """What Dask remarks on lost workers and connections is told in words of this program instead."""
+    """What Dask remarks on lost workers and connections is reported in words of this program instead."""
     names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] in ("distributed", "tornado")]
     loggers = [logging.getLogger(name) for name in names]
     levels = [logger.level for logger in loggers]

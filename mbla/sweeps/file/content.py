@@ -63,8 +63,8 @@ class LogRange(Section):
     )
 
 
-class WholeRange(Section):
-    """Whole numbers, each of them; all equally likely where they are drawn."""
+class IntegerRange(Section):
+    """Integers, each of them; all equally likely where they are drawn."""
 
     start: Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)] = Field(alias="from", description="first number")
     end: Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)] = Field(alias="to", description="last number")
@@ -141,7 +141,7 @@ class Parameter(Section):
     )
     linear: LinearRange | None = Field(None, description="a range in equal steps")
     log: LogRange | None = Field(None, description="a range in equal ratios")
-    whole: WholeRange | None = Field(None, description="whole numbers, as seeds are")
+    whole: IntegerRange | None = Field(None, description="integers, as seeds are")
     normal: Normal | None = Field(None, description="random: normal")
     lognormal: Lognormal | None = Field(None, description="random: lognormal")
     uniform: Uniform | None = Field(None, description="random: uniform")
@@ -185,7 +185,7 @@ class LimitsSection(Section):
 
 
 class OutputSection(Section):
-    """What is written beside the table."""
+    """What is written in addition to the table."""
 
     files: Literal["none", "failed", "all"] = Field(
         "none", description="result files of points, as `mbla run` writes them, in points/NUMBER/"
@@ -203,7 +203,7 @@ class FragilitySection(Section):
 
 
 class SweepContent(Section):
-    """A whole sweep file."""
+    """A complete sweep file."""
 
     mbla_sweep: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(
         description="version of the format of sweep files"
@@ -234,7 +234,7 @@ class SweepContent(Section):
         description="columns: key paths in the JSON object of a load case, or of the run with model., settings., time.",
     )
     limits: LimitsSection = Field(default_factory=LimitsSection, description="what one point may take")
-    output: OutputSection = Field(default_factory=OutputSection, description="what is written beside the table")
+    output: OutputSection = Field(default_factory=OutputSection, description="what is written in addition to the table")
     fragility: FragilitySection | None = Field(None, description="probability of collapse below a demand")
 
 

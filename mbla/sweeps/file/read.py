@@ -56,7 +56,7 @@ def read_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
 
 def _read(path: Path, overrides: Sequence[str]) -> Sweep:
     tree, reading = read_files(path, kind=SWEEP_FILE)
-    if not reading.whole:  # what could not be read would be reported as missing
+    if not reading.complete:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)
     if "mbla" in tree.data and "mbla_sweep" not in tree.data:
         message = "this is a deck, not a sweep file: mbla run solves it; a sweep file names it as its deck"

@@ -47,7 +47,7 @@ def one_key(item: types.Parameter | types.DesignPart) -> Iterator[Finding]:
 
 @rule(types.Parameter)
 def plain_values(item: types.Parameter) -> Iterator[Finding]:
-    """A value is one of the deck, not a whole section of it."""
+    """A value is one of the deck, not an entire section of it."""
     for index, value in enumerate(item.values or ()):
         if isinstance(value, dict):
             yield Finding(
@@ -73,7 +73,7 @@ def linear_range(item: types.LinearRange) -> Iterator[Finding]:
         yield Finding("out-of-bounds", "must differ from the value of from", "to")
 
 
-@rule(types.LogRange, types.WholeRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere)
+@rule(types.LogRange, types.IntegerRange, types.Uniform, types.Triangular, types.Horizon, types.Sphere)
 def upwards(item: Any) -> Iterator[Finding]:
     """From the least to the greatest."""
     if not item.start < item.end:
@@ -182,7 +182,7 @@ def every_parameter_in_one_part(sweep: SweepContent) -> Iterator[Finding]:
 
 @rule(SweepContent)
 def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
-    """Levels where values are combined one by one, distributions and whole ranges where they are sampled."""
+    """Levels where values are combined one by one, distributions and integer ranges where they are sampled."""
     for part in design_parts(sweep):
         for name in dict.fromkeys(part.parameters):
             way, points = way_of(sweep.parameters[name]), level_count(sweep.parameters[name])
@@ -201,7 +201,7 @@ def ways_fit_their_part(sweep: SweepContent) -> Iterator[Finding]:
 
 @rule(SweepContent)
 def grid_values_once(sweep: SweepContent) -> Iterator[Finding]:
-    """No point of a grid twice; in a zip a value may come again beside others, and in a sample it has more weight."""
+    """No point of a grid twice; in a zip a value may come again with others, and in a sample it has more weight."""
     for part in design_parts(sweep):
         for name in part.parameters if part.kind == "grid" else ():
             values = sweep.parameters[name].values or []

@@ -17,7 +17,7 @@ VALUE_TYPES = ["number", "string", "boolean", "array"]
 
 
 def sweep_schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of a whole sweep file."""
+    """JSON Schema (draft 2020-12) of a complete sweep file."""
     schema = SweepContent.model_json_schema(by_alias=True)
     definitions = {name: _without_expressions(tidy(each)) for name, each in schema.pop("$defs").items()}
     for section, keys in (("Parameter", WAYS), ("DesignPart", KINDS)):

@@ -2,5 +2,5 @@
 
     deck ──> question ──> points ──> domain ──> table, diagram
 
-``study.py`` puts the parts together, tells and draws.
+``study.py`` puts the parts together, reports and draws.
 """

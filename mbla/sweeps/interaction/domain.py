@@ -6,12 +6,12 @@ states, mixed, carry the mixed loads within convex yield conditions). So
 - the convex hull of points that static bounds prove safe is safe: the inner polygon. The dead load alone, at the
   origin, is such a point where the structure stands under it, and so is all of a ray on which no factor brings
   collapse;
-- every mechanism bounds the whole set by a half-plane x p_x + y p_y ≤ k (:mod:`mbla.results.record.json_record`), with
+- every mechanism bounds the entire set by a half-plane x p_x + y p_y ≤ k (:mod:`mbla.results.record.json_record`), with
   the powers p of the two loads: their intersection is the outer polygon.
 
 The set lies between the two. Safe points beyond a half-plane would show that a bound is wrong: an error of
-verification, which is told. Without associative flow there is no such theorem; the domain drawn is that of associative
-flow, and the load factors of the deck's own flow rule lie inside of it.
+verification, which is reported. Without associative flow there is no such theorem; the domain drawn is that of
+associative flow, and the load factors of the deck's own flow rule lie inside of it.
 
 M. A. Save, C. E. Massonnet: Plastic analysis and design of plates, shells and disks, 1972: the domain of loads that are
 carried is convex in the space of the load parameters.

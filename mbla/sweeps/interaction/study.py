@@ -33,7 +33,7 @@ RESULTS = (
     *("status", "verified", "load_factor", "associative_load_factor", "static_bound", "kinematic_bound"),
     *("standing.verdict", "mechanism.class"),
 )
-"""columns, beside the powers of a pair of loads"""
+"""columns, in addition to the powers of a pair of loads"""
 AZIMUTH = SweepColumn("azimuth", "degree", "azimuth of the live load", "float", "azimuth", "azimuth")
 ANGLE = SweepColumn("angle", "degree", "of two loads: A times cosine, B times sine", "float", "parameter", "angle")
 GRAVEST_FIRST = (1, 6, 7, 3, 4)
@@ -133,8 +133,8 @@ def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
 def _point_table(question: Question, points: Points, results: SweepTable) -> list[str]:
     """A line for each point; in capitals where it has no verified answer, which may be that there is no factor."""
     unsure = np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)).tolist()
-    told = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
-    status = [str.upper(text or state) if doubt else text or state for text, state, doubt in told]
+    rows = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
+    status = [str.upper(text or state) if doubt else text or state for text, state, doubt in rows]
     both = question.kind == TWO_LOADS
     figures = {"load factor": points.known, **(dict(zip(question.axes, points.places.T, strict=True)) if both else {})}
     figures |= {"static bound": points.static, "kinem. bound": points.kinematic}

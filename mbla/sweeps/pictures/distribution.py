@@ -1,7 +1,7 @@
 """Distribution of a result over a sample: histogram, and cumulative curve with its confidence band.
 
 The band is that of Dvoretzky, Kiefer and Wolfowitz with the constant of Massart, Ann. Probab. 18 (1990) 1269-1283,
-doi:10.1214/aop/1176990746: the whole curve of the population lies in it with the confidence stated, for independent
+doi:10.1214/aop/1176990746: the entire curve of the population lies in it with the confidence stated, for independent
 points. What does not stand counts below every value, what nothing brings down above; what failed is unknown: the lower
 edge of the band takes it as above, the upper edge as below.
 """
@@ -60,7 +60,7 @@ def refusal(view: View) -> str:
 
 
 def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulative:
-    """The curve of some points, (n_points,) true for those; without a band its edges tell only what is unknown."""
+    """The curve of some points, (n_points,) true for those; without a band its edges show only what is unknown."""
     values = np.sort(answers.values[own & answers.good])
     below, above, unknown = (int((which & own).sum()) for which in (answers.below, answers.above, answers.unknown))
     points = int(own.sum())
@@ -139,7 +139,7 @@ def _notes(view: View, curves: Sequence[Cumulative]) -> list[str]:
     if view.table.samples:
         kind = view.table.sampling.replace("_", " ")
         notes = [
-            f"{kind} sample; band: {CONFIDENCE:.0%} for the whole curve of independent points, as random ones are "
+            f"{kind} sample; band: {CONFIDENCE:.0%} for the entire curve of independent points, as random ones are "
             "(Dvoretzky-Kiefer-Wolfowitz)"
         ]
     if any(curve.below or curve.above for curve in curves):

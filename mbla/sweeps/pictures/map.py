@@ -21,7 +21,7 @@ def refusal(view: View) -> str:
     if len(view.axes) < 2:
         return "needs two parameters of a grid with two values each"
     if len(view.answers.categories) > MOST_CLASSES:
-        return f"{len(view.answers.categories)} different texts; {MOST_CLASSES} can be told apart"
+        return f"{len(view.answers.categories)} different texts; {MOST_CLASSES} can be distinguished"
     return ""
 
 

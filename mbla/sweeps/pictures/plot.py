@@ -34,7 +34,7 @@ KINDS: dict[str, Kind] = {
 }  # fmt: skip
 """by name, in the order in which they are made"""
 USUAL: dict[str, Callable[[View], bool]] = {
-    "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it tells no more than curves
+    "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it shows no more than curves
     "scatter": lambda view: bool(view.sampled),
     "distribution": lambda view: bool(view.table.samples),
     "tornado": lambda view: len(tornado.ordered(view) if view.sampled else view.axes) > 1,
@@ -58,7 +58,7 @@ def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
 
 
 CLASS = "mechanism.class"
-"""text result of which a map is made beside that of the load factor"""
+"""text result of which a map is made in addition to that of the load factor"""
 
 
 @dataclass(frozen=True)

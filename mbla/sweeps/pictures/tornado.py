@@ -28,7 +28,7 @@ LEAST_POINTS = 10
 """points from which a correlation and its interval are worth a picture; the interval's variance needs more than 3"""
 NOTE_OF_SAMPLE = (
     "bars: Spearman rank correlation over the points with a verified value; whiskers: 95% interval (Bonett and Wright) "
-    "of independent points; bars of parameters that go together, by constraints or a zip, cannot be told apart"
+    "of independent points; bars of parameters that go together, by constraints or a zip, cannot be separated"
 )
 NOTE_OF_GRID = (
     "bars: mean change from the least to the greatest value of the parameter at each combination of the others; "
@@ -43,7 +43,7 @@ class Bar:
     value     : rank correlation, or mean change from the least value of the parameter to the greatest
     low, high : ends of the interval, or least and greatest of these changes
     size      : by which the bars are sorted
-    words     : figures, beside the name
+    words     : figures, next to the name
     """
 
     name: str

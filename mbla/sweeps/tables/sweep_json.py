@@ -78,7 +78,7 @@ def counts(table: SweepTable) -> dict[str, int]:
 
 
 def _places(dimensions: Sequence[Dimension], position: IntArray) -> list[int] | None:
-    """Place of each point in the whole design, the last dimension fastest, from 0; None where all are there."""
+    """Place of each point in the full design, the last dimension fastest, from 0; None where all are there."""
     shape = tuple(dimension.size for dimension in dimensions)
     places = np.ravel_multi_index(tuple(position.T), shape) if shape else np.zeros(len(position), dtype=np.int64)
     return None if np.array_equal(places, np.arange(np.prod(shape))) else [int(place) for place in places]
@@ -186,7 +186,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("design.dimensions[].size", "integer", "positions along it"),
     Key("design.samples", "string?", "the axis whose points are a random sample of distributions"),
     Key("design.sampling", "string?", "random, latin_hypercube or sobol for that"),
-    Key("design.places", "list?", "place of each row in the whole design, the last axis fastest; null: all are there"),
+    Key("design.places", "list?", "place of each row in the full design, the last axis fastest; null: all are there"),
     Key("design.places[]", "integer", "a place, from 0"),
     Key("columns", "list", "columns of sweep.csv, in their order"),
     Key("columns[]", "object", "a column"),
@@ -201,7 +201,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     ),
     Key("columns[].dimension", "string", "of parameters: the axis along which they change"),
     Key("columns[].random", "boolean", "of parameters: they follow a distribution"),
-    Key("columns[].case", "string", "of results: load case; empty for values of the whole run"),
+    Key("columns[].case", "string", "of results: load case; empty for values of the entire run"),
     Key("columns[].path", "string", "of results: key path in the JSON record of the run"),
     *fragility_keys("fragility"),
     Key("notices", "list", "remarks and warnings"),
@@ -210,7 +210,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("notices[].identifier", "string", "stable identifier"),
     Key("notices[].message", "string", "in words"),
     Key("time", "object", "what it took"),
-    Key("time.total", "number", "the whole run by the clock", "time"),
+    Key("time.total", "number", "the entire run by the clock", "time"),
     Key("files", "list", "names of the files of the sweep"),
     Key("files[]", "string", "a file"),
 )

@@ -19,7 +19,7 @@ from mbla.sweeps.plan import Outcome, Plain
 class SweepTable:
     """Points of a sweep with their results.
 
-    values     : an array (n_points,) for each column: float with nan, whole numbers and truth values masked where there
+    values     : an array (n_points,) for each column: float with nan, integers and truth values masked where there
                  is none, text as objects with None
     dimensions : axes of the design, slowest first
     position   : (n_points, n_dimensions) of each point along them, from 0

@@ -3,7 +3,7 @@
 As HDF5 it lies along the axes of its design, as xarray opens it. Every dimension of the design has a scale of its name:
 the values of a parameter of a grid, else the position, from 0, in a set of points that change several parameters
 together, whose parameters are coordinates along it. Results lie over all dimensions. What does not exist (no result, a
-point that was left out or is not solved yet) is nan, empty text, or the ``_FillValue`` of whole numbers and truth
+point that was left out or is not solved yet) is nan, empty text, or the ``_FillValue`` of integers and truth
 values, which xarray shows as nan.
 """
 
@@ -30,7 +30,7 @@ from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 FILETYPE = "mbla sweep"
 TYPES = {"float": np.float64, "int": np.int64, "bool": np.int8, "text": object}
 NONE: dict[str, Any] = {"float": np.nan, "int": int(np.iinfo(np.int64).min), "bool": -1, "text": ""}
-"""what stands for no value; of whole numbers and truth values, which are 0 and 1, it is the ``_FillValue``"""
+"""what stands for no value; of integers and truth values, which are 0 and 1, it is the ``_FillValue``"""
 OF_DESIGN = ("parameter", "azimuth", "elevation")
 """roles of columns that lie along one dimension"""
 
@@ -121,7 +121,7 @@ PICTURES = ("png", "svg")
 
 @dataclass(frozen=True)
 class TableFiles:
-    """What is written beside sweep.csv and sweep.json."""
+    """What is written next to sweep.csv and sweep.json."""
 
     parquet: bool = False
     hdf5: bool = False
@@ -165,7 +165,7 @@ def refuse_tables(folder: Path, files: TableFiles, *, replace: bool) -> None:
     """
     if files.parquet:
         require_parquet()
-    OutputFolder(folder, "sweep", replace, beside=True).refuse(*files.names)
+    OutputFolder(folder, "sweep", replace, secondary=True).refuse(*files.names)
 
 
 def write_tables(
@@ -181,7 +181,7 @@ def write_tables(
         what Parquet needs is not installed
     """
     remark = _without_pictures() if conclusion.pictures else ""
-    with OutputFolder(folder, "sweep", True, beside=True) as out:
+    with OutputFolder(folder, "sweep", True, secondary=True) as out:
         out.write_text(CSV, sweep_csv(table))
         for name, text in conclusion.texts.items():
             out.write_text(name, text)

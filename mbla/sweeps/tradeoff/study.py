@@ -42,7 +42,7 @@ RESIDUALS = (
     *("equilibrium_residual", "yield_violation", "tension_violation", "penetration", "complementarity_residual"),
     *("slip_residual", "power_balance"),
 )
-"""what tells how badly forces and velocities fit the joint law"""
+"""what says how badly forces and velocities fit the joint law"""
 FACTOR = ("load_factor", "static_bound", "kinematic_bound")
 ANGLE = ("angle", "angle_bounds.0", "angle_bounds.1")
 REACTION = ("reaction.value", "reaction.lower_bound", "reaction.upper_bound")
@@ -73,7 +73,7 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     chosen = study_options(deck, run, "tradeoff", EngineOptions(until=until, threads=run.threads))
     assert chosen.folder is not None
     model = build_model(deck)
-    contacts_of(deck, model)  # what is wrong with it is told before a process is started
+    contacts_of(deck, model)  # what is wrong with it is reported before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
     rungs = ladder_of(deck, run.overrides, named)
     points = {rung.name: rung.settings for rung in rungs if not rung.unfit}
@@ -193,7 +193,7 @@ def _table(trade: CaseTrade) -> list[str]:
 
 
 def _error(distance: float, resolution: float) -> str:
-    """``<1e-9`` where it is less than can be told."""
+    """``<1e-9`` where it is less than can be resolved."""
     return f"<{small(resolution)}" if distance < resolution else small(distance)
 
 

@@ -1,9 +1,9 @@
 """Distances from the reference, the Pareto front and the advice, load case by load case.
 
 The reference is ``accuracy: reference`` where it is verified, else the verified setting of the deck's own model that is
-good to the least share; its own accuracy is the resolution below which distances cannot be told apart. On the front are
-the verified settings of the same model of which no other is both as fast and as near. Nothing that is not verified, and
-no other model, is ever on the front or advised: the difference of another model is no error.
+good to the least share; its own accuracy is the resolution below which distances cannot be distinguished. On the front
+are the verified settings of the same model of which no other is both as fast and as near. Nothing that is not verified,
+and no other model, is ever on the front or advised: the difference of another model is no error.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class CaseTrade:
     seconds    : of the load case by the clock
     reference  : number of the setting that the others are held against; None where none has an answer
     certain    : the reference is verified
-    resolution : distances below this are none that can be told; nan without a reference
+    resolution : distances below this cannot be resolved; nan without a reference
     distance   : relative, from the reference; 0 where both confirm that there is no figure, nan where only one has one
     sound      : verified, of the deck's own model, and comparable: may be on the front and be advised
     front      : sound, and no other is at least as good in time and distance and better in one

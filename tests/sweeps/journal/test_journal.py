@@ -108,7 +108,7 @@ def test_to_go_on_where_nothing_is_begins(tmp_path: Path) -> None:
     ],
 )
 def test_a_journal_of_something_else_is_refused_and_told_why(path: Path, other: JournalHeader, words: str) -> None:
-    assert f"{path}: of another sweep ({words}): it cannot be gone on with; --force begins" in refusal(path, other)
+    assert f"{path}: of another sweep ({words}): it cannot be continued; --force begins" in refusal(path, other)
 
 
 @pytest.mark.parametrize(
@@ -193,7 +193,7 @@ def check(path: Path, content: bytes, count: int) -> None:
     expected = {task.key: as_read(outcome) for task, outcome in SHORT_POINTS[:count]}
     rows = read_journal(path, HEADER)
     assert rows.finished == expected
-    assert (rows.whole, rows.torn) == (ENDS[count], len(content) - ENDS[count])
+    assert (rows.complete, rows.torn) == (ENDS[count], len(content) - ENDS[count])
     assert path.read_bytes() == content
 
 
