@@ -66,7 +66,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[str]]:
     """The folder in which the sweep of the README was run, and what it printed."""
     folder = tmp_path_factory.mktemp("readme")
     (folder / "wall.yaml").write_text(block("`wall.yaml`:"), encoding="utf-8")
-    (folder / "door.yaml").write_text(block("`door.yaml`, beside", SWEEPS), encoding="utf-8")
+    (folder / "door.yaml").write_text(block("`door.yaml`, next to", SWEEPS), encoding="utf-8")
     printed = io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(printed):
         assert main(["sweep", "door.yaml"]) == 0

@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import FileError
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.layout import MOST
-from mbla.results.record.quantity import TOLD
+from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.verify import verify_file
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
@@ -258,7 +258,7 @@ def test_datasets_and_attributes_that_nothing_reads_are_compared(path: Path) -> 
 
 def test_what_the_run_alone_can_tell_is_marked(path: Path) -> None:
     with changing(path) as file:
-        assert file["cases/push/reason"].attrs["verification"] == f"not verified: {TOLD['words']}".encode()
+        assert file["cases/push/reason"].attrs["verification"] == f"not verified: {UNVERIFIED['words']}".encode()
         assert "verification" not in file["cases/push/load_factor"].attrs
         file["cases/push/seconds"][...] = 3600.0
     assert differences(path) == ""

@@ -12,11 +12,11 @@ import pytest
 
 from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
-from mbla.results.hdf5.content import as_told
+from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.listing import verification_lines
 from mbla.results.outcome import unproved_words
 from mbla.results.record.json_record import verification_json
-from mbla.results.record.quantity import TOLD
+from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.results import Results
 from mbla.results.verify import verify_file
 from mbla.run import run
@@ -109,12 +109,12 @@ def test_a_doubt_is_marked_and_a_load_factor_that_rests_on_it_not_confirmed(
     assert disagreements == ()
     assert again.exit_code == 4
     (words,) = unproved_words(again.cases)
-    assert "is not verified, the run told 'doubtful'; what is said of the live load presumes" in words
+    assert "is not verified, the run reported 'doubtful'; what is said of the live load presumes" in words
     assert words in verification_json(again, disagreements)["not_verified"]
     assert "presumes that it stands" in " ".join("\n".join(verification_lines(again, disagreements)).split())
     with h5py.File(written(tmp_path, changed)) as file:
         name = f"cases/{again.cases[0].load_case.name}/standing/verdict"
-        assert file[name].attrs["verification"] == f"not verified: {TOLD['standing']}".encode()
+        assert file[name].attrs["verification"] == f"not verified: {UNVERIFIED['standing']}".encode()
 
 
 def test_a_structure_that_falls_is_not_made_doubtful_without_a_word(
@@ -131,12 +131,12 @@ def test_a_structure_that_falls_is_not_made_doubtful_without_a_word(
 def test_proved_verdicts_are_not_marked(originals: dict[Standing, Results], tmp_path: Path) -> None:
     for verdict in (YES, NO):
         results = originals[verdict]
-        assert TOLD["standing"] not in as_told(results)
+        assert UNVERIFIED["standing"] not in unverified_kinds(results)
         assert unproved_words(results.cases) == ()
         with h5py.File(written(tmp_path, results)) as file:
             name = f"cases/{results.cases[0].load_case.name}/standing/verdict"
             assert "verification" not in file[name].attrs
-    assert TOLD["standing"] in as_told(originals[SELF_STRESS])
+    assert UNVERIFIED["standing"] in unverified_kinds(originals[SELF_STRESS])
 
 
 @pytest.mark.parametrize("kept", [True, False])
@@ -190,5 +190,5 @@ def test_bounds_of_associative_flow_presume_no_standing(tmp_path: Path) -> None:
     assert disagreements == ()
     assert again.exit_code == 0
     assert unproved_words(again.cases) == (
-        "push: whether it stands under its dead load alone is not verified, the run told 'doubtful'",
+        "push: whether it stands under its dead load alone is not verified, the run reported 'doubtful'",
     )

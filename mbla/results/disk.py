@@ -1,6 +1,6 @@
-"""Files and folders: errors of the operating system in our words, and files that are there as a whole or not at all.
+"""Files and folders: errors of the operating system in our words, and files that are there completely or not at all.
 
-A single file beside results, such as a picture, is written under a temporary name in the same folder, flushed to the
+A single file next to results, such as a picture, is written under a temporary name in the same folder, flushed to the
 disk and renamed into place. What killed runs left under temporary names is cleared away:
 
     ``.mbla-HOST-PID-new-NAME``       a file that is being written
@@ -12,7 +12,7 @@ began; the next one in the folder does it then, for every process of this machin
 
 
 A lock keeps two runs off one journal, or one result. It is one of the operating system (flock) on a file of its own
-beside what it keeps: it ends with the process that holds it, however that ends, so that none is ever left behind. The
+next to what it keeps: it ends with the process that holds it, however that ends, so that none is ever left behind. The
 file says who holds it; it is removed at the end, and one that a killed process left is in nobody's way.
 
 Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
@@ -175,7 +175,7 @@ def writing_whole(path: Path) -> Iterator[Path]:
         raise
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def write_complete(path: Path, data: bytes) -> None:
     """Write one file; raises as ``writing_whole`` does."""
     with writing_whole(path) as temporary:
         temporary.write_bytes(data)
@@ -195,7 +195,7 @@ _WORDS = 200
 
 
 def lock_path(path: Path) -> Path:
-    """The file that is locked for this one: hidden, beside it."""
+    """The file that is locked for this one: hidden, next to it."""
     return path.with_name(f".{path.name}.lock")
 
 

@@ -14,15 +14,15 @@ from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
 
 FAULTS = ("not-as-expected", "isolated-blocks")
-"""Warnings of a whole run that count as not verified."""
+"""Warnings of an entire run that count as not verified."""
 
 
 def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> int:
     """Exit status of a run: the gravest of its cases; ``FAULTS`` among its notices count as not verified.
 
-    An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status tells it
-    from a case that is solved. Nor are positions of a travelling load that bring nothing down where another is the
-    worst.
+    An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status
+    distinguishes it from a case that is solved. Nor are positions of a travelling load that bring nothing down where
+    another is the worst.
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]

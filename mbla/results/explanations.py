@@ -1,4 +1,4 @@
-"""What ``mbla explain`` tells: the entries of ``messages.toml``, found by identifier, other name, message or word."""
+"""What ``mbla explain`` prints: the entries of ``messages.toml``, found by identifier, other name, message or word."""
 
 from __future__ import annotations
 
@@ -82,26 +82,26 @@ def _filled(text: str, words: dict[str, str]) -> str:
 # --- finding --------------------------------------------------------------------------------------------------------
 
 
-def find_explanations(asked: str) -> tuple[Explanation, ...]:
-    """Entries for an identifier, another name of one, a message pasted whole, or a word; the exact one alone.
+def find_explanations(query: str) -> tuple[Explanation, ...]:
+    """Entries for an identifier, another name of one, a complete message, or a word; the exact one alone.
 
     Raises
     ------
     UsageError
         nothing fits
     """
-    name = _kebab(asked)
+    name = _kebab(query)
     entries = explanations().values()
     exact = [entry for entry in entries if name in (entry.identifier, *map(_kebab, entry.aliases))]
     if exact:
         return tuple(exact)
-    found = _of_message(asked) or _with_word(asked)
+    found = _of_message(query) or _with_word(query)
     if not found:
         names = [*explanations(), *(alias for entry in entries for alias in entry.aliases)]
         near = did_you_mean(name, names[:200]) or did_you_mean(name, names[200:])
         raise UsageError(
             "explain-unknown",
-            f"explain {asked}: nothing is known by that name{near or '; mbla explain lists every identifier'}",
+            f"explain {query}: nothing is known by that name{near or '; mbla explain lists every identifier'}",
         )
     return found
 
@@ -110,16 +110,16 @@ def _kebab(text: str) -> str:
     return "-".join(text.strip().strip("[]").casefold().replace("_", " ").replace("-", " ").split())
 
 
-def _of_message(asked: str) -> tuple[Explanation, ...]:
-    """What a whole message is about: by the identifier in brackets, else by what it says."""
+def _of_message(query: str) -> tuple[Explanation, ...]:
+    """What a complete message is about: by the identifier in brackets, else by what it says."""
     entries = explanations().values()
-    bracketed = [entry for entry in entries if f"[{entry.identifier}]" in asked]
-    return tuple(bracketed or [entry for entry in entries if any(words in asked for words in entry.says)])
+    bracketed = [entry for entry in entries if f"[{entry.identifier}]" in query]
+    return tuple(bracketed or [entry for entry in entries if any(words in query for words in entry.says)])
 
 
-def _with_word(asked: str) -> tuple[Explanation, ...]:
-    """Entries that have all words asked for in identifier, title or messages; else anywhere."""
-    words = _kebab(asked).split("-")
+def _with_word(query: str) -> tuple[Explanation, ...]:
+    """Entries that have all words query for in identifier, title or messages; else anywhere."""
+    words = _kebab(query).split("-")
 
     def having(texts: Sequence[str]) -> bool:
         text = " ".join(texts).casefold().replace("-", " ").replace("_", " ")
@@ -142,7 +142,7 @@ def explanation_text(found: Sequence[Explanation]) -> str:
 def all_text() -> str:
     """Every entry in a line, by sections."""
     lines = [line for title, entries in sections().items() for line in (*heading(title), *_in_lines(entries))]
-    lines += ["", "mbla explain ID explains one in full; a word or a whole message finds it too."]
+    lines += ["", "mbla explain ID explains one in full; a word or a complete message finds it too."]
     return "\n".join(lines[1:]) + "\n"
 
 

@@ -19,7 +19,7 @@ SIGNALS: dict[type[BaseException], tuple[int, str]] = {
 }
 """exit status and word of the signals that end a command"""
 ENDINGS: tuple[type[BaseException], ...] = (Exception, *SIGNALS)
-"""whatever ends a command that is told"""
+"""whatever ends a command and is reported"""
 
 
 class StoppedRun(BaseException):

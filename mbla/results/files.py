@@ -4,7 +4,7 @@ Every file is written under a temporary name in the folder itself (a rename is a
 flushed to the disk and renamed into place when the run has succeeded.
 
 A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
-:mod:`mbla.results.write`, which the next whole result removes); signals wait while it does that, and while it
+:mod:`mbla.results.write`, which the next complete result removes); signals wait while it does that, and while it
 puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
 (:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.disk`).
 """
@@ -56,8 +56,8 @@ class OutputFolder:
     force
         Replace an earlier result of this deck. Files which that result lists as its own and the new one does not write
         are removed; nothing else ever is.
-    beside
-        The files stand beside a result and are none themselves: only files of their own names are in the way.
+    secondary
+        The files accompany a result and are none themselves: only files of their own names are in the way.
 
     Raises
     ------
@@ -66,11 +66,11 @@ class OutputFolder:
         be written to. Anywhere else: what the operating system refused, with the name of the file.
     """
 
-    def __init__(self, folder: Path, stem: str, force: bool = False, *, beside: bool = False) -> None:
+    def __init__(self, folder: Path, stem: str, force: bool = False, *, secondary: bool = False) -> None:
         self.folder = folder
         self.stem = stem
         self.force = force
-        self.beside = beside
+        self.secondary = secondary
         self._names: list[str] = []
         self._live: dict[str, TextIO] = {}
         self._aside: set[str] = set()
@@ -162,11 +162,11 @@ class OutputFolder:
             atexit.register(self._discard)  # for an interruption in the very step from the block to __exit__
             self.folder.mkdir(parents=True, exist_ok=True)
         _try_writing(self.folder, self._temporary("new", "trial"))
-        if not self.beside:
+        if not self.secondary:
             self._locks.enter_context(locked(self.folder / f"{self.stem}.h5", required=False))
         with file_errors(self.folder):
             clear_leftovers(self.folder)
-        if not self.beside:
+        if not self.secondary:
             self._refuse_earlier_result()
             self._stale = earlier_files(self.folder, self.stem)
             if is_partial(self.folder, partial_stem(self.stem)):
@@ -242,7 +242,7 @@ class OutputFolder:
     def _discard(self, error: BaseException | None = None) -> None:
         """Back to how it was, once; what cannot be undone must not hide the error that led here, but is noted in it.
 
-        What is left stays marked then, and the next run in the folder puts it back.
+        The rest stays marked then, and the next run in the folder puts it back.
         """
         if self._process != os.getpid():  # ended already, or a copy of the process
             return

@@ -1,12 +1,12 @@
 """What solver and verification found wrong or remark, as notices of a run.
 
 There are also magnitudes in one model that lie so far apart that double precision is the cause of what is not verified.
-Sixteen digits hold the forces on a heavy block and what is left of them for a light neighbour. Measured: weights of
+Sixteen digits hold the forces on a heavy block and what remains of them for a light neighbour. Measured: weights of
 neighbours 1e8 apart, and joints 1e7 times as strong as the loads, still give verified load factors; at 1e12 none does
 for sure, but of a light block that touches one heavier body only, whatever their ratio: a cube of 1e6 m under a block
 of 1 m. Of an interface that tips long before it slides, friction times slenderness is such a ratio: convex contacts
 with 1e8 are right to six digits, with 1e9 they are not solved. Likewise a load factor is exact to the rounding of the
-forces over the live load: one that is near zero beside dead over live load is zero as far as anything can tell.
+forces over the live load: one that is near zero relative to dead over live load is zero to that rounding.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
         notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
     rounding = rounding_of(model, case)
     if rounding > 0.0:
-        text = f"{name}: the load factor is zero as far as forces can tell, to about {rounding:.1e}"
+        text = f"{name}: the load factor is zero to the accuracy of the forces, about {rounding:.1e}"
         notices.append(Notice("notice", "load-factor-rounding", text, name))
     return notices
 
@@ -146,7 +146,7 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
 def rounding_of(model: Model, case: CaseResult) -> float:
     """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter.
 
-    Next to nothing beside dead over live load, of the blocks that move where the others are heavier.
+    Negligible relative to dead over live load, of the blocks that move where the others are heavier.
     """
     mechanics, free = case.solution.mechanics, model.free
     dead, live = case.load_case.dead_load[free], case.load_case.live_load[free]
@@ -173,7 +173,7 @@ def _strength(strength: FloatArray, mean: float) -> list[str]:
 
 def _scant(friction: FloatArray) -> list[str]:
     least = float(friction[friction > 0].min(initial=np.inf))
-    return [f"friction of {least:.0e} is next to none beside the normal forces"] if least * FAR_APART < 1.0 else []
+    return [f"friction of {least:.0e} is negligible relative to the normal forces"] if least * FAR_APART < 1.0 else []
 
 
 def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list[str]:

@@ -37,7 +37,7 @@ RESIDUALS = {
 }
 """what says how badly forces and velocities fit the joint law, and what each is relative to"""
 WORST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL)
-"""verdicts that speak for the whole structure as soon as one case has them, the worst first"""
+"""verdicts that apply to the whole structure as soon as one case has them, the worst first"""
 
 
 def result_of(case: CaseResult) -> Mechanics | None:
@@ -89,7 +89,7 @@ def presumes_standing(case: CaseResult) -> bool:
 def unproved_words(cases: Sequence[CaseResult]) -> tuple[str, ...]:
     """Of which cases nothing proves what is said of standing, a sentence each."""
     return tuple(
-        f"{case.load_case.name}: whether it stands under its dead load alone is not verified, the run told "
+        f"{case.load_case.name}: whether it stands under its dead load alone is not verified, the run reported "
         f"{case.solution.standing.verdict.value!r}"
         + ("; what is said of the live load presumes that it stands" if presumes_standing(case) else "")
         for case in cases
@@ -114,7 +114,7 @@ def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
 def extent_of(model: Model, case: CaseResult) -> tuple[float, float] | None:
     """Least and greatest load factor that were found: its own, verified ends of its range, ends of other tries.
 
-    None where the case has no result, and where all are one figure as far as the residual of the state tells. The
+    None where the case has no result, and where all are one figure to the residual of the state. The
     greatest is inf where forces that fit the mechanism carry any multiple.
     """
     own = result_of(case)

@@ -46,7 +46,7 @@ class CaseResult:
 
 @dataclass(frozen=True)
 class Results:
-    """A whole run.
+    """A complete run.
 
     provenance : versions and platform by name; ``mbla`` is the version of the program (see ``collect_provenance``)
     settings   : the analysis settings in effect, by name

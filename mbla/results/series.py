@@ -50,15 +50,15 @@ def factor_of(case: CaseResult) -> float:
     return np.nan if found is None else found.load_factor
 
 
-def told_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
-    """Those told in full: of a travelling load the worst position, and positions without a result, which hide it."""
-    told = {case.load_case.name for case in cases if case.load_case.travel is None}
+def detailed_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
+    """Those reported in full: of a travelling load the worst position, and positions without result, which hide it."""
+    names = {case.load_case.name for case in cases if case.load_case.travel is None}
     for series in series_of(cases):
         factors = np.array([factor_of(case) for case in series.cases])
         unknown = [case for case, factor in zip(series.cases, factors, strict=True) if np.isnan(factor)]
         least = series.worst or series.cases[int(np.argmin(np.nan_to_num(factors, nan=np.inf)))]
-        told |= {case.load_case.name for case in (least, *unknown)}
-    return tuple(case for case in cases if case.load_case.name in told)
+        names |= {case.load_case.name for case in (least, *unknown)}
+    return tuple(case for case in cases if case.load_case.name in names)
 
 
 def series_of(cases: Sequence[CaseResult]) -> tuple[Series, ...]:
@@ -103,7 +103,7 @@ def no_such_case(results: Results, name: str | None) -> UsageError:
 
 
 ROUNDING = 1e-12
-"""share of the load of the axles on a block below which what is left of its load is none"""
+"""share of the load of the axles on a block below which the rest of its load counts as none"""
 
 
 def without_vehicle(blocks: Blocks, loads: FloatArray, travel: TravelPosition | None) -> FloatArray:

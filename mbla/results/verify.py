@@ -5,8 +5,8 @@ prove an answer for the arrays of a file, and that these arrays are the structur
 its texts and the meshes and tables that it names. Of every case the forces and mechanisms are taken, and all that
 follows from them is found again: velocities, modes, parts, work, residuals, bounds, ends of ranges, standing, angle,
 status. The file that this gives must be the one at hand, dataset by dataset. So the file is believed in nothing but the
-fields that say what the run alone can tell (``told`` of :class:`mbla.results.record.quantity.Quantity`), which are
-marked in it and named in what is printed.
+fields that say what the run alone can state (``unverified`` of :class:`mbla.results.record.quantity.Quantity`), which
+are marked in it and named in what is printed.
 """
 
 from __future__ import annotations
@@ -168,7 +168,7 @@ def rebuilt(results: Results) -> tuple[Deck | None, tuple[str, ...]]:
     if record.sources[0][0] != record.name:
         differences.append("the deck does not have the name of its text")
     deck, of_model = _read_again(results, expected=True)
-    if of_model:  # a study leaves expectations out, and what only they use is told as not used
+    if of_model:  # a study leaves expectations out, and what only they use is reported as not used
         without, others = _read_again(results, expected=False)
         deck, of_model = (without, others) if deck is None or not others else (deck, of_model)
     return deck, (*differences, *of_model)
@@ -206,14 +206,14 @@ def _content(deck: Deck, results: Results, folder: Path) -> Content:
 
 
 def _threads(results: Results) -> dict[str, str]:
-    """Of a run, beside its settings: no deck says them."""
+    """Of a run, besides its settings: no deck says them."""
     return {name: words for name, words in results.settings.items() if name == "threads"}
 
 
-def _placed_as(told: Sequence[Notice], notices: Sequence[Notice], folder: Path) -> tuple[Notice, ...]:
+def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path) -> tuple[Notice, ...]:
     """Notices that begin with a place in the deck, with the folder that the file has there."""
     placed = list(notices)
-    for row, (notice, own) in enumerate(zip(notices, told, strict=False)):
+    for row, (notice, own) in enumerate(zip(notices, stored, strict=False)):
         place = notice.message.removeprefix(f"{folder}/")
         if place != notice.message:
             placed[row] = replace(notice, message=own.message if own.message.endswith(place) else place)

@@ -1,9 +1,9 @@
 """All files of a run, through the output folder that puts them in place together.
 
-A run that is stopped leaves the load cases that were done, beside an earlier result and never in its place. Their files
-are ``STEM.partial.h5``, ``.lst`` and ``.json`` in the folder of the results. They say that they are not complete,
-what was not done, and give way to those of the next run of the deck, whole or stopped again. A run that is refused (its
-deck, its options, a file) leaves nothing: it has said why, and comes as far again.
+A run that is stopped leaves the load cases that were done, next to an earlier result and never in its place. Their
+files are ``STEM.partial.h5``, ``.lst`` and ``.json`` in the folder of the results. They say that they are not complete,
+what was not done, and give way to those of the next run of the deck, complete or stopped again. A run that is refused
+(its deck, its options, a file) leaves nothing: it has said why, and comes as far again.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from mbla.results.listing.listing import find_failure, listing
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of, told_cases
+from mbla.results.series import detailed_cases, series_of
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import SERIES, tables_of
 from mbla.results.vtu.mesh_files import write_mesh_files
@@ -38,7 +38,7 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
         and pictures, and so is ``files``.
     output
         What the deck asks for: files for ParaView and the frames of their animations; the pictures that ``mbla plot``
-        makes unless told otherwise; whether every position of a travelling load has them, or the worst.
+        makes by default; whether every position of a travelling load has them, or the worst.
 
     Returns
     -------
@@ -55,9 +55,9 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
     begin = time.perf_counter()
     for case in results.cases:
         find_failure(results.model, results.contacts, case)
-    told = time.perf_counter()
+    described = time.perf_counter()
     every_position = output.positions == "all"
-    shown = replace(results, cases=results.cases if every_position else told_cases(results.cases))
+    shown = replace(results, cases=results.cases if every_position else detailed_cases(results.cases))
     if output.vtu:
         write_mesh_files(shown, out, output.frames)
     if output.plots:
@@ -65,7 +65,7 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
     if series_of(results.cases):
         out.write_text(f"{out.stem}_positions.csv", table_csv(tables_of(results, (SERIES.name,))[SERIES.name]))
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
-    seconds = {"write": time.perf_counter() - begin, "write/failure": told - begin}
+    seconds = {"write": time.perf_counter() - begin, "write/failure": described - begin}
     results = replace(results, time=results.time | seconds, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results, every_position=every_position))
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
@@ -118,14 +118,14 @@ def keep_partial(results: Results, out: OutputFolder, output: OutputSection) -> 
         They could not be written, or files of another deck have their names; nothing is left then.
     """
     stem = partial_stem(out.stem)
-    with OutputFolder(out.folder, stem, force=is_partial(out.folder, stem)) as beside:
-        return write_results(results, beside, output.model_copy(update={"vtu": False, "plots": False}))
+    with OutputFolder(out.folder, stem, force=is_partial(out.folder, stem)) as partial:
+        return write_results(results, partial, output.model_copy(update={"vtu": False, "plots": False}))
 
 
 def stopped(results: Results, cause: BaseException, out: OutputFolder, output: OutputSection) -> StoppedRun:
-    """What to raise where a run was stopped; what stopped it tells where the load cases that were done are.
+    """What to raise where a run was stopped; what stopped it says where the load cases that were done are.
 
-    out : where the whole result would have gone
+    out : where the complete result would have gone
     """
     partial = partial_results(results, cause)
     try:

@@ -29,7 +29,7 @@ def layout_table() -> str:
     lines = ["| dataset | type | dimensions | units | content |", "|---|---|---|---|---|"]
     for field in STORED:
         content = field.words + (f" (part: {field.part})" if field.part else "")
-        content += f"; {NOT_VERIFIED.format(field.told)}" if field.told else ""
+        content += f"; {NOT_VERIFIED.format(field.unverified)}" if field.unverified else ""
         content += f" (verified where it is {' or '.join(field.proved)})" if field.proved else ""
         dims = ", ".join(field.dims) or "–"
         lines.append(f"| `/{field.path}` | {field.kind} | {dims} | {unit_text(field.unit, Units())} | {content} |")

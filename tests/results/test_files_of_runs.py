@@ -114,7 +114,7 @@ def test_every_dataset_is_described(folder: Path, name: str) -> None:
             standard = {"units", "long_name", "DIMENSION_LIST", "DIMENSION_LABELS"}
             of_text, not_verified = (
                 {"_Encoding"} if field.kind == "text" else set(),
-                {"verification"} if field.told_of(text_of(dataset[()])) else set(),
+                {"verification"} if field.unproved(text_of(dataset[()])) else set(),
             )
             assert set(dataset.attrs) - standard == of_text | not_verified
             assert tuple(dimension.label for dimension in dataset.dims) == field.dims

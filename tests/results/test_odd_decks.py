@@ -23,7 +23,7 @@ from mbla.results.pictures.plot import plot_results
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.report.report import report_html
-from mbla.results.series import told_cases
+from mbla.results.series import detailed_cases
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import export_results, tables_of
 from mbla.results.verify import verify_file
@@ -221,7 +221,7 @@ def test_words_and_records(name: str) -> None:
             assert case.collapse is None
         if case.status != "solved":
             assert SAID[case.status].lower() in case.verdict.lower()
-            told = case.name in [each.load_case.name for each in told_cases(run.records.cases)]
+            told = case.name in [each.load_case.name for each in detailed_cases(run.records.cases)]
             in_table = not told and case.status == "unbounded"
             assert ("any multiple" if in_table else SAID[case.status].lower()) in run.listing.lower()
     for table in tables_of(run.records).values():

@@ -18,7 +18,7 @@ from mbla.results.listing.summary import summary_lines
 from mbla.results.outcome import angle_bounds, angle_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import chosen_cases, factor_of, series_of, told_cases
+from mbla.results.series import chosen_cases, detailed_cases, factor_of, series_of
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from tests.results.synthetic import standing_at, tower_results
@@ -132,7 +132,7 @@ S, U, N = Status.SOLVED, Status.UNBOUNDED, Status.NOT_VERIFIED
 )
 def test_positions_told_in_full(statuses: Sequence[Status], factors: Sequence[float], told: list[int]) -> None:
     other = tower_results().cases[1]
-    found = told_cases((*train(statuses, factors), other))
+    found = detailed_cases((*train(statuses, factors), other))
     assert [case.load_case.name for case in found] == [*(f"train@{number}" for number in told), other.load_case.name]
 
 

@@ -1,4 +1,4 @@
-"""The parts of a mechanism as they are told: few rigid motions that explain most of it.
+"""The parts of a mechanism as they are listed: few rigid motions that explain most of it.
 
 Rigid parts (:mod:`mbla.results.collapse.rigid_parts`) are exact to the residual of a solution. The mechanism of a large
 structure may have hundreds of them that differ by a thousandth, and a facade that is pushed out of its plane opens a
@@ -26,7 +26,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import PartMotion, numbered, part_motions
 
 MOST = 12
-"""rigid parts that are told as they are; an arch that fails has three, a wall in bond up to ten"""
+"""rigid parts that are listed as they are; an arch that fails has three, a wall in bond up to ten"""
 FEW = 4
 """parts that a reader keeps apart, which stand for more"""
 ENOUGH = 0.95
@@ -38,7 +38,7 @@ _Sums: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
 
 @dataclass(frozen=True)
 class Clusters:
-    """The parts as they are told.
+    """The parts as they are listed.
 
     of_block  : (n_blocks,) part of each block, 0 at rest; numbered by falling weight
     motions   : of each, as ``part_motions`` has them
@@ -93,7 +93,7 @@ def _part_sums(model: Model, parts: IntArray, motion: FloatArray) -> _Sums:
 
 
 def _nearest(sums: _Sums, label: IntArray) -> tuple[IntArray, FloatArray]:
-    """Cluster of each part, beginning with those given, and what is left of its motion; (n_parts,) each."""
+    """Cluster of each part, beginning with those given, and the rest of its motion; (n_parts,) each."""
     squares, numbers = sums[2], range(1, int(label.max()) + 1)
     rests = squares
     for _ in range(MOST_DIVISIONS):

@@ -1,6 +1,6 @@
 """What collapses and how: modes of interfaces, rigid parts and work of a case; and the first block to fall.
 
-Listing, summary, JSON record, result file and pictures all tell the same failure, which takes seconds to find in a
+Listing, summary, JSON record, result file and pictures all show the same failure, which takes seconds to find in a
 large model. Records are known by identity: their arrays cannot be hashed, and nobody changes them.
 
 What a contact point does follows from its velocity alone. The motion is one of associative flow, so that a point that
@@ -12,8 +12,8 @@ lifts it is a gap.
 
 How a structure fails: parts, hinge lines, sliding planes, cracks, and the class of the mechanism.
 
-Told of the clusters of a failure (:mod:`mbla.results.collapse.collapse`), by joints whose contact speed is a notable
-share of the largest:
+Described for the clusters of a failure (:mod:`mbla.results.collapse.collapse`), by joints whose contact speed is a
+notable share of the largest:
 
 - sliding: joints slide and none hinges;
 - twisting: the same, and each of them slides by turning about its normal;
@@ -53,7 +53,7 @@ T = TypeVar("T")
 
 
 def kept(function: Callable[P, T]) -> Callable[P, T]:
-    """The same function of records and whole numbers, by position, called once for the same ones.
+    """The same function of records and integers, by position, called once for the same ones.
 
     Its result must not hold any of them, or they would live for ever.
     """
@@ -74,7 +74,7 @@ def kept(function: Callable[P, T]) -> Callable[P, T]:
     return once
 
 
-# --- A mechanism as it is told --------------------------------------------------------------------------------------
+# --- A mechanism as it is listed -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
 class Failure:
     """What pictures, report and words say of a mechanism.
 
-    clusters       : (n_blocks,) part as told of each block, 0 at rest
+    clusters       : (n_blocks,) listed part of each block, 0 at rest
     motions        : of these parts, the heaviest first
     explained      : share of the motion that they explain, 1 where they are the rigid parts themselves
     hinge_lines    : the one that moves most first

@@ -174,7 +174,7 @@ def _freedom(matrix: sp.csr_array, owner: Any, n_interfaces: int) -> ForceFreedo
     if degree > 0:
         null = np.random.default_rng(0).standard_normal(matrix.shape[1])
         scale = float(np.abs(null).max())
-        for _ in range(3):  # each takes what is left of the range of Aᵀ down by the shift over the gap
+        for _ in range(3):  # each takes the remaining range of Aᵀ down by the shift over the gap
             null = null - matrix.T @ shifted.solve(matrix @ null)
         determined[owner[np.abs(null) > UNTOUCHED * scale]] = False
     return ForceFreedom(degree, determined)

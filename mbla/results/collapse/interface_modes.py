@@ -1,9 +1,9 @@
-"""Modes of whole interfaces from the velocities of their contact points.
+"""Modes of interfaces from the velocities of their contact points.
 
 The faces of a hinge touch at its closed points, which lie on its axis unless they slide too: with dilatancy one end
 lifts more than the other, and the axis through their mean leaves the interface. The hinge reaches then from the closed
 point that lies first along the axis to that which lies last, one and the same where it turns about a corner. Where it
-crushes, its axis crosses the interface beside the closed points and reaches as far as these.
+crushes, its axis crosses the interface off the closed points and reaches as far as these.
 
 Two rigid bodies move against each other by one velocity v of body b relative to a at the centroid c of the interface
 and one rotation ω; the velocity at a point x of it is v + ω × (x − c). What that is called is decided by ratios of the
@@ -54,7 +54,7 @@ def interface_radii(contacts: Contacts) -> FloatArray:
 
 
 CRUSHED = 0.02
-"""Distance of the axis from the mean of the closed points, over the radius of the interface, from which it runs beside
+"""Distance of the axis from the mean of the closed points, over the radius of the interface, from which it runs off
 them: less is no crushing that a reader of the ends would see."""
 
 
@@ -65,7 +65,7 @@ def hinge_ends(
 
     is_open    : (n_points,)
     points, directions : (n_interfaces, 3) of the axes, nan where there is no hinge
-    crushed    : (n_interfaces,) the axis runs beside the closed points, as far as these
+    crushed    : (n_interfaces,) the axis runs off the closed points, as far as these
     """
     closed = np.flatnonzero(np.isfinite(points[:, 0])[contacts.interface_of_point] & ~is_open)
     owners, places = contacts.interface_of_point[closed], contacts.points[closed]

@@ -112,7 +112,7 @@ def loads_by_group(model: Model, load_case: LoadCase, mechanics: Mechanics) -> d
     return {str(name): (float(sums[0][i]), float(sums[1][i])) for i, name in enumerate(names)}
 
 
-# --- What forces say about whole interfaces and supports ------------------------------------------------------------
+# --- What forces say about interfaces and supports ------------------------------------------------------------------
 
 
 MOST_SINGLE_SUPPORTS = 12

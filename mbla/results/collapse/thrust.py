@@ -60,12 +60,12 @@ class Thrust:
 
     @property
     def carried(self) -> BoolArray:
-        """Interfaces that are pressed on the whole, (n_interfaces,)."""
+        """Interfaces that are pressed in total, (n_interfaces,)."""
         return np.asarray(np.isfinite(self.points[:, 0]))
 
     @property
     def unpressed(self) -> BoolArray:
-        """Interfaces with a force but no compression on the whole, (n_interfaces,).
+        """Interfaces with a force but no compression in total, (n_interfaces,).
 
         That is tension, or shear that cohesion takes.
         """
@@ -103,7 +103,7 @@ OUTSIDE = 1.01
 def points_to_draw(contacts: Contacts, thrust: Thrust) -> FloatArray:
     """Where resultants are drawn, (n_interfaces, 3) m: outside their joint at its edge; nan where it is not pressed.
 
-    Tension lets a force act metres beyond its joint, where its mark would shrink the structure and tell nothing.
+    Tension lets a force act metres beyond its joint, where its mark would shrink the structure and show nothing.
     """
     arms = thrust.points - contacts.centroids
     return np.asarray(contacts.centroids + arms / np.maximum(thrust.eccentricity, 1.0)[:, None])
@@ -212,7 +212,7 @@ def _walks(neighbours: list[list[int]]) -> list[IntArray]:
     seen = [not near for near in neighbours]
     walks = []
     starts = [i for i, near in enumerate(neighbours) if len(near) == 1]
-    for start in (*starts, *range(len(neighbours))):  # paths from their ends first, then what is left: rings
+    for start in (*starts, *range(len(neighbours))):  # paths from their ends first, then the rest: rings
         if seen[start]:
             continue
         walk, here = [start], start

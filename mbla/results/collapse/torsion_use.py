@@ -1,7 +1,7 @@
 """How much of an interface shear force and torsion take together, under the normal forces that it has.
 
 A resultant (T, M), M about the normal, is compared with what the interface carries in the same ratio: the use is the
-least s for which (T, M)/s can be carried. 1 is failure of the whole interface by sliding, twisting or both; without a
+least s for which (T, M)/s can be carried. 1 is failure of the full interface by sliding, twisting or both; without a
 moment about the centre of friction it is shear over what friction and cohesion allow, else more.
 
 *Contact points* at x_i that allow the shear a_i = μ N_i + c A_i each. A motion of b against a by slip η and rotation ω

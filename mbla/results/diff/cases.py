@@ -179,7 +179,7 @@ def _rule(case: CaseResult) -> str:
 
 
 def _figures(first: Scene, second: Scene, factors: Factors, tolerance: float) -> tuple[Figure, tuple[Figure, ...]]:
-    """What a user asks of the case, and the figures beside it that one of the two has."""
+    """What a user asks of the case, and the further figures that one of the two has."""
     load_case = _case(first).load_case
 
     def compared(name: str) -> Figure:

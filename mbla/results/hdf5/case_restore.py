@@ -117,7 +117,7 @@ def _size(get: dict[str, Any]) -> ModelSize | None:
 
 
 def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
-    """Files of runs that looked for none have no such table."""
+    """Files of runs without any have no such table."""
     if "reductions/name" not in get:
         return ()
     sizes = {}

@@ -85,12 +85,12 @@ def content_of(results: Results) -> Content:
     return content
 
 
-def as_told(results: Results) -> tuple[str, ...]:
-    """Kinds of statements in the results that the run alone can tell, so that nobody can verify them."""
+def unverified_kinds(results: Results) -> tuple[str, ...]:
+    """Kinds of statements in the results that the run alone can make, so that nobody can verify them."""
     content = content_of(results)
     placed = fields_of([case.name for case in results.model.load_cases])
     kinds = (
-        field.told_of(content[path]) for path, field in placed if path in content and np.size(np.asarray(content[path]))
+        each.unproved(content[path]) for path, each in placed if path in content and np.size(np.asarray(content[path]))
     )
     return tuple(dict.fromkeys(kind for kind in kinds if kind))
 

@@ -1,6 +1,6 @@
 """The layout of the HDF5 result file: the stored part of the record, a dataset a quantity, at its place.
 
-A dataset is read as the layout wants it, and a whole file compared with another that should be the same.
+A dataset is read as the layout wants it, and a complete file compared with another that should be the same.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ SHARED_DIMENSIONS = (
     "component",
     "pair",
 )
-"""dimensions with their scale in the root group, where every group sees it; that of others is beside their dataset"""
+"""dimensions with their scale in the root group, where every group sees it; that of others is next to their dataset"""
 
 
 def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Quantity], ...]:
@@ -137,7 +137,7 @@ LINKS = ("DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid")
 """attributes that hold places in the file"""
 
 LONGEST_TEXT = 60
-"""letters of a text that is told in a disagreement"""
+"""letters of a text that is quoted in a disagreement"""
 
 
 def differences(found: h5py.Group, wanted: h5py.Group, path: str = "") -> Iterator[str]:

@@ -59,7 +59,7 @@ class Labelled:
 
     dimensions : paths of scales, one for each dimension
     attributes : ``units``, ``long_name`` and others
-    missing    : the value of whole numbers that stands for none; None where there is no such
+    missing    : the value of integers that stands for none; None where there is no such
     """
 
     values: np.typing.NDArray[Any]
@@ -97,7 +97,7 @@ def write_results_hdf5(results: Results) -> bytes:
 
 @contextmanager
 def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
-    """A new file in memory, whole when the block is left.
+    """A new file in memory, complete when the block is left.
 
     HDF5's own image of a file, which its core driver gives, cannot be opened by releases before 2.0: the check sum of
     its first block is not that of its bytes.
@@ -234,14 +234,14 @@ def _labelled(scales: dict[str, Labelled], path: str, field: Quantity, value: Va
     if array.ndim != len(field.dims):
         raise AssertionError(f"{field.path}: {array.ndim} dimensions, the layout has {len(field.dims)}")
     attributes = {"units": unit_text(field.unit, units), "long_name": field.words}
-    if told := field.told_of(value):
-        attributes["verification"] = NOT_VERIFIED.format(told)
+    if kind := field.unproved(value):
+        attributes["verification"] = NOT_VERIFIED.format(kind)
     sizes = zip(field.dims, array.shape, strict=True)
     return Labelled(array, tuple(_scale(scales, path, name, size) for name, size in sizes), attributes)
 
 
 def _scale(scales: dict[str, Labelled], path: str, name: str, size: int) -> str:
-    """Path of the dimension scale of that name: in the root group if it is shared, else beside the dataset."""
+    """Path of the dimension scale of that name: in the root group if it is shared, else next to the dataset."""
     place = name if name in SHARED_DIMENSIONS else f"{path.rpartition('/')[0]}/{name}"
     words = {"units": "1", "long_name": f"dimension: {name.replace('_', ' ')}"}
     known = scales.setdefault(place, Labelled(np.arange(size, dtype=np.int64), (place,), words))

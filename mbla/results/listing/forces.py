@@ -94,8 +94,8 @@ def _table(
     size = float(np.abs(model.blocks.vertices).max(initial=0.0))
     lines = []
     for place, (a, b), *values in zip(contacts.centroids[rows], contacts.bodies[rows], *forces.values(), strict=True):
-        told = ["unlimited" if np.isinf(value) else number(value) for value in values]
-        lines.append([f"{model.body_name(int(a))}/{model.body_name(int(b))}", vector(place, size), *told])
+        texts = ["unlimited" if np.isinf(value) else number(value) for value in values]
+        lines.append([f"{model.body_name(int(a))}/{model.body_name(int(b))}", vector(place, size), *texts])
     head = ["interface", f"at [{model.units.length}]", *(f"{name} [{model.units.force}]" for name in forces)]
     return ["", *sentence(says), *long_table(head, lines, total, left=2)[1:]]
 
@@ -120,14 +120,14 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
     if result_of(case) is None or not len(contacts):
         return []
     if isinstance(freedom, str):
-        told = f"How far the contact forces are unique was not determined, as {freedom}."
+        text = f"How far the contact forces are unique was not determined, as {freedom}."
     else:
-        told = (
+        text = (
             f"Degree of static indeterminacy at this load factor, in this mechanism: at most {freedom.degree}; the "
             f"resultants of {int(freedom.determined.sum())} of {counted(len(contacts), 'interface')} are unique."
         )
     can_ask = case.solution.force_ranges is None and case.solution.contact_model == "concave"
-    return sentence(told + " For ranges of forces: analysis.force_ranges: true." * can_ask)
+    return sentence(text + " For ranges of forces: analysis.force_ranges: true." * can_ask)
 
 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
@@ -141,14 +141,14 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
     if work.given <= 0:
         return []
 
-    def told(name: str, power: float) -> str:
+    def part(name: str, power: float) -> str:
         return f"{name} {round(100 * power / work.given, 1) + 0.0:.1f} %"
 
     normal = float(work.normal.sum())
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
     joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
-    shares = [told(name, power) for name, power in joints.items() if name == "friction" or told("", power) != " 0.0 %"]
+    shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
     settles = load_case.settlement is not None  # the dead load holds the reaction at rest then
     live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")
-    loads = f"{told(live, work.live)}, {told(dead, work.dead)}"
+    loads = f"{part(live, work.live)}, {part(dead, work.dead)}"
     return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")

@@ -1,6 +1,6 @@
 """The listing: what was asked, what the model is, what was found; ``mbla show`` prints it from the .h5 alone.
 
-The sections of one load case tell how it collapses, how well that is known, where the forces go.
+The sections of one load case say how it collapses, how well that is known, where the forces go.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
-from mbla.results.hdf5.content import as_told
+from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import series_lines, worst_words
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
@@ -25,7 +25,7 @@ from mbla.results.listing.forces import (
     reaction_lines,
     work_lines,
 )
-from mbla.results.listing.mechanism_words import mechanism_lines, mechanism_summary, told_of
+from mbla.results.listing.mechanism_words import description_of, mechanism_lines, mechanism_summary
 from mbla.results.listing.model_words import (
     contact_lines,
     header_lines,
@@ -40,7 +40,7 @@ from mbla.results.listing.text import counted, entry, full_sentence, heading, nu
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
 from mbla.results.outcome import dimension_of, result_of, unproved_words
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of, told_cases
+from mbla.results.series import detailed_cases, series_of
 
 
 @dataclass(frozen=True)
@@ -60,14 +60,14 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
 def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
     """What there is to say of a load case, the verdict and the failure first; no section is empty."""
     solution, held, model = case.solution, model, model.of_case(case.load_case)
-    mechanics, load_case, told = solution.mechanics, case.load_case, told_of(model, contacts, case)
-    summary = "" if told is None or mechanics is None else mechanism_summary(model, told.collapse, told.failure)
-    sections = [Section("Verdict", _verdict_lines(model, case, summary, [] if told is None else told.sentences))]
-    if told is not None:
-        sections.append(Section("Mechanism", mechanism_lines(model, contacts, told.failure)))
-    if mechanics is not None and told is not None:
-        work = enough_lines(case, enough_of(model, contacts, told.collapse.parts))
-        work += work_lines(load_case, told.collapse.work)
+    mechanics, load_case, how = solution.mechanics, case.load_case, description_of(model, contacts, case)
+    summary = "" if how is None or mechanics is None else mechanism_summary(model, how.collapse, how.failure)
+    sections = [Section("Verdict", _verdict_lines(model, case, summary, [] if how is None else how.sentences))]
+    if how is not None:
+        sections.append(Section("Mechanism", mechanism_lines(model, contacts, how.failure)))
+    if mechanics is not None and how is not None:
+        work = enough_lines(case, enough_of(model, contacts, how.collapse.parts))
+        work += work_lines(load_case, how.collapse.work)
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
         reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))
@@ -95,13 +95,13 @@ def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
         force_freedom(model, contacts, mechanics, dimension_of((case,)))
 
 
-def _verdict_lines(model: Model, case: CaseResult, summary: str, told: Sequence[str]) -> list[str]:
+def _verdict_lines(model: Model, case: CaseResult, summary: str, sentences: Sequence[str]) -> list[str]:
     """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
     says = verdict(model, case)
     if summary:
         says += f"{_mechanism_label(case)}: {summary}"
     lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
-    lines += spaced([line for text in told for line in sentence(text)])
+    lines += spaced([line for text in sentences for line in sentence(text)])
     known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
     return lines + spaced([line for text in known for line in sentence(text)])
 
@@ -112,12 +112,12 @@ def _mechanism_label(case: CaseResult) -> str:
 
 ANOTHER_POSITION = (
     "Of these positions the worst has a section of its own above, and so have those without a result; "
-    "mbla report {}.h5 --case {} tells another, output: {{positions: all}} in the deck tells all."
+    "mbla report {}.h5 --case {} reports another, output: {{positions: all}} in the deck reports all."
 )
 
 
 def listing(results: Results, *, every_position: bool = False) -> str:
-    """The whole listing, at most 100 columns wide, with a newline at its end.
+    """The complete listing, at most 100 columns wide, with a newline at its end.
 
     every_position : sections of every position of a travelling load, not only of the worst
     """
@@ -128,12 +128,12 @@ def listing(results: Results, *, every_position: bool = False) -> str:
         *contact_lines(results.model, results.contacts),
         *notice_lines(results.notices),
     ]
-    told = results.cases if every_position else told_cases(results.cases)
-    for case in told:
+    detailed = results.cases if every_position else detailed_cases(results.cases)
+    for case in detailed:
         lines += case_lines(results.model, results.contacts, case)
     for series in series_of(results.cases):
         lines += series_lines(results.model, series)
-        if len(told) < len(results.cases):
+        if len(detailed) < len(results.cases):
             lines += sentence(ANOTHER_POSITION.format(Path(results.deck.name).stem, series.cases[0].load_case.name))
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
@@ -146,7 +146,7 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
         lines += heading(f"Load case {case.load_case.name}") + figures(results.model, case)
     lines += heading("Summary")
     lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
-    lines += sentence(f"not verified, but as the run told it: {'; '.join(as_told(results))}")
+    lines += sentence(f"not verified, but as the run reported it: {'; '.join(unverified_kinds(results))}")
     lines += [line for text in unproved_words(results.cases) for line in sentence(text)]
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
     of_file = [notice.message for notice in results.notices if notice.identifier == "run-stopped"]
@@ -158,7 +158,7 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
 
 def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
-    for case in told_cases(results.cases):
+    for case in detailed_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     left_out = len(results.model.load_cases) - len(results.cases)
@@ -173,5 +173,5 @@ def _seconds(time: Mapping[str, float]) -> str:
     """Of every stage, and in brackets of its parts."""
     said = {stage: f"{stage.split('/')[-1]} {number(round(value, 3))} s" for stage, value in time.items()}
     parts = {stage: [said[part] for part in said if part.startswith(f"{stage}/")] for stage in said}
-    whole = [stage for stage in said if "/" not in stage]
-    return ", ".join(said[stage] + (f" ({', '.join(parts[stage])})" if parts[stage] else "") for stage in whole)
+    stages = [stage for stage in said if "/" not in stage]
+    return ", ".join(said[stage] + (f" ({', '.join(parts[stage])})" if parts[stage] else "") for stage in stages)

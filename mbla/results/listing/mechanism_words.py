@@ -1,6 +1,6 @@
 """The mechanism of a case: one line, a sentence for each main part, and tables of parts, hinges, slides and cracks.
 
-The fall of a structure without equilibrium is told in the same words.
+The fall of a structure without equilibrium is described in the same words.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ LIFTS = (
 
 
 @dataclass(frozen=True)
-class Told:
+class FailureDescription:
     """How a case fails, or falls without equilibrium; the sentences are read in their order, tables follow."""
 
     collapse: Collapse
@@ -44,7 +44,7 @@ class Told:
     sentences: list[str]
 
 
-def told_of(model: Model, contacts: Contacts, case: CaseResult) -> Told | None:
+def description_of(model: Model, contacts: Contacts, case: CaseResult) -> FailureDescription | None:
     """From the mechanism, a result or not; without equilibrium from the motion that proves it; None without any."""
     load_case, mechanics, certificate = case.load_case, case.solution.mechanics, case.solution.certificate
     remark = []
@@ -56,11 +56,11 @@ def told_of(model: Model, contacts: Contacts, case: CaseResult) -> Told | None:
     else:
         return None
     failure = failure_of(model, contacts, collapse, mechanics)
-    return Told(collapse, failure, failure_sentences(model, load_case, collapse, failure) + remark)
+    return FailureDescription(collapse, failure, failure_sentences(model, load_case, collapse, failure) + remark)
 
 
 def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str:
-    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 rigid parts``, as they are told and drawn."""
+    """``4 hinges, sliding at 2 interfaces; 23 of 27 free blocks move in 3 rigid parts``, as listed and drawn."""
     count = collapse.interfaces.count
     words = [
         (count(InterfaceMode.HINGE), "{}", "hinge"),
@@ -90,8 +90,8 @@ def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, fai
     text = f"The mechanism is {reach(share)}, {100 * share:.3g} % of the weight: {_moving(model, collapse, failure)}"
     if failure.explained < 1.0:
         text += (
-            f". Distributed mechanism: its {len(collapse.motions)} rigid parts are told by the motions nearest to "
-            f"theirs, {100 * failure.explained:.3g} % of the motion (of its square over the volume)"
+            f". Distributed mechanism of {len(collapse.motions)} rigid parts, approximated by {len(failure.motions)}: "
+            f"they reproduce {100 * failure.explained:.3g} % of the motion, as a volume-weighted square"
         )
     texts = [f"{text}.", *(_part_sentence(model, load_case, part) for part in failure.motions[:MOST_PARTS])]
     if len(failure.motions) > MOST_PARTS:

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
-from mbla.results.listing.mechanism_words import mechanism_summary, told_of
+from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import series_of, told_cases
+from mbla.results.series import detailed_cases, series_of
 
 HINT = "`mbla explain ID` says what an identifier in brackets means and what to do."
 
@@ -35,11 +35,11 @@ def warning_lines(results: Results) -> list[str]:
 
 
 def warning_summary(results: Results) -> list[str]:
-    """For the terminal: in full what the words of its case do not tell, then all identifiers."""
+    """For the terminal: in full what the words of its case do not say, then all identifiers."""
     warnings = warnings_of(results)
     own = [notice for case in results.cases for notice in case_notices(case)]
-    told = [notice for notice in warnings if not notice.case or notice in own]
-    lines = [line for notice in told for line in sentence(str(notice))]
+    listed = [notice for notice in warnings if not notice.case or notice in own]
+    lines = [line for notice in listed for line in sentence(str(notice))]
     counts = Counter(warning.identifier for warning in warnings)
     named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())
     says = f"{counted(len(warnings), 'warning')}: {named}; mbla explain ID says more"
@@ -59,9 +59,9 @@ def summary_lines(results: Results) -> list[str]:
         f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
-    told = told_cases(results.cases)
-    lines = [counts, *_table(results.model, told)]
-    for case in told:
+    detailed = detailed_cases(results.cases)
+    lines = [counts, *_table(results.model, detailed)]
+    for case in detailed:
         lines += _in_words(results, case)
     for series in series_of(results.cases):
         for words in (worst_words(results.model, series), spread_over_positions(series)):
@@ -70,7 +70,7 @@ def summary_lines(results: Results) -> list[str]:
 
 
 def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
-    """Status and answer of every case; the associative answer beside it where the deck's flow rule is another."""
+    """Status and answer of every case; the associative answer next to it where the deck's flow rule is another."""
     if not cases:
         return []
     heads, rows = answer_columns(model, cases)
@@ -87,11 +87,11 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
     model, contacts, found = results.model.of_case(case.load_case), results.contacts, result_of(case)
     fails = found is not None or case.solution.mechanics is None
-    told = told_of(model, contacts, case) if fails else None
+    how = description_of(model, contacts, case) if fails else None
     text, details = f"{case.load_case.name}: {verdict(model, case)}", []
-    if told is not None:  # what the heaviest part does; of a fall how much moves, too
-        text += "" if found is None else f": {mechanism_summary(model, told.collapse, told.failure)}"
-        details = told.sentences[:2] if found is None else told.sentences[1:2]
+    if how is not None:  # what the heaviest part does; of a fall how much moves, too
+        text += "" if found is None else f": {mechanism_summary(model, how.collapse, how.failure)}"
+        details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
     for words in (*details, *reasons(case), bound_words(model, case)):
         lines += sentence(words, DETAIL)

@@ -19,7 +19,7 @@ class Block:
 
     kind   : ``title``, ``paragraph``, ``entries`` (names and values) or ``table``
     text   : of a title or paragraph, caption of a table
-    rows   : cells, whole
+    rows   : cells, not wrapped
     left   : columns of a table that are words; the others are figures
     detail : a paragraph belongs to what stands above it
     """

@@ -25,7 +25,7 @@ NAN = float("nan")
 class Case:
     """One load case of a run. A figure that is no result is nan and an array None; ``reason`` says why.
 
-    results : the whole run
+    results : the entire run
     record  : everything that was found, also what is no result (``record.solution.mechanics`` is the best iterate)
 
     Arrays are in the units of the deck (``units``), blocks and contact points in the order of ``results.model.blocks``

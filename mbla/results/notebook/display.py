@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from mbla.errors import MblaError, UsageError
 from mbla.model.model import Model
-from mbla.results.disk import write_whole
+from mbla.results.disk import write_complete
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.verdict_words import bound_words, reasons
 from mbla.results.pictures.image import Picture, drawn_image
@@ -64,8 +64,8 @@ def _row(cells: Sequence[str], tag: str, *, alarm: bool = False) -> str:
 
 def _picture(case: Case) -> str:
     """What is said of a case, then its picture; where that cannot be drawn, why."""
-    told = [case.summary, *reasons(case.record), bound_words(case.model, case.record)]
-    words = "".join(f"<p>{escape(text)}</p>" for text in told if text)
+    texts = [case.summary, *reasons(case.record), bound_words(case.model, case.record)]
+    words = "".join(f"<p>{escape(text)}</p>" for text in texts if text)
     try:
         image = f'<img alt="{escape(case.summary)}" style="max-width: 100%" src="{case.picture().data_uri}">'
     except MblaError as error:
@@ -82,7 +82,7 @@ def case_picture(results: Results, case: CaseResult, kind: str, path: Path | Non
         raise UsageError("output-format", f"{path}: its suffix says {ending}, the format {format}: give one of them")
     picture = drawn_image(ending, lambda drawn: plot.plot_case(results, case, drawn, kind))
     if path is not None:
-        write_whole(path, picture.content)
+        write_complete(path, picture.content)
     return picture
 
 
@@ -95,7 +95,7 @@ HEIGHT = 780
 
 @dataclass(frozen=True)
 class View:
-    """A whole page with one view; it asks for nothing from a network."""
+    """A complete page with one view; it asks for nothing from a network."""
 
     name: str
     page: str = field(repr=False)
@@ -110,7 +110,7 @@ class View:
     def save(self, path: str | Path) -> Path:
         """Write the page, to be opened in a browser; FileError if that fails."""
         path = Path(path)
-        write_whole(path, self.page.encode("utf-8"))
+        write_complete(path, self.page.encode("utf-8"))
         return path
 
     def _repr_html_(self) -> str:

@@ -1,4 +1,4 @@
-"""A whole run for Python users: its load cases by name, their figures, and what a notebook shows."""
+"""A run for Python users: its load cases by name, their figures, and what a notebook shows."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ class Run:
 
     @property
     def listing(self) -> str:
-        """The whole listing, as ``mbla show`` prints it."""
+        """The complete listing, as ``mbla show`` prints it."""
         return listing(self.records)
 
     def to_frames(self, tables: Sequence[str] | None = None) -> dict[str, pandas.DataFrame]:

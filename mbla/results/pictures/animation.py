@@ -97,7 +97,7 @@ def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
 
 
 def _gif(film: list[Any]) -> bytes:
-    """One palette for the whole film, from its first and its widest frame."""
+    """One palette for the entire film, from its first and its widest frame."""
     from PIL import Image  # comes with matplotlib
 
     both = np.concatenate([film[0], film[len(film) // 2]])

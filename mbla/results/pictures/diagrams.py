@@ -68,7 +68,7 @@ class Diagrams:
         self.page.figure.get_layout_engine().set(rect=self._rect)
 
     def add_bar(self, colours: Any, frames: Any, label: str) -> Any:
-        """A bar of colours beside diagrams."""
+        """A bar of colours next to diagrams."""
         bar = self.page.figure.colorbar(colours, ax=frames, fraction=0.04, pad=0.01, aspect=40)
         bar.ax.tick_params(labelsize=self.small)
         bar.set_label(label, fontsize=self.small, parse_math=False)

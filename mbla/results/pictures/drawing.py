@@ -1,4 +1,4 @@
-"""What a picture of each kind shows, and how it lies on its page; drawn in the plane where that can tell the case."""
+"""What a picture of each kind shows, and how it lies on its page; drawn in the plane where that can show the case."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import Scene, named_groups, part_colours
 
 MARGIN = 0.03
-"""of the page beside the structure, share of the width"""
+"""of the page around the structure, share of the width"""
 AXES = 0.09
 """share of the height that axes and scale bar take at least"""
 COLUMNS, LINES = 80, 4

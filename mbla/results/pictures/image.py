@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mbla.errors import UsageError
-from mbla.results.disk import write_whole
+from mbla.results.disk import write_complete
 
 MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
 
@@ -29,7 +29,7 @@ class Picture:
         path = Path(path)
         if path.suffix.lower() != f".{self.format}":
             raise UsageError("output-format", f"{path}: the picture is {self.format}; ask picture() for another format")
-        write_whole(path, self.content)
+        write_complete(path, self.content)
         return path
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str | bytes]:

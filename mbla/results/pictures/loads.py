@@ -72,8 +72,8 @@ def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int
 
 def _text(name: str, words: tuple[str, ...]) -> str:
     """Loads one after the other, the same words once with how often they apply."""
-    told = [word if count == 1 else f"{count} times {word}" for word, count in Counter(words).items()]
-    return f"{name}: {'; '.join(told)}" if told else name
+    counted = [word if count == 1 else f"{count} times {word}" for word, count in Counter(words).items()]
+    return f"{name}: {'; '.join(counted)}" if counted else name
 
 
 def marks_of_load(

@@ -23,7 +23,7 @@ from mbla.results.pictures.page import CRUSH, HINGE, OPEN, ORANGE, PURPLE, RESUL
 from mbla.results.pictures.scene import Scene
 
 THIN, DOT = 0.3, 0.6
-"""thickness of hinges that the listing does not tell and of outlines, and of dots, over that of other hinges"""
+"""thickness of hinges that the listing does not name and of outlines, and of dots, over that of other hinges"""
 LEAST_SHARE, MOST_PLANES = 0.1, 20
 """share of the largest slip from which a sliding plane has an arrow, and how many have one"""
 LEAST_SLIP = 0.02
@@ -33,7 +33,7 @@ SIDE = 0.7
 THICKEST = 2.2
 """of the largest resultant, over other marks"""
 LONGEST = 0.2
-"""length of the largest over the size of the structure, where lengths tell sizes"""
+"""length of the largest over the size of the structure, where lengths show sizes"""
 LEAST, MOST = 0.01, 400
 """share of the largest resultant from which others are drawn, and how many of the largest"""
 MIDDLE_THIRD, EDGE = 1 / 3, 0.99
@@ -201,8 +201,8 @@ def _hinges(scene: Scene, joints: InterfaceMotion, names: list[str]) -> Mark:
     rows = np.flatnonzero(joints.modes == InterfaceMode.HINGE)
     widths = np.ones(len(rows))
     if scene.failure is not None:
-        told = [row for line in scene.failure.hinge_lines for row in line.interfaces.tolist()]
-        widths = np.where(np.isin(rows, told), 1.0, THIN)
+        listed = [row for line in scene.failure.hinge_lines for row in line.interfaces.tolist()]
+        widths = np.where(np.isin(rows, listed), 1.0, THIN)
     texts = [f"hinge: {names[row]}" for row in rows.tolist()]
     return segments("hinge", HINGE, joints.hinge_ends[rows], scene.contacts.bodies[rows], texts, widths)
 
@@ -233,8 +233,8 @@ def _slips(scene: Scene, joints: InterfaceMotion, sliding: IntArray, names: list
     goes = ~twists & (length > 0)
     half = travel[goes] / length[goes, None] * np.maximum(0.4 * reach[goes], LEAST_SLIP * scene.size)[:, None]
     bodies, centres = contacts.bodies[rows], contacts.centroids[rows]
-    told = [text for text, chosen in zip(texts, goes, strict=True) if chosen]
-    found = [arrows("sliding", SLIDE, centres[goes] + half, 2 * half, bodies[goes], told)]
+    labels = [text for text, chosen in zip(texts, goes, strict=True) if chosen]
+    found = [arrows("sliding", SLIDE, centres[goes] + half, 2 * half, bodies[goes], labels)]
     if twists.any():
         axes = np.sign(spin[twists])[:, None] * normals[twists]
         found += rings("sliding", SLIDE, centres[twists], axes, 0.35 * reach[twists], bodies[twists], "twisting")
@@ -259,9 +259,9 @@ def force_marks(scene: Scene, *, proportional: bool = False) -> list[Mark]:
         half = LONGEST / 2 * scene.size * thrust.forces[rows] / sizes.max()
     ends = np.stack([scene.thrust_points[rows] - half, scene.thrust_points[rows] + half], axis=1)
     largest = f"resultant, section in proportion to the force, largest {number(float(sizes.max()))}"
-    told, widths = [texts[row] for row in rows.tolist()], THICKEST * np.sqrt(sizes[rows] / sizes[rows].max())
+    labels, widths = [texts[row] for row in rows.tolist()], THICKEST * np.sqrt(sizes[rows] / sizes[rows].max())
     name = f"{largest} {scene.model.units.force}"
-    rods = segments(name, RESULTANT, ends, contacts.bodies[rows], told, widths)
+    rods = segments(name, RESULTANT, ends, contacts.bodies[rows], labels, widths)
     found = [replace(rods, inside=True), thrust_line(scene, texts)]
     off = thrust.eccentricity
     for label, colour, chosen in (
@@ -289,9 +289,9 @@ def thrust_line(scene: Scene, texts: Sequence[str]) -> Mark:
     steps = np.concatenate([none, *(np.column_stack([line[:-1], line[1:]]) for line in scene.lines)])
     used, row = np.unique(steps, return_inverse=True)
     pairs = row.reshape(steps.shape)
-    told = tuple(texts[i] for i in used.tolist())
+    labels = tuple(texts[i] for i in used.tolist())
     points, bodies = scene.thrust_points[used], scene.contacts.bodies[used]
-    return Mark("line of thrust", THRUST, points, bodies, pairs, np.full(len(pairs), 0.4), told, inside=True)
+    return Mark("line of thrust", THRUST, points, bodies, pairs, np.full(len(pairs), 0.4), labels, inside=True)
 
 
 def force_texts(scene: Scene) -> list[str]:

@@ -151,7 +151,7 @@ def open_page(path: Path, options: PictureOptions) -> Iterator[Page]:
     kind = format_of(path)
     with open_frames(options) as page:
         yield page
-        drawn = BytesIO()  # matplotlib tells of a PDF that it cannot write in words of its own
+        drawn = BytesIO()  # matplotlib reports a PDF that it cannot write in words of its own
         page.figure.savefig(drawn, format=kind, metadata=METADATA[kind])
         try:
             path.write_bytes(drawn.getbuffer())

@@ -15,7 +15,7 @@ from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_s
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import chosen_cases, no_such_case, series_of, told_cases
+from mbla.results.series import chosen_cases, detailed_cases, no_such_case, series_of
 
 
 def plot_results(results: Results, target: Path, stem: str, options: PictureOptions | None = None) -> list[Path]:
@@ -44,10 +44,10 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
 
 
 def _chosen_cases(results: Results, name: str | None) -> Sequence[CaseResult]:
-    """The case of that name, or all positions of a travelling load; unless named those told in full."""
+    """The case of that name, or all positions of a travelling load; unless named those reported in full."""
     if not results.cases:
         raise no_such_case(results, name)
-    return told_cases(results.cases) if name is None else chosen_cases(results, [name])
+    return detailed_cases(results.cases) if name is None else chosen_cases(results, [name])
 
 
 def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[PictureFile]:
@@ -112,7 +112,7 @@ def _check_name(target: Path, options: PictureOptions) -> None:
 
 
 def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
-    """Write one picture: a diagram of the history, a plane figure where that can tell the case, else an image.
+    """Write one picture: a diagram of the history, a plane figure where that can show the case, else an image.
 
     Raises as ``plot_case`` does.
     """

@@ -1,1 +1,1 @@
-"""Every quantity that a result holds or tells, described once; result file, JSON, tables and VTU files render it."""
+"""Every quantity that a result holds or reports, described once; result file, JSON, tables and VTU files render it."""

@@ -29,7 +29,7 @@ from mbla.solution.solution import ContactMode
 class Column:
     """A quantity and its values in a scene.
 
-    of    : from a scene values of every item, (n_items, ...), None where there are none, whole numbers may be masked;
+    of    : from a scene values of every item, (n_items, ...), None where there are none, integers may be masked;
             from a row of a list its value
     names : what tables say in the place of numbers, one for each
     files : what it stands in: ``table``, ``json``, and VTU files by their kind

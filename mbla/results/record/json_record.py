@@ -16,7 +16,7 @@ from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.collapse.mechanics import reactions_of
-from mbla.results.hdf5.content import as_told
+from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
 from mbla.results.outcome import (
@@ -92,7 +92,7 @@ def verification_json(results: Results, disagreements: Sequence[str]) -> dict[st
     return results_json(results) | {
         "agrees": not disagreements,
         "disagreements": list(disagreements),
-        "not_verified": [*as_told(results), *unproved_words(results.cases)],
+        "not_verified": [*unverified_kinds(results), *unproved_words(results.cases)],
     }
 
 

@@ -19,7 +19,7 @@ from mbla.results.record.quantity import STORED_BY_PATH, Quantity, UnitKind, row
 KINDS = {"float": "number?", "int": "integer", "bool": "boolean", "text": "string?"}
 """types in JSON: numbers must be finite there, and texts not empty"""
 CHECK = "needs"
-"""first key of what only ``mbla check`` tells"""
+"""first key of what only ``mbla check`` reports"""
 
 
 @dataclass(frozen=True)

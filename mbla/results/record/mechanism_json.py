@@ -59,7 +59,7 @@ def mechanism_json(
     def failure() -> Any:
         return failure_of(model, contacts, collapse(), mechanics)
 
-    def told(name: str) -> list[dict[str, Any]]:
+    def lines(name: str) -> list[dict[str, Any]]:
         return [line_json(line) for line in getattr(failure(), name)[:MOST]]
 
     def parts(motions: Sequence[PartMotion]) -> list[dict[str, Any]]:
@@ -81,12 +81,12 @@ def mechanism_json(
             "parts": lambda: parts(collapse().motions),
             "clusters_merged": lambda: number(1.0 - failure().explained),
             "clusters": lambda: parts(failure().motions),
-            "hinge_lines": lambda: told("hinge_lines"),
-            "sliding_planes": lambda: told("sliding_planes"),
-            "cracks": lambda: told("cracks"),
+            "hinge_lines": lambda: lines("hinge_lines"),
+            "sliding_planes": lambda: lines("sliding_planes"),
+            "cracks": lambda: lines("cracks"),
             "main_parts": lambda: parts(failure().motions),
             "main_parts_explain": lambda: number(failure().explained),
-            "yield_lines": lambda: told("yield_lines"),
+            "yield_lines": lambda: lines("yield_lines"),
             "force_freedom": lambda: _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
             "enough": lambda: _enough(model, contacts, collapse()),
             "work": lambda: _work(model, contacts, load_case, mechanics, collapse()),

@@ -59,9 +59,9 @@ COMPONENTS = {
 """what is along these dimensions, as columns of tables are named: ``contact_forces_N``"""
 
 NOT_VERIFIED = "not verified: {}"
-"""attribute of datasets that ``mbla verify`` takes as the run told them"""
+"""attribute of datasets that ``mbla verify`` takes as the run reported them"""
 PASSED = "mechanism of a peak"
-TOLD = {
+UNVERIFIED = {
     "versions": "versions and date",
     "times": "times",
     "files": "names of files",
@@ -87,7 +87,7 @@ class Quantity:
     start_of : for offsets of ragged arrays: the dimension they divide
     open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
     part     : quantities of one part are all there or all missing; empty: always there
-    told     : what kind of statement it is, of those that the run alone can tell and ``mbla verify`` does not verify
+    unverified : kind of statement, where the run alone can make it and ``mbla verify`` does not verify it
     proved   : texts that are verified all the same, as others prove them
     """
 
@@ -101,7 +101,7 @@ class Quantity:
     start_of: str = ""
     open: bool = False
     part: str = ""
-    told: str = ""
+    unverified: str = ""
     proved: tuple[str, ...] = ()
 
     @property
@@ -109,9 +109,9 @@ class Quantity:
         """Place and name: the dataset of the result file."""
         return f"{self.place}/{self.name}"
 
-    def told_of(self, value: object) -> str:
-        """``told`` of a value, empty where that is verified."""
-        return "" if isinstance(value, str) and value in self.proved else self.told
+    def unproved(self, value: object) -> str:
+        """``unverified`` of a value, empty where that is verified."""
+        return "" if isinstance(value, str) and value in self.proved else self.unverified
 
     def components(self) -> Iterator[tuple[tuple[int, ...], str, UnitKind]]:
         """Place, name and unit of each of the columns of one item: ``contact_forces_N`` and so on."""
@@ -127,8 +127,8 @@ def real(name: str, words: str, unit: UnitKind = "1", dims: str = "") -> Quantit
     return Quantity(name, "float", words, unit, tuple(dims.split()))
 
 
-def whole(name: str, words: str, dims: str = "") -> Quantity:
-    """Whole numbers that do."""
+def integer(name: str, words: str, dims: str = "") -> Quantity:
+    """Integers that do."""
     return Quantity(name, "int", words, dims=tuple(dims.split()))
 
 
@@ -173,13 +173,13 @@ def _stored() -> Iterator[Quantity]:
     for answer, (group, whose) in ANSWERS.items():
         for row in own:
             part, words = row["part"].replace("ANSWER", answer), row["words"].replace("WHOSE", whose)
-            told = PASSED if answer == "peak" and row["name"] in OF_MECHANISM else ""
-            yield quantity_of(row | {"place": f"cases/*{group}", "part": part, "words": words}, told)
+            unverified = PASSED if answer == "peak" and row["name"] in OF_MECHANISM else ""
+            yield quantity_of(row | {"place": f"cases/*{group}", "part": part, "words": words}, unverified)
     for row in (row for row in rows[first:] if row not in own):
         yield quantity_of(row)
 
 
-def quantity_of(row: dict[str, str], told: str = "") -> Quantity:
+def quantity_of(row: dict[str, str], unverified: str = "") -> Quantity:
     """A quantity from a row of a table of the record."""
     kind, _, dimension = row.get("rule", "").partition(" of ")
     return Quantity(
@@ -193,7 +193,7 @@ def quantity_of(row: dict[str, str], told: str = "") -> Quantity:
         start_of=dimension if kind == "start" else "",
         open=kind == "open",
         part=row.get("part", ""),
-        told=told or TOLD.get(row.get("told", ""), ""),
+        unverified=unverified or UNVERIFIED.get(row.get("unverified", ""), ""),
         proved=PROVED.get(f"{row['place']}/{row['name']}", ()),
     )
 

@@ -98,14 +98,14 @@ class CaseContent:
 def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
-    told, *others = case_sections(results.model, results.contacts, case)
+    verdict_section, *others = case_sections(results.model, results.contacts, case)
     return CaseContent(
         id=key,
         name=case.load_case.name,
         status=status_words(case.status),
         tone=tone_of(case),
         alarm=alarm_of(case),
-        words=blocks_of(told.lines),
+        words=blocks_of(verdict_section.lines),
         parts=[Part(f"{key}-{o.title.lower().replace(' ', '-')}", o.title, blocks_of(o.lines)) for o in others],
         figures=figures,
         warnings=tuple(str(notice) for notice in case_notices(case)),

@@ -104,7 +104,7 @@ def _added(found: Figures, caption: str, words: str, format: str, write: Callabl
 
 
 def _in_words(results: Results, case: CaseResult, kind: str) -> str:
-    """What a reader is told who does not see the picture."""
+    """Description for a reader who does not see the picture."""
     model = results.model.of_case(case.load_case)
     if kind == "model":
         free = len(results.model.free)

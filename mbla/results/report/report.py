@@ -17,7 +17,7 @@ from typing import Any
 
 from mbla import __version__
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import write_whole
+from mbla.results.disk import write_complete
 from mbla.results.listing.answers import series_lines
 from mbla.results.listing.model_words import contact_lines, finding_lines, model_lines, settings_lines
 from mbla.results.listing.text import counted, number
@@ -26,7 +26,7 @@ from mbla.results.outcome import notices_of
 from mbla.results.report.content import CaseContent, blocks_of, case_content, notice_kinds, verdict_table
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import chosen_cases, series_of, told_cases
+from mbla.results.series import chosen_cases, detailed_cases, series_of
 from mbla.results.view3d.view import library_html, view_html
 
 SUFFIXES = (".html", ".htm")
@@ -55,24 +55,24 @@ def write_report(results: Results, path: Path, case: str | None = None, *, view:
     if path.is_dir():  # said before anything is drawn
         raise FileError("folder-given", f"{path}: is a folder")
     text, remarks = report_html(results, case, view=view)
-    write_whole(path, text.encode("utf-8", "backslashreplace"))
+    write_complete(path, text.encode("utf-8", "backslashreplace"))
     return remarks
 
 
 def report_path(output: Path | None, result: Path) -> Path:
-    """The file of a report: beside its result, in a folder under the same name, or as named."""
-    beside = result.with_suffix(".html")
+    """The file of a report: next to its result, in a folder under the same name, or as named."""
+    default = result.with_suffix(".html")
     if output is None:
-        return beside
-    return output / beside.name if output.is_dir() or not output.suffix else output
+        return default
+    return output / default.name if output.is_dir() or not output.suffix else output
 
 
 def report_html(results: Results, case: str | None = None, *, view: bool = True) -> tuple[str, list[str]]:
     """The page, the same for the same result, and remarks on what it could not show."""
     library()
     shown = replace(results, cases=chosen_cases(results, None if case is None else [case]))
-    told = replace(shown, cases=told_cases(shown.cases))
-    content = _content(results, shown, told, _cases(told, view))
+    detailed = replace(shown, cases=detailed_cases(shown.cases))
+    content = _content(results, shown, detailed, _cases(detailed, view))
     page = render(content, [each.view for each in content["cases"]])
     missing = [figures.missing for figures in _all_figures(content) if figures.missing]
     return page, [f"pictures are missing: {text}" for text in dict.fromkeys(missing)]
@@ -83,21 +83,21 @@ def _all_figures(content: dict[str, Any]) -> list[Figures]:
     return [*(each.figures for each in content["cases"]), content["model_figures"], *series]
 
 
-def _cases(told: Results, view: bool) -> list[CaseContent]:
+def _cases(detailed: Results, view: bool) -> list[CaseContent]:
     """The library of the views comes once, with the first of them."""
     contents = []
-    for i, case in enumerate(told.cases):
-        figures = case_figures(told, case)
-        html = case_view(told, case, figures.view, first=i == 0) if view else ""
-        contents.append(case_content(told, case, i + 1, figures, html))
+    for i, case in enumerate(detailed.cases):
+        figures = case_figures(detailed, case)
+        html = case_view(detailed, case, figures.view, first=i == 0) if view else ""
+        contents.append(case_content(detailed, case, i + 1, figures, html))
     return contents
 
 
-def _content(results: Results, shown: Results, told: Results, cases: list[CaseContent]) -> dict[str, Any]:
-    """Everything that the templates show but styles and policy; ``told`` are the load cases with sections."""
+def _content(results: Results, shown: Results, detailed: Results, cases: list[CaseContent]) -> dict[str, Any]:
+    """Everything that the templates show but styles and policy; ``detailed`` are the load cases with sections."""
     model, contacts, deck = results.model, results.contacts, results.deck
     left_out = len(model.load_cases) - len(shown.cases)
-    heads, verdicts = verdict_table(told)
+    heads, verdicts = verdict_table(detailed)
     return {
         "title": model.title or deck.name,
         "deck": deck,
@@ -105,9 +105,9 @@ def _content(results: Results, shown: Results, told: Results, cases: list[CaseCo
         "version": results.provenance.get("mbla", __version__),
         "heads": heads,
         "verdicts": verdicts,
-        "settles": any(case.load_case.settlement is not None for case in told.cases),
+        "settles": any(case.load_case.settlement is not None for case in detailed.cases),
         "warnings_words": _warning_words(shown),
-        "verdict_words": [_in_words(told, case) for case in told.cases],
+        "verdict_words": [_in_words(detailed, case) for case in detailed.cases],
         "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",
         "cases": cases,
         "series": [
@@ -131,10 +131,10 @@ def _warning_words(shown: Results) -> str:
 
 
 def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
-    """Name, verdict and what stands beside it: the words of the terminal."""
+    """Name, verdict and further sentences: the words of the terminal."""
     model = results.model.of_case(case.load_case)
-    beside = (*reasons(case), bound_words(model, case))
-    return case.load_case.name, f"{verdict(model, case)}.", [text for text in beside if text]
+    further = (*reasons(case), bound_words(model, case))
+    return case.load_case.name, f"{verdict(model, case)}.", [text for text in further if text]
 
 
 # --- The page -------------------------------------------------------------------------------------------------------
@@ -184,8 +184,8 @@ def _policy(views: Iterable[str]) -> str:
 
 def _hash(text: str) -> str:
     """As a browser counts it, with line ends as newlines."""
-    whole = text.replace("\r\n", "\n").replace("\r", "\n")
-    return base64.b64encode(hashlib.sha256(whole.encode("utf-8")).digest()).decode("ascii")
+    plain = text.replace("\r\n", "\n").replace("\r", "\n")
+    return base64.b64encode(hashlib.sha256(plain.encode("utf-8")).digest()).decode("ascii")
 
 
 def case_view(results: Results, case: CaseResult, view: tuple[float, float] | None, *, first: bool) -> str:

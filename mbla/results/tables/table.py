@@ -42,7 +42,7 @@ class TableKind:
     def columns(self) -> tuple[Quantity, ...]:
         """One for each component of the values, in their order; numbers that have names are text.
 
-        Floats are nan where there is no value, whole numbers masked, text is empty.
+        Floats are nan where there is no value, integers masked, text is empty.
         """
         return tuple(
             replace(column.quantity, name=name, unit=unit, kind="text" if column.names else column.quantity.kind)
@@ -82,7 +82,7 @@ def values_of_rows(column: Column, rows: Sequence[Any]) -> Values:
 class Table:
     """Values of one table.
 
-    values : an array for each column of ``kind``: float with nan, whole numbers masked where there is none, bool, text
+    values : an array for each column of ``kind``: float with nan, integers masked where there is none, bool, text
              as objects
     """
 
@@ -163,7 +163,7 @@ def _joined(column: Quantity, parts: list[Values]) -> Values:
 
 
 def _series(pandas: Any, column: Quantity, values: Values) -> Any:
-    """Whole numbers of which some are missing as the nullable type of pandas; text as its own."""
+    """Integers of which some are missing as the nullable type of pandas; text as its own."""
     if column.kind != "int":
         return pandas.Series(values, dtype="str" if column.kind == "text" else values.dtype)
     mask = np.ma.getmaskarray(values)

@@ -189,7 +189,7 @@ def export_results(
         A file is there already and ``force`` is not set, or cannot be written.
     """
     chosen = tables_of(results, tables or None, cases or None)
-    with OutputFolder(folder, stem, force, beside=True) as out:
+    with OutputFolder(folder, stem, force, secondary=True) as out:
         for name, table in chosen.items():
             if csv:
                 out.write_text(f"{stem}_{name}.csv", table_csv(table))

@@ -56,7 +56,7 @@ def view_html(
 
 
 def page_html(results: Results, case: CaseResult) -> str:
-    """A whole page with one view; raises as ``view_html`` does."""
+    """A complete page with one view; raises as ``view_html`` does."""
     title = escape(f"{results.model.title or results.deck.name}: {case.load_case.name}")
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>\n'

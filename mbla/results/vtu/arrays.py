@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.results.record.columns import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, Column
-from mbla.results.record.quantity import Quantity, flag, real, unit_text, whole
+from mbla.results.record.quantity import Quantity, flag, integer, real, unit_text
 from mbla.results.record.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
@@ -40,22 +40,22 @@ _LOADS = (
     real("live_forces", "for load factor 1; zero where the vertex is of another kind", "force", "axis"),
     real("reaction_forces", "of supports and guides; zero where the vertex is of another kind", "force", "axis"),
     real("moments", "about the point, with the force", "moment", "axis"),
-    whole("kind", "0 dead load, 1 live load, 2 reaction of a support, 3 of a guide"),
-    whole("body", "block that it acts on"),
+    integer("kind", "0 dead load, 1 live load, 2 reaction of a support, 3 of a guide"),
+    integer("body", "block that it acts on"),
     flag("fixed", "1 where that block does not move, and its load goes into its support"),
-    whole("figures", "what reactions and motion are, as of interfaces"),
+    integer("figures", "what reactions and motion are, as of interfaces"),
 )
 OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     **{(file, "points"): (_MOTION,) for file in ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges")},
     ("thrust", "cells"): (
-        whole("kind", "0 point of application, 1 piece of a thrust line"),
-        whole("line", "number of the thrust line from 0, -1 for points"),
+        integer("kind", "0 point of application, 1 piece of a thrust line"),
+        integer("line", "number of the thrust line from 0, -1 for points"),
     ),
     ("hinges", "cells"): (real("rotation", "of b relative to a about the axis, as drawn", "radian"),),
     ("loads", "points"): (*_LOADS, _MOTION),
     ("supports", "cells"): (
-        whole("kind", "0 ground plane, 1 fixed block, 2 guided block"),
-        whole("body", "block, or number of blocks + number of the ground plane"),
+        integer("kind", "0 ground plane, 1 fixed block, 2 guided block"),
+        integer("body", "block, or number of blocks + number of the ground plane"),
     ),
 }
 """what is in no column"""

@@ -3,7 +3,7 @@
 Dead loads, live loads and reactions are vectors where they act. A force F and a moment M about the centroid c of a
 block are, where M is across F, a single force on the line through c + F × M / F². It is drawn there, level with the
 centroid along its own direction; where that point lies outside the box around the block, or a moment along F is left,
-at the centroid with the moment beside it. The axles of a load that travels are drawn where they stand. Whatever the
+at the centroid together with the moment. The axles of a load that travels are drawn where they stand. Whatever the
 point, force and moment at it are statically the load of the deck.
 """
 

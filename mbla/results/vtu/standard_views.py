@@ -1,7 +1,7 @@
-"""Standard views of this result in ParaView 5.10 or newer; written by mbla beside the files that it shows.
+"""Standard views of this result in ParaView 5.10 or newer; written by mbla next to the files that it shows.
 
 In ParaView: Tools > Python Shell > Run Script. It opens a tab for each view, of the first load case; where ParaView
-does not tell a script its folder, call os.chdir(folder of the results) in the shell before. By itself:
+does not give a script its folder, call os.chdir(folder of the results) in the shell before. By itself:
 
     pvpython SCRIPT --case NAME --view mechanism                       a window; q closes it
     pvbatch --force-offscreen-rendering SCRIPT --save pictures         every view of every load case as PNG
@@ -33,7 +33,7 @@ BLUE, ORANGE, RED, GREEN = [0.0, 0.45, 0.70], [0.90, 0.62, 0.0], [0.84, 0.37, 0.
 PALETTE = [[0.34, 0.71, 0.91], ORANGE, GREEN, [0.94, 0.89, 0.26], BLUE, RED, [0.80, 0.47, 0.65], [0.5, 0.5, 0.5]]
 """colours after Okabe and Ito, which the colour-blind can tell apart"""
 MOST_NAMES = 12
-"""groups up to this number are named beside the picture"""
+"""groups up to this number are named next to the picture"""
 
 
 class Picture:
@@ -115,7 +115,7 @@ class Picture:
         self.bar(shown, table, title)
 
     def colour_by_number(self, shown: Any, name: str, names: list[str], first: list[list[float]]) -> None:
-        """By a whole number of each cell; colours repeat where there are many."""
+        """By an integer of each cell; colours repeat where there are many."""
         simple.ColorBy(shown, ("CELLS", name))
         table = simple.GetColorTransferFunction(name)
         table.InterpretValuesAsCategories = table.AnnotationsInitialized = 1

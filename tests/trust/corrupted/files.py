@@ -62,8 +62,8 @@ FORGED: dict[str, tuple[str, ...]] = {
 }
 """decks and what is changed in them: every flow rule and contact model, and every kind of proof, between them"""
 
-SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.told) for field in STORED for name in field.dims}
-TOLD = {field.path for field in STORED if field.told} | {path for path, told in SCALES if told}
+SCALES = {(f"{field.path.rpartition('/')[0]}/{name}", field.unverified) for field in STORED for name in field.dims}
+TOLD = {field.path for field in STORED if field.unverified} | {path for path, told in SCALES if told}
 TOLD -= {path for path, told in SCALES if not told}
 """datasets that say that they are not verified, and scales that none but these have"""
 PROVED = {(field.path, text.encode()) for field in STORED for text in field.proved}
