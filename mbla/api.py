@@ -90,7 +90,7 @@ def run(
 
 
 def read_results(path: str | os.PathLike[str]) -> Run:
-    """The run of a result file (``.h5``); FileError if it cannot be read or is none."""
+    """The run of a result file (``.h5``); FileError if it cannot be read or is no result."""
     return Run(read_results_hdf5(Path(path)))
 
 

@@ -76,7 +76,7 @@ class Refusal(Exception):  # noqa: N818 - an answer, not a defect
 
 
 class ValueRefused(Refusal, ValueError):  # noqa: N818 - an answer, not a defect
-    """A value that is none of those that belong there."""
+    """A value that is not among those allowed there."""
 
 
 class MblaError(Exception):
@@ -175,7 +175,7 @@ class Finding(tuple[tuple[str | int, ...], Message]):
 
 
 MOST_FAULTS = 1000
-"""of one kind that are reported; a file that has more is none that somebody corrects fault by fault"""
+"""of one kind that are reported; a file that has more is not corrected fault by fault"""
 
 
 def first_faults(faults: Iterable[Fault]) -> list[Fault]:
@@ -217,7 +217,7 @@ class Notice:
 
 
 def printable(text: str) -> str:
-    """A text with nothing in it that a terminal acts on: names of files, and what files hold, come from anybody.
+    """A text with nothing in it that a terminal acts on: names and content of files come from anywhere.
 
     >>> printable("stone" + chr(27) + ".obj")
     'stone�.obj'

@@ -34,7 +34,7 @@ def place(text: str) -> Path:
 
 
 def shard(text: str) -> tuple[int, int]:
-    """Part and number of parts, ``2/8``; raises ArgumentTypeError for what is none."""
+    """Part and number of parts, ``2/8``; raises ArgumentTypeError for anything else."""
     match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", text)
     if not match or not 1 <= int(match[1]) <= int(match[2]):
         raise argparse.ArgumentTypeError(f"{text!r} is not a shard, such as 2/8: part 1 to n of n parts")
@@ -42,7 +42,7 @@ def shard(text: str) -> tuple[int, int]:
 
 
 def _number(kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Callable[[str], Amount]:
-    """What reads a number; it raises ArgumentTypeError for what is none that is allowed."""
+    """What reads a number; it raises ArgumentTypeError for one that is not allowed."""
 
     def read(text: str) -> Amount:
         try:

@@ -40,9 +40,9 @@ def add_interact(commands: Any) -> None:
         "and forces, all together; azimuth 0 pushes along +x, 90 along +y. Two loads A and B act as A cos + B sin of "
         "an angle, with the one dead load that both must have.",
         epilog="Exit status 0 where every point is answered and verified (also that the load never brings collapse "
-        "there); else that of the gravest point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
+        "there); else that of the worst point: 4 not solved or not verified, 7 time or memory limit; 4 also where "
         "bounds of points contradict each other; 5 where no point has a load factor; 130 where it was interrupted: "
-        "the same command goes on with the points that are solved.",
+        "the same command continues with the points that are solved.",
     )
     command.set_defaults(action=interact, about={"deck": "deck"})
     command.add_argument("deck", type=Path, metavar="DECK")
@@ -86,7 +86,7 @@ def add_tradeoff(commands: Any) -> None:
         "error against each other: a sweep over settings, with its table and a picture of each load case (extra "
         "mbla[pictures]) in DECK_tradeoff.out. Without --knob and --setting the ladder has everything that applies to "
         "the deck.",
-        epilog="Exit status 0; 4 where no setting is verified that the others could be held against; 7 where the time "
+        epilog="Exit status 0; 4 where no setting is verified that the others could be compared with; 7 where the time "
         "limit came before the reference.",
     )
     command.set_defaults(action=tradeoff, about={"deck": "deck"})

@@ -73,7 +73,7 @@ def add_sweep(commands: Any) -> None:
         metavar="I/N",
         help="only the I-th of N parts, for job arrays; the last to end writes the table",
     )
-    command.add_argument("--resume", action="store_true", help="go on with the journal: solve what is missing")
+    command.add_argument("--resume", action="store_true", help="continue with the journal: solve what is missing")
     command.add_argument("--retry-failed", action="store_true", help="as --resume, and solve failed points again")
     command.add_argument("--dry-run", action="store_true", help="list the points and solve nothing")
     command.add_argument("--parquet", action="store_true", help="the table as Parquet too (extra mbla[tables])")

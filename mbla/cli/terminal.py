@@ -65,7 +65,7 @@ def failed(error: BaseException, about: Mapping[str, Path], as_json: bool) -> in
 
 def prepare_streams(*, json_lines: bool) -> None:
     """No name or title may fail to be printed; JSON is UTF-8 whatever the terminal speaks."""
-    if sys.stdout is None:  # closed by who started us, as services do: nobody wants to read
+    if sys.stdout is None:  # closed by the parent process, as services do: there is no reader
         drop_output()
     if sys.stderr is None:
         sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115 - as standard output

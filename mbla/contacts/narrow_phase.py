@@ -1,4 +1,4 @@
-"""Narrow phase: common surfaces of opposite facets, and what becomes of each.
+"""Narrow phase: common surfaces of opposite facets, and whether each is a contact.
 
 Both outlines are projected onto the mean plane of the two facets and intersected; every connected part of the result
 is judged by itself (tolerance ε, lengths relative to the block size of the pair):

@@ -60,7 +60,7 @@ def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
 
 
 def _missed(model: Model, section: ContactsSection, report: ContactReport) -> Iterator[Notice]:
-    """What could not be judged, and faces that nearly touch, or touch over next to nothing."""
+    """What could not be judged, and faces that nearly touch, or touch over slivers only."""
     if number := len(report.unchecked):
         text = (
             f"{counted(number, 'pair')} of blocks not checked for overlap, because the faces of one do not form a "

@@ -1,7 +1,7 @@
 """The report on the search for contacts: what was dropped, missed or found wrong, and what hangs together.
 
 The near misses of a structure that hangs together lie within ten times its tolerance. Where some of its blocks reach no
-support the tolerance says nothing about the gaps that were left there, so that all up to ``WIDEST`` are looked at,
+support the tolerance says nothing about the gaps that were left there, so that all up to ``WIDEST`` are examined,
 whatever the tolerance is: the same gaps are reported, and the same tolerance that closes them.
 """
 

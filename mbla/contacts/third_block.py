@@ -4,7 +4,7 @@ The bottom of a block on a thin foot is within the tolerance of the ground, and 
 two bodies lie behind the same part of one facet, only the nearer of them can touch it there: the foot fills the gap.
 That gap is the thickness of a block, no rounding, so the entire common surface with the farther body is no contact.
 
-Nor do two faces touch that look at each other through their own blocks: the top of a thin plate and the bottom of the
+Nor do two faces touch that face each other through their own blocks: the top of a thin plate and the bottom of the
 plate below it are opposite, with a gap of minus both thicknesses.
 """
 

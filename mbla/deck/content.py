@@ -123,7 +123,7 @@ def convex_outlines(deck: DeckContent) -> Iterator[Finding]:
 
 
 @rule(DeckContent)
-def given_interfaces_of_the_whole(deck: DeckContent) -> Iterator[Finding]:
+def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
     """Interfaces on the plane of symmetry are found among the images, which a table of the half does not know."""
     if deck.contacts.table is not None and deck.symmetry:
         words = (

@@ -4,7 +4,7 @@ Angles are in degrees, as everywhere in a deck: ``sin``, ``cos`` and ``tan`` tak
 ``atan2`` give them. ``pi`` in the angle of a function is refused, for it was meant for radians.
 
 Every number is a float; a result that is not finite, or an operation that Python refuses, is an error. Nothing but
-the names and nodes listed here is ever looked at, so that a deck from a stranger cannot do more than arithmetic.
+the names and nodes listed here is ever evaluated, so that a deck from a stranger cannot do more than arithmetic.
 """
 
 from __future__ import annotations

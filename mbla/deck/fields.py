@@ -36,7 +36,7 @@ def takes_names(root: type[BaseModel], path: KeyPath) -> bool:
 
 
 def annotations_at(root: type[BaseModel], path: KeyPath) -> list[Any]:
-    """What the types say of the value at a path, with units and bounds; several where it may have several shapes."""
+    """Type of the value at a path, with units and bounds; several where it may have several shapes."""
     found: list[Any] = [root]
     for key in path:
         found = [below for each in found for branch in branches(each) for below in _annotated_below(branch, key)]

@@ -208,7 +208,7 @@ def _plural(words: str) -> str:
 
 
 def _integer(item: Integer) -> str:
-    """``integer, 2 to 1000``; limits beyond a million are none."""
+    """``integer, 2 to 1000``; limits beyond a million are left out."""
     least, most = item.ge > -1_000_000, item.le < 1_000_000
     if not least:
         return f"integer, {item.le} or less" if most else "integer"

@@ -25,7 +25,7 @@ from mbla.errors import MOST_FAULTS, Finding
 from mbla.process.signals import held_signals
 
 MOST_WRONG = 20 * MOST_FAULTS
-"""values that may be wrong before no more of them are looked at"""
+"""values that may be wrong before no more of them are examined"""
 WRONG = "wrong"
 """of the context of a check, under which it has its ``WrongValues``"""
 ROUNDING = 1e-9
@@ -64,7 +64,7 @@ def exactly_one_of(*keys: str) -> Callable[[type[Model]], type[Model]]:
 
 
 class TooManyWrongError(Exception):
-    """So much is wrong that nobody corrects it fault by fault."""
+    """Too many faults to be corrected one by one."""
 
 
 @dataclass

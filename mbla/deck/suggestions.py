@@ -1,4 +1,4 @@
-"""What a message says to somebody who misspelt a name."""
+"""What a message says on a misspelt name."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from mbla.errors import MOST_FAULTS, Fault, Message, first_faults
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)
-TOO_MANY = Message("more-faults", f"more than {MOST_WRONG:,} values are wrong: they are looked at no further")
+TOO_MANY = Message("more-faults", f"more than {MOST_WRONG:,} values are wrong: the others were not checked")
 
 
 def validate(

@@ -25,7 +25,7 @@ VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def limit_threads(number: int) -> None:
-    """At most so many threads, unless the user's own variables say otherwise; before numpy is imported."""
+    """At most this number of threads, unless the user's own variables say otherwise; before numpy is imported."""
     for variable in VARIABLES:
         os.environ.setdefault(variable, str(number))
 
@@ -39,8 +39,8 @@ LEAST = {"RLIMIT_AS": (400 * MIB, "address space (ulimit -v)"), "RLIMIT_DATA": (
 def refuse_too_low_limits() -> None:
     """Raises LimitError where not even the libraries would find room; before any of them is imported.
 
-    Without that much OpenBLAS ends the process with a status of its own or asks for memory for ever, deaf to signals,
-    while it is loaded, and others name what has nothing to do with memory.
+    Without that much OpenBLAS ends the process with a status of its own or asks for memory without end, deaf to
+    signals, while it is loaded, and others name what has nothing to do with memory.
     """
     if sys.platform != "linux":
         return
@@ -69,7 +69,7 @@ def written() -> float:
 
 @contextlib.contextmanager
 def limited(most: float | None) -> Iterator[None]:
-    """No more than so many bytes (of ``written``) in the block; None for no limit."""
+    """No more than this number of bytes (of ``written``) in the block; None for no limit."""
     if most is None:
         yield
         return

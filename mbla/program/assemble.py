@@ -29,7 +29,7 @@ def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool
     """Build the program of one load case; nothing in it depends on the deck's units.
 
     own : light blocks may have units of their own (:mod:`mbla.program.assemble`); none have where a support gives way,
-          whose load is a reaction that may be next to nothing
+          whose load is a reaction that may be negligible
 
     With guided blocks it is a reduction of the program in which these are free.
     """

@@ -13,7 +13,7 @@ began; the next one in the folder does it then, for every process of this machin
 
 A lock keeps two runs off one journal, or one result. It is one of the operating system (flock) on a file of its own
 next to what it keeps: it ends with the process that holds it, however that ends, so that none is ever left behind. The
-file says who holds it; it is removed at the end, and one that a killed process left is in nobody's way.
+file says who holds it; it is removed at the end, and one that a killed process left does no harm.
 
 Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
 with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none a sweep is refused; a
@@ -237,7 +237,7 @@ def locked(
 
 
 def holder(path: Path) -> str | None:
-    """Who holds the lock of a file alone, in words; None if nobody does."""
+    """Who holds the lock of a file alone, in words; None if no process does."""
     file = lock_path(path)
     try:
         descriptor = os.open(file, os.O_RDWR | os.O_CLOEXEC)
@@ -296,7 +296,7 @@ def _is_at(file: Path, descriptor: int) -> bool:
 
 
 def _leave(file: Path, descriptor: int) -> None:
-    """Remove the file where nobody else holds the lock as well, and let go."""
+    """Remove the file where no other process holds the lock, and release it."""
     with contextlib.suppress(OSError):
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         if _is_at(file, descriptor):

@@ -18,7 +18,7 @@ FAULTS = ("not-as-expected", "isolated-blocks")
 
 
 def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> int:
-    """Exit status of a run: the gravest of its cases; ``FAULTS`` among its notices count as not verified.
+    """Exit status of a run: the most severe of its cases; ``FAULTS`` among its notices count as not verified.
 
     An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status
     distinguishes it from a case that is solved. Nor are positions of a travelling load that bring nothing down where

@@ -30,7 +30,7 @@ BROKEN = {
     Status.TIME_LIMIT: "the time ran out",
     Status.NUMERICAL_ERROR: "the solver failed numerically",
 }
-"""What befell a cone program that came to no answer."""
+"""Why a cone program has no answer."""
 
 WITHOUT_REASON = BROKEN | {
     Status.APPROXIMATE: "verification confirms the load factor to 1e-2 at best",
@@ -38,7 +38,7 @@ WITHOUT_REASON = BROKEN | {
     Status.NO_EQUILIBRIUM: "the dead load alone is not carried",
     Status.UNBOUNDED: "no multiple of the live load brings the structure down",
 }
-"""What is said of every status that is not simply a verified load factor where the solver gives no reason."""
+"""Words on every status that is not simply a verified load factor, where the solver gives no reason."""
 
 REMARKS_THAT_WARN = frozenset(
     {
@@ -144,7 +144,7 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
 
 
 def rounding_of(model: Model, case: CaseResult) -> float:
-    """What the rounding of forces is worth in a load factor that is next to nothing; 0 where it does not matter.
+    """What the rounding of forces means for a load factor close to zero; 0 where it does not matter.
 
     Negligible relative to dead over live load, of the blocks that move where the others are heavier.
     """

@@ -1,4 +1,4 @@
-"""What may be said of a case: which figures are results, which only the best that was reached.
+"""What may be reported of a case: which figures are results, which only the best that was reached.
 
 A load factor is a result where the case is solved or approximate. Without associative flow it is none where the
 structure stands only by forces that someone would have to lock in: equilibrium under that load exists, but nothing
@@ -62,7 +62,7 @@ def associative_of(case: CaseResult) -> Mechanics | None:
 
 
 def locked_in(case: CaseResult) -> bool:
-    """Whether a load factor without associative flow rests on forces that only self-stress would bring about."""
+    """Whether a load factor without associative flow rests on forces that only self-stress would cause."""
     standing = case.solution.standing
     return (
         case.solution.flow_rule != "associative"
@@ -72,7 +72,7 @@ def locked_in(case: CaseResult) -> bool:
 
 
 def standing_unproved(case: CaseResult) -> bool:
-    """Whether what is said of standing can be proved by nothing: that it stands only by self-stress, or is doubtful."""
+    """Whether the verdict on standing cannot be proved: that it stands only by self-stress, or is doubtful."""
     standing = case.solution.standing
     return standing is not None and standing.verdict not in PROVED_STANDING
 
@@ -87,11 +87,11 @@ def presumes_standing(case: CaseResult) -> bool:
 
 
 def unproved_words(cases: Sequence[CaseResult]) -> tuple[str, ...]:
-    """Of which cases nothing proves what is said of standing, a sentence each."""
+    """Cases whose verdict on standing nothing proves, a sentence each."""
     return tuple(
         f"{case.load_case.name}: whether it stands under its dead load alone is not verified, the run reported "
         f"{case.solution.standing.verdict.value!r}"
-        + ("; what is said of the live load presumes that it stands" if presumes_standing(case) else "")
+        + ("; statements on the live load presume that it stands" if presumes_standing(case) else "")
         for case in cases
         if case.solution.standing is not None and standing_unproved(case)
     )

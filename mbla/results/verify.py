@@ -69,7 +69,7 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
 
 
 def _recomputed(results: Results, deck: Deck | None) -> Results:
-    """The results with all that follows from deck, forces and mechanisms in place of what the file says of it."""
+    """The results with all that follows from deck, forces and mechanisms in place of what the file states."""
     cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
     found = {case.load_case.name: case.load_case for case in cases}
     model = replace(results.model, load_cases=tuple(found.get(case.name, case) for case in results.model.load_cases))

@@ -55,7 +55,7 @@ SAME = 1e-3
 """Share of the associative load factor within which another one is next to it."""
 
 BEFORE, FEW_POINTS = 0.99, 1000
-"""Share of its load factor at which a structure above that is looked at once, and contact points up to which it is:
+"""Share of its load factor at which a structure above that is examined once, and contact points up to which it is:
 of 120 small clamps, wedges, arches and confined stacks two fell there. On walls of 2,340 and 5,894 points a look takes
 longer than the load factor itself, and all walls on record stand there. A load path is followed up to so many too
 unless it is asked for: on a vault of 1,032 it took 90 s, its load factor 2."""
@@ -124,14 +124,14 @@ class PartResult:
     def _doubted(self) -> bool:
         """Whether more is open about the associative load factor than how far its bounds are apart."""
         associative = self.associative
-        return associative.state is not None and associative.status is not Status.SOLVED and not associative.apart
+        return associative.state is not None and associative.status is not Status.SOLVED and not associative.gap_words
 
     @property
     def reason(self) -> str:
         """Why the part is not plainly solved."""
         if self.sequence is None:
             return self.associative.reason
-        return self.sequence.reason or ("" if self.associative.apart else self.associative.reason)
+        return self.sequence.reason or ("" if self.associative.gap_words else self.associative.reason)
 
     @property
     def tolerance_requested(self) -> float | None:
@@ -181,7 +181,7 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log) -> PartR
         result = replace(result, associative=associative)
     if associative.state is None:
         return _locked_by_dilatancy(result, settings, log)
-    remarks = (*result.remarks, APART.format(associative.apart)) if associative.apart else result.remarks
+    remarks = (*result.remarks, APART.format(associative.gap_words)) if associative.gap_words else result.remarks
     result = replace(result, sequence=solve_nonassociative(program, associative, settings, log), remarks=remarks)
     return _judged(result, settings, log) if analysis.flow_rule == "non_associative" else result
 

@@ -28,7 +28,7 @@ NEAR = 1e-3
 forces has hardly an inside then, and its answer was too rough for a static bound."""
 
 BELOW = 1e-2
-"""Share of the load factor by which such a part is looked at below it. Forces of there and of its own collapse,
+"""Share of the load factor by which such a part is examined below it. Forces of there and of its own collapse,
 combined to the load factor between the two, balance the loads and keep within the yield conditions as both do."""
 
 

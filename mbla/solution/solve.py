@@ -33,7 +33,7 @@ FAILED = (
     Status.ITERATION_LIMIT,
     Status.NOT_VERIFIED,
 )
-"""what of one part decides for all, the gravest first"""
+"""what of one part decides for all, the most severe first"""
 
 DECIDED = (Status.SOLVED, Status.UNBOUNDED)
 

@@ -105,7 +105,7 @@ class Base:
 
 
 def read_base(sweep: Sweep) -> Base:
-    """Read the base deck and check what the sweep file says of it.
+    """Read the base deck and check what the sweep file states of it.
 
     Raises
     ------

@@ -34,7 +34,7 @@ FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
 MEGABYTE = 1e6
 RESUME = "--resume goes on"
-"""what is said of finished points in a journal"""
+"""words on finished points in a journal"""
 
 Report = Callable[[Progress, Task | None, Outcome | None], None]
 """called once before the first point, with None, and after each finished point"""
@@ -46,7 +46,7 @@ class SweepOptions:
 
     folder       : of all files; SWEEP_NAME.out next to the sweep file if None
     shard        : part and number of parts, counted from 1: only these points, for job arrays
-    resume       : go on with the journal that is there
+    resume       : continue with the journal that is there
     force        : begin anew and replace earlier files
     retry_failed : on resuming, solve failed points again
     goes_on      : how a sweep that was broken off is continued, in words

@@ -35,14 +35,14 @@ from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
 from mbla.sweeps.tables.sweep_table import READ_CELL
 
 FORMAT = 3
-"""of journals; a program with another one does not go on with them"""
+"""of journals; a program with another one does not continue them"""
 FIRST = ("key", "number", "state", "exit_code", "reason", "tries", "seconds")
 """columns before those of results"""
 SETTINGS = "settings"
 """column after them: values by key path as JSON"""
 SINGLE = "journal.csv"
 """name of the journal of a run that is no shard"""
-BEGIN_ANEW = "--force begins anew and drops what it holds, -o FOLDER writes elsewhere"
+BEGIN_ANEW = "--force starts over and drops its content, -o FOLDER writes elsewhere"
 _SHARD = re.compile(r"journal\.(?P<part>[1-9][0-9]*)-of-(?P<parts>[1-9][0-9]*)\.csv")
 _SWEEP = "sweep"
 """what is locked in the folder: alone by an unsharded run, together by shards"""
@@ -91,7 +91,7 @@ def _line(cells: Sequence[Plain]) -> bytes:
 def read_row(header: JournalHeader, line: bytes) -> Outcome:
     """The point of a line; results that it has not are None.
 
-    Raises ValueError, which says what is wrong, for a line that is none.
+    Raises ValueError, which says what is wrong, for an invalid line.
     """
     text = line.decode("utf-8").removesuffix("\n")
     if "\0" in text:
@@ -251,7 +251,7 @@ class Journal:
 def open_journal(
     path: Path, header: JournalHeader, *, resume: bool, force: bool, retry_failed: bool = False
 ) -> Iterator[Journal]:
-    """The journal in a ``with`` block, in which nobody else writes it, and an unsharded run is alone in its folder.
+    """The journal in a ``with`` block, which no other process writes, and an unsharded run is alone in its folder.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ def open_journal(
         or program, or has a broken row; it cannot be written.
     """
     if resume and force:
-        raise UsageError("sweep-option", "--resume goes on with the journal and --force begins anew: one of them")
+        raise UsageError("sweep-option", "--resume continues the journal and --force starts over: one of them")
     folder, shard = path.parent, _SHARD.fullmatch(path.name) is not None
     _make_folder(folder)
     with contextlib.ExitStack() as stack:
@@ -285,7 +285,7 @@ def open_journal(
         others = [each for each in journals_in(folder) if each != path]
         earlier = [each for each in (path, *(() if shard else others)) if os.path.lexists(each)]
         if earlier and not resume and not force:
-            raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume goes on with it, {BEGIN_ANEW}")
+            raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume continues it, {BEGIN_ANEW}")
         own = read_journal(path, header) if resume and path in earlier else None
         finished = {} if own is None else own.finished
         for outcome in merged(others, header).values() if resume else ():

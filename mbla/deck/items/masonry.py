@@ -58,11 +58,9 @@ class Opening(Section):
 class Headers(Section):
     """Through-stones that tie the leaves of a running or stack bond."""
 
-    every: Annotated[int, Integer(ge=1, le=1_000_000)] = Field(
-        description="the last of every so many courses has headers"
-    )
+    every: Annotated[int, Integer(ge=1, le=1_000_000)] = Field(description="n: every n-th course has headers")
     spacing: Annotated[int, Integer(ge=1, le=1_000_000)] = Field(
-        description="one of every so many units of it is a header, staggered from one such course to the next"
+        description="n: every n-th unit of it is a header, staggered from one such course to the next"
     )
 
 

@@ -43,7 +43,7 @@ class Remarks:
     """What was found wrong while reading.
 
     faults  : everything that was wrong with the texts
-    reported: marks of the values that are reported already, so that nobody complains of them twice
+    reported: marks of the values that are reported already, so that none is reported twice
     damaged : marks of the mappings in which a key had to be left out
     complete: false where a text could not be read to its end
     """

@@ -98,7 +98,7 @@ def _frame(item: BridgeItem) -> _Frame:
 
 
 def _section(item: BridgeItem, number: int, curve: Curve, voussoirs: int) -> Section:
-    """Arch of one span; what is wrong with it is said of its own number of voussoirs."""
+    """Arch of one span; its faults are reported at its own number of voussoirs."""
     try:
         return build_section(curve, voussoirs, item.rings, item.thickness, item.thickness)
     except ItemRefused as refused:

@@ -121,7 +121,7 @@ def _context(entry: dict[str, Any], content: dict[str, Any], above: _Context) ->
 
 
 def _matrix(content: dict[str, Any]) -> FloatArray:
-    """(4, 4) of the transformation of an object, that of nothing where it has none."""
+    """(4, 4) of the transformation of an object, the identity where it has none."""
     value = content.get("transformation")
     if not isinstance(value, dict):
         return np.eye(4)

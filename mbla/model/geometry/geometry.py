@@ -20,7 +20,7 @@ from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.wording import counted, with_count
 
 LONGEST_REASON = 500
-"""characters of what is said of a file that is refused, some of which libraries say, or the file itself"""
+"""characters of the reason why a file is refused, some of which comes from libraries, or the file itself"""
 
 
 class GeometryFileError(Refusal):
@@ -106,7 +106,7 @@ def cells_left_out(kinds: Iterable[str], beside_volumes: bool) -> tuple[Notice, 
 
 
 def check_rows(rows: IntArray, count: int) -> None:
-    """Raises GeometryFileError where a cell names a point, by its row, that is none of so many."""
+    """Raises GeometryFileError where a cell names a point, by its row, that does not exist."""
     wrong = rows[(rows < 0) | (rows >= count)]
     if wrong.size:
         words = f"a cell names point {wrong.flat[0]}, which does not exist; there are {count}, from 0 on"

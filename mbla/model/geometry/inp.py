@@ -110,7 +110,7 @@ def read_inp(path: Path) -> Geometry:
 
 
 def _solid(nodes: int) -> tuple[int, list[list[int]]]:
-    """Number of corners and faces of a solid of so many nodes."""
+    """Number of corners and faces of a solid with this number of nodes."""
     shape = next(shape for shape, counts in SOLID_SHAPES.items() if nodes in counts)
     count, faces = VOLUME_CELLS[shape]
     return count, [list(face) for face in faces]

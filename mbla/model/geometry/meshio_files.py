@@ -5,7 +5,7 @@ order go by their corners, which come first.
 
 meshio believes what cells and sections announce, and blocks would be missing or wrong: of a VTU file it takes as many
 points as the type of a cell needs, counted back from its offset, of a Gmsh file as many lines as a section announces.
-So these numbers are held against what is there.
+So these numbers are compared with the content.
 
 Source: VTK file formats, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 """

@@ -33,7 +33,7 @@ Row = list[Any]
 
 @dataclass(frozen=True)
 class _Element:
-    """What the header says of the vertices, the faces, or something else.
+    """What the header states on the vertices, the faces, or something else.
 
     kinds : by name of the property the type of a number, or those of the length and of the numbers of a list
     """

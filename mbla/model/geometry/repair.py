@@ -56,7 +56,7 @@ class _Work:
         self.source = self.source[rows]
 
     def note(self, identifier: str, count: int, noun: str, words: str) -> None:
-        """A notice of what was done to so many things; none of nothing."""
+        """A notice of what was done to ``count`` things; none for 0."""
         if count:
             self.notices.append(Notice("notice", identifier, with_count(count, noun, words)))
 

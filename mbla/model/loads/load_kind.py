@@ -88,7 +88,7 @@ def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, Flo
 
 @dataclass(frozen=True)
 class Entry:
-    """A load that is none but itself: its place in the deck, and the factor on it."""
+    """A single load: its place in the deck, and the factor on it."""
 
     load: Load
     path: KeyPath

@@ -193,7 +193,7 @@ def _counted(identifier: str, numbers: IntArray, noun: str, words: str, labels: 
 def _worst(
     identifier: str, blocks: IntArray, faces: IntArray, relative: FloatArray, words: str, labels: Labels
 ) -> list[Notice]:
-    """What is said of faces, by the numbers of their blocks and in them, of which one leaves its plane most, (n,) each.
+    """Words on faces, by the numbers of their blocks and in them, of which one leaves its plane most, (n,) each.
 
     relative : by how much of the block size
     """

@@ -211,7 +211,7 @@ COARSE = 1e-8
 
 
 def far_away(polyhedra: Polyhedra, name: Callable[[int], str], tolerance: float) -> Message | Notice | None:
-    """What is said of blocks so far from the origin that their coordinates are coarse; None where they are not.
+    """Words on blocks so far from the origin that their coordinates are coarse; None where they are not.
 
     A fault where they are rounded by more than ``contacts.tolerance``, a warning where the load factor may lose digits.
     """

@@ -7,7 +7,7 @@ The area vector of a closed polygon p_0 ... p_{n-1} about any point c is (Newell
 exact for planar polygons, convex or not, and the best-fitting orientation for others.
 
 In a closed polyhedron with consistently oriented faces, the two faces at each edge pass it in opposite directions.
-All edges of all polyhedra are compared at once; only where that fails are single polyhedra looked at again.
+All edges of all polyhedra are compared at once; only where that fails are single polyhedra examined again.
 
 A closed polyhedron with outward faces is the sum of signed tetrahedra from an origin o of its own to the triangles
 (c_f, p_i, p_{i+1}) of each face f, with c_f the mean of its corners:

@@ -77,7 +77,7 @@ def meeting_boxes(
 ) -> tuple[IntArray, IntArray]:
     """Rows of boxes and of others that share a point, sorted by the first, then by the second; corners (n, 3) each.
 
-    most : the others are the boxes themselves, each pair i < j is given once, and there are hardly more than so many
+    most : the others are the boxes themselves, each pair i < j is given once, and there are hardly more than that
 
     The tree works on the two axes along which the others are smallest relative to all; the third is compared after.
 

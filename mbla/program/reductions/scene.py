@@ -1,4 +1,4 @@
-"""What the search for reductions looks at: free blocks and contact points of a part, with their geometry.
+"""What the search for reductions examines: free blocks and contact points of a part, with their geometry.
 
 Parts that cannot interact: free blocks connected through contacts; what does not move connects nothing.
 

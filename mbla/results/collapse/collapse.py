@@ -55,7 +55,7 @@ T = TypeVar("T")
 def kept(function: Callable[P, T]) -> Callable[P, T]:
     """The same function of records and integers, by position, called once for the same ones.
 
-    Its result must not hold any of them, or they would live for ever.
+    Its result must not hold any of them, or they would never be freed.
     """
     known: dict[tuple[object, ...], T] = {}
 
@@ -127,7 +127,7 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
 
 @dataclass(frozen=True)
 class Failure:
-    """What pictures, report and words say of a mechanism.
+    """What pictures, report and words show of a mechanism.
 
     clusters       : (n_blocks,) listed part of each block, 0 at rest
     motions        : of these parts, the heaviest first

@@ -161,7 +161,7 @@ def _line(
         share=float(joints.shares[interfaces].max()),
         slides=bool(motion.slides[interfaces].any()),
         crushes=bool(motion.crushes[interfaces].any()),
-        shear_power_share=float((work.friction + work.cohesion)[interfaces].sum()) / (work.given or float("nan")),
+        shear_power_share=float((work.friction + work.cohesion)[interfaces].sum()) / (work.supplied or float("nan")),
     )
 
 
@@ -245,7 +245,7 @@ def _plane(
 ) -> SlidingPlane:
     areas = contacts.areas[interfaces]
     mean = areas @ travel[interfaces]
-    given = work.given or float("nan")
+    supplied = work.supplied or float("nan")
     shear = float(work.friction[interfaces].sum() + work.cohesion[interfaces].sum())
     return SlidingPlane(
         clusters=joints.clusters(interfaces[0]),
@@ -255,7 +255,7 @@ def _plane(
         normal=normals[interfaces[0]],
         direction=mean / (float(np.linalg.norm(mean)) or 1.0),
         twists=bool(motion.modes[interfaces[0]] == InterfaceMode.TWIST),
-        power_share=float(work.dissipated[interfaces].sum()) / given,
-        shear_power_share=shear / given,
+        power_share=float(work.dissipated[interfaces].sum()) / supplied,
+        shear_power_share=shear / supplied,
         share=float(joints.shares[interfaces].max()),
     )

@@ -51,10 +51,10 @@ class Work:
     reference: float
 
     @property
-    def given(self) -> float:
+    def supplied(self) -> float:
         """Power put in, by the live load and, where it drives the mechanism, the dead load; 0 where it is rounding."""
-        given = max(self.live, 0.0) + max(self.dead, 0.0)
-        return 0.0 if given <= NO_POWER * self.reference else given
+        supplied = max(self.live, 0.0) + max(self.dead, 0.0)
+        return 0.0 if supplied <= NO_POWER * self.reference else supplied
 
     @property
     def dissipated(self) -> FloatArray:

@@ -32,7 +32,7 @@ NO_FORCE = 1e-7
 """share of the largest normal force up to which an interface has no point of application: the residual of forces that
 count as solved is of that size, and the point would be anywhere"""
 ROUNDING = 1e-9
-"""relative to the size of an interface: extents below it are none"""
+"""relative to the size of an interface: extents below it count as zero"""
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 
 LEAST_TOLERANCE = 1e-6
-"""Relative difference of answers that is none: the accuracy to which solved programs agree."""
+"""Relative difference of answers that counts as zero: the accuracy to which solved programs agree."""
 ZERO = 1e-3
 """Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 NOISE = 1e-9

@@ -86,7 +86,7 @@ def content_of(results: Results) -> Content:
 
 
 def unverified_kinds(results: Results) -> tuple[str, ...]:
-    """Kinds of statements in the results that the run alone can make, so that nobody can verify them."""
+    """Kinds of statements in the results that the run alone can make, so that they cannot be verified."""
     content = content_of(results)
     placed = fields_of([case.name for case in results.model.load_cases])
     kinds = (

@@ -152,7 +152,7 @@ def _try_opening(path: Path) -> None:
     try:
         if path.is_dir():
             raise FileError("folder-given", f"{path}: is a folder, not a result file")
-        if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+        if path.exists() and not path.is_file():  # opening a pipe would wait without end
             raise FileError("not-a-regular-file", f"{path}: is not a regular file")
         path.open("rb").close()
     except OSError as error:

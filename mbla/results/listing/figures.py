@@ -141,7 +141,7 @@ def size_words(size: ModelSize) -> str:
 
 
 def _verification(case: CaseResult) -> list[str]:
-    """``passed`` is said of an answer; of a case that has none only that its status is confirmed."""
+    """``passed`` for an answer; for a case that has none only that its status is confirmed."""
     if not case.checks.verified:
         failures = (text for text in case.checks.failures if text != case.solution.reason)
         return entry("verification", "NOT PASSED") + [line for text in failures for line in sentence(text, "    ")]

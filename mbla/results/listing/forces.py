@@ -138,11 +138,11 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
 
     What is put in is positive, of loads that are lifted negative; what joints dissipate is positive.
     """
-    if work.given <= 0:
+    if work.supplied <= 0:
         return []
 
     def part(name: str, power: float) -> str:
-        return f"{name} {round(100 * power / work.given, 1) + 0.0:.1f} %"
+        return f"{name} {round(100 * power / work.supplied, 1) + 0.0:.1f} %"
 
     normal = float(work.normal.sum())
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}

@@ -58,7 +58,7 @@ def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
 
 
 def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
-    """What there is to say of a load case, the verdict and the failure first; no section is empty."""
+    """Sections on a load case, the verdict and the failure first; no section is empty."""
     solution, held, model = case.solution, model, model.of_case(case.load_case)
     mechanics, load_case, how = solution.mechanics, case.load_case, description_of(model, contacts, case)
     summary = "" if how is None or mechanics is None else mechanism_summary(model, how.collapse, how.failure)

@@ -32,7 +32,7 @@ LIFTS = (
     "The motion is one of associative flow, in which joints dilate as they slide: it proves that nothing holds the "
     "structure, and need not be the way in which it falls."
 )
-"""what the motion is worth as a picture of the fall, where anything slides in it"""
+"""limits of the motion as a picture of the fall, where anything slides in it"""
 
 
 @dataclass(frozen=True)

@@ -179,7 +179,7 @@ FOUND = {
     "planar": ("part", "in its plane"),
     "mirror": ("part", "by one half"),
 }
-"""What a reduction counts, and what becomes of it."""
+"""What a reduction counts, and what is done with it."""
 
 
 def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:

@@ -179,7 +179,7 @@ PUBLISHED = (
 
 
 def known_words(model: Model, case: CaseResult) -> list[str]:
-    """Sentences on what the figure is worth, the solver's own remarks among them."""
+    """Sentences on the quality of the figure, with the solver's own remarks."""
     published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
     texts = (uniqueness_words(model, case), published, *case.solution.remarks)
     return [text if text.endswith(".") else f"{text}." for text in texts if text]

@@ -63,7 +63,7 @@ def _row(cells: Sequence[str], tag: str, *, alarm: bool = False) -> str:
 
 
 def _picture(case: Case) -> str:
-    """What is said of a case, then its picture; where that cannot be drawn, why."""
+    """Verdict of a case, then its picture; where that cannot be drawn, why."""
     texts = [case.summary, *reasons(case.record), bound_words(case.model, case.record)]
     words = "".join(f"<p>{escape(text)}</p>" for text in texts if text)
     try:

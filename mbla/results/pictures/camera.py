@@ -1,4 +1,4 @@
-"""Where a picture is looked at from: a parallel projection that shows points as large as their room allows."""
+"""The viewpoint of a picture: a parallel projection that shows points as large as their room allows."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SIDES = (
 )
 """azimuths: of a structure about as wide as deep, of one long along x, of one long along y"""
 LONG = 2.0
-"""length over width in plan from which a structure is looked at across its length"""
+"""length over width in plan from which a structure is viewed across its length"""
 BEHIND = 0.4
 """what speaks against views from +y, the back of most decks; 1 speaks for facing the side towards which all moves"""
 Room = tuple[tuple[float, float], tuple[float, float]]

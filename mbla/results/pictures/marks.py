@@ -52,7 +52,7 @@ class Mark:
     bodies : (n, 2) bodies whose mean motion each point follows, -1 for none
     pairs  : (k, 2) rows of points from which to which segments lead; both the same for a dot
     widths : (k,) thickness over that of a hinge
-    texts  : (n) what the browser says of each point
+    texts  : (n) what the browser shows for each point
     faces  : (m, 4) rows of points, areas between bodies that part
     inside : it lies within the blocks and is seen only through them
     """

@@ -66,14 +66,14 @@ class PictureOptions:
 
 
 def page_options(arguments: Any) -> PictureOptions:
-    """Size, dots per inch and format from the command line; raises UsageError for what is none."""
+    """Size, dots per inch and format from the command line; raises UsageError for invalid text."""
     if not LEAST_DPI <= arguments.dpi <= MOST_DPI:
         raise UsageError("picture-option", f"--dpi {arguments.dpi}: {LEAST_DPI} to {MOST_DPI} dots per inch")
     return PictureOptions(size=parse_size(arguments.size), dpi=arguments.dpi, format=arguments.format)
 
 
 def picture_options(arguments: Any) -> PictureOptions:
-    """All of them, texts or None by their names; UsageError for what is none of them.
+    """All of them, texts or None by their names; UsageError for what is not among them.
 
     A single file without a kind is that of the mechanism.
     """

@@ -1,4 +1,4 @@
-"""Plane figures: whether a case can be shown in one, how the plane is looked at, and the drawing itself.
+"""Plane figures: whether a case can be shown in one, from where the plane is viewed, and the drawing itself.
 
 It can where every block is a prism across one horizontal direction, no block lies behind another, and whatever moves,
 loads and is loaded stays in the plane.

@@ -135,7 +135,7 @@ def contacts_json(results: Results) -> dict[str, Any]:
 
 
 def case_json(scene: Scene) -> dict[str, Any]:
-    """Everything that is said of a case; ``load_factor`` and ``mechanism`` only where they are results."""
+    """Everything that is reported of a case; ``load_factor`` and ``mechanism`` only where they are results."""
     case = scene.case
     assert case is not None  # the record of a model alone has no cases
     solution, mechanics, model = case.solution, result_of(case), scene.model
@@ -162,7 +162,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
 
 
 def _value(column: Column, scene: Scene) -> Any:
-    """What a column says of the case, as JSON has it."""
+    """Value of a column for the case, as in JSON."""
     values, quantity = column.of(scene), column.quantity
     if quantity.dims == ("sentence",):
         return [] if values is None else [str(sentence) for sentence in values]

@@ -61,7 +61,7 @@ def blocks_of(lines: Iterable[str]) -> list[Block]:
     return blocks
 
 
-# --- What a report says of one load case ----------------------------------------------------------------------------
+# --- A load case in a report -----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def tone_of(case: CaseResult) -> str:
 
 
 def alarm_of(case: CaseResult) -> str:
-    """What stands above everything that is said of a case without a verified load factor."""
+    """Warning at the head of a case without a verified load factor."""
     if result_of(case) is not None:
         return "" if case.status is Status.SOLVED else "the load factor is known to about 1 % only."
     if case.status is Status.NO_EQUILIBRIUM:

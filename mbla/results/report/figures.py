@@ -95,7 +95,7 @@ def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: V
 
 
 def _added(found: Figures, caption: str, words: str, format: str, write: Callable[[Path], None]) -> Figures:
-    """With one more picture, or what the machine says of why it cannot draw it, to be shown in its place."""
+    """With one more picture, or the reason why the machine cannot draw it, to be shown in its place."""
     try:
         source = drawn_image(format, write).data_uri
     except UsageError as error:

@@ -103,7 +103,7 @@ def _with_mark(scene: Scene, words: str) -> str:
 
 
 def block_texts(model: Model, parts: IntArray | None) -> list[str]:
-    """What the browser says of each block: name, position, weight, part; as HTML.
+    """What the browser shows for each block: name, position, weight, part; as HTML.
 
     parts : (n_blocks,) part of each block, 0 at rest; None without a motion
     """

@@ -33,7 +33,7 @@ DEAD, LIVE, REACTION, GUIDE = 0, 1, 2, 3
 GROUND, FIXED, GUIDED = 0, 1, 2
 """kinds of supports"""
 ROUNDING = 1e-7
-"""relative to force and block size: below it moments and distances are none; far from the origin digits are lost"""
+"""relative to force and block size: below it moments and distances are zero; far from the origin digits are lost"""
 
 
 @dataclass(frozen=True)

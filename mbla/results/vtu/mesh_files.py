@@ -110,7 +110,7 @@ def views_script(results: Results, stem: str, supports: str, cases: Mapping[str,
     """Text of the script.
 
     supports : name of the file of supports, empty for none
-    cases    : what ``case_record`` says of each load case
+    cases    : what ``case_record`` gives for each load case
     """
     vertices = results.model.blocks.vertices
     record = {

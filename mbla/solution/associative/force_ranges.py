@@ -93,7 +93,7 @@ def force_ranges(
             solver.update(cost=sign * cost)
             solution = solver.solve(first + len(records), 0.0)
             value = np.nan
-            if solution.status is Status.NO_EQUILIBRIUM:  # said of a program in velocities: here it has no least value
+            if solution.status is Status.NO_EQUILIBRIUM:  # of a program in velocities: here it has no least value
                 value = -sign * np.inf
             elif solution.status in WITH_VALUE:
                 value = sign * solution.objective + float((row @ form.offset)[0])

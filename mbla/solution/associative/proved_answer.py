@@ -43,11 +43,12 @@ tolerance, regularisation. An arch at its least thickness is sharpest in units o
 stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
 
 FURTHER = 0.1
-"""Factor on the tolerance with which a solved program goes on where its bounds lie too far apart: a few iterations each
-time. On a planar wall of 10,050 blocks the bounds met after 6 more of them; solving again took 80 by either method."""
+"""Factor on the tolerance with which a solved program continues where its bounds are too far apart: a few iterations
+each time. On a planar wall of 10,050 blocks the bounds met after 6 more of them; solving again took 80 by either
+method."""
 
 WORTHWHILE = 0.5
-"""Share of the distance of the bounds that may be left for the program to go on once more."""
+"""Share of the distance of the bounds that may be left for the program to continue once more."""
 
 SHARPEST = 1e-12
 """Least tolerance of the solver."""
@@ -60,7 +61,7 @@ LARGE = 30_000
 enough there, unless bounds closer than CLOSE are asked for. The results say how far apart they are."""
 
 FIRST_OF_LARGE = 1e-8
-"""Tolerance at which the bounds of a large program are first looked at; it goes on where they lie too far apart. A
+"""Tolerance at which the bounds of a large program are first evaluated; it continues where they lie too far apart. A
 planar wall of 19,951 blocks came to it in 76 iterations, bounds 1.7e-8 apart; it stalled at 2.8e-9 thirty later."""
 
 CLOSE = 1e-7

@@ -64,8 +64,8 @@ class AssociativeResult:
                   joints dissipate
     solver      : that the state comes from, empty without one: the program may have been solved by several
     tolerance_requested : approximate: the distance of the bounds that was asked for, and reached; None where it was not
-    apart       : approximate for no other reason than that the bounds are apart: how far, in words; else empty
-    stress_free : what becomes of the dead load on the stress-free assembly, None where that was not looked at
+    gap_words   : approximate for no other reason than that the bounds are apart: how far, in words; else empty
+    stress_free : what the dead load does to the stress-free assembly, None where that was not examined
     """
 
     status: Status
@@ -75,7 +75,7 @@ class AssociativeResult:
     programs: tuple[ProgramRecord, ...]
     solver: str = ""
     tolerance_requested: float | None = None
-    apart: str = ""
+    gap_words: str = ""
     stress_free: Weakening | None = field(default=None, repr=False)
 
 
@@ -237,7 +237,7 @@ def _no_equilibrium(run: AssociativeRun, certificate: FloatArray) -> Associative
 
 
 def _undecided(run: AssociativeRun, solution: ConeSolution) -> AssociativeResult:
-    """No settings gave an answer; a lack of equilibrium that could not be proved is none."""
+    """No settings gave an answer; a lack of equilibrium that could not be proved does not count."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT):
         return _without_state(run, solution.status, solution.shortfall)
     reason = (

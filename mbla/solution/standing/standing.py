@@ -53,7 +53,7 @@ class DeadLoadState:
 
 @stage("standing")
 def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
-    """What becomes of the dead load on the stress-free assembly: the same whatever the live load and the flow rule."""
+    """State of the stress-free assembly under its dead load: the same whatever the live load and the flow rule."""
     return _stress_free(program.without_live_load(), settings)
 
 
@@ -150,7 +150,7 @@ def gravity_forces(
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
-    """Standing of a structure from that of its parts: the gravest, the first of several; forces of all together."""
+    """Standing of a structure from that of its parts: the most severe, the first of several; forces of all together."""
     worst = min(results, key=lambda result: GRAVEST_FIRST.index(result.verdict))
     if worst.verdict is not Standing.YES:
         return replace(worst, forces=None, settlement=None)

@@ -5,7 +5,7 @@ At a load factor λ the structure stands where f_D + λ f_L is carried from the 
 The first λ at which it no longer does is where the path ends. No state above it is reached from the dead load, however
 well it fits the law, and standing above it, or under the live load alone, proves nothing of the way there.
 
-States are looked at closely enough that nothing is missed between: two in a row have the same joints open, sliding and
+States are close enough that nothing is missed between: two in a row have the same joints open, sliding and
 sticking, so that in a plane all states between them are their combinations; or their load factors are close. The end is
 found by bisection.
 
@@ -46,7 +46,7 @@ AT_LIMIT = 1e-7
 
 @dataclass(frozen=True)
 class PathState:
-    """What the springs say of one load factor, non-dimensional."""
+    """State of the springs at one load factor, non-dimensional."""
 
     load_factor: float
     weakening: Weakening
@@ -66,11 +66,11 @@ class PathState:
 class StandingPath:
     """The path as far as it was followed.
 
-    last  : the greatest load factor up to which all that was looked at stands; where it does not stand under its dead
+    last  : the greatest load factor up to which all states examined stand; where it does not stand under its dead
             load the state there, which does not either
     end   : the least one at which it was not seen to stand, None where none was met
     fall  : the least one at which it was seen to fall, None where none was met
-    looks : states looked at
+    looks : states examined
     unit  : load factor at which the live load is as large as the dead load
     passed : states that it went through, the last one included
     """
@@ -127,7 +127,7 @@ class StandingPath:
         return (FINE if falls else ROUGH) * max(state.load_factor, ROUGH * self.unit)
 
     def look(self, load_factor: float) -> PathState:
-        """Whether it stands at a load factor, whatever becomes of it on the way there."""
+        """Whether it stands at a load factor, whatever happens on the way there."""
         self.looks += 1
         load: Load = "live_load" if self.weightless else "dead_load"
         live = load_factor - 1.0 if self.weightless else load_factor

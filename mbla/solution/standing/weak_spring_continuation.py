@@ -116,7 +116,7 @@ def weaken_springs(
 
     Both ratios of stiffness must say the same; a load that is zero is carried.
 
-    live : so many times the live load acts besides; the springs are those of ``load``
+    live : multiple of the live load that acts as well; the springs are those of ``load``
     """
     if not np.any(getattr(program, load)):
         return Weakening(Outcome.CARRIED, None, 0.0)

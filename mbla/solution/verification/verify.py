@@ -134,7 +134,7 @@ def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution:
 def _standing_failures(
     model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution
 ) -> tuple[Message, ...]:
-    """Why forces and displacements do not show what is said of the dead load alone: that it is carried needs them."""
+    """Why forces and displacements do not show the claim on the dead load alone: that it is carried needs them."""
     standing = solution.standing
     if standing is None:
         return ()
@@ -151,7 +151,7 @@ def _standing_failures(
 def _fall_failures(solution: Solution) -> tuple[Message, ...]:
     """Why it is not said to fall by status and standing where a motion is given that shows it, and nowhere else.
 
-    What the motion is worth is judged where there are no forces that carry a load factor.
+    The quality of the motion is judged where there are no forces that carry a load factor.
     """
     shown = solution.certificate is not None and solution.mechanics is None
     said = [solution.status is Status.NO_EQUILIBRIUM]

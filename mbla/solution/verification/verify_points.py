@@ -1,6 +1,6 @@
 """Verification: everything that is claimed, recomputed from model, contacts and solution.
 
-No solver is asked and no matrix of the program stage is used for a verdict: forces are summed over blocks and
+No solver is requested and no matrix of the program stage is used for a verdict: forces are summed over blocks and
 velocities taken from rigid-body motion directly (``statics``). What the residuals are is said in
 :mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.associative.proofs`.
 
@@ -127,11 +127,11 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
 def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
     """Whether an approximate answer is as sharp as the analysis asks for, by the figures of the verification.
 
-    Associative flow: its proved bounds lie within the gap asked for. Other flow: every residual is within the one asked
-    for, and the load factor not above the proved kinematic bound by more than that.
+    Associative flow: its proved bounds lie within the gap asked for. Other flow: every residual is within the one
+    asked for, and the load factor not above the proved kinematic bound by more than that.
     """
-    asked = solution.tolerance_requested
-    if asked is None or solution.mechanics is None or not abs(checks.live_power - 1.0) <= LIVE_POWER_DEVIATION:
+    requested = solution.tolerance_requested
+    if requested is None or solution.mechanics is None or not abs(checks.live_power - 1.0) <= LIVE_POWER_DEVIATION:
         return False
     residuals = (
         checks.equilibrium_residual,
@@ -141,9 +141,9 @@ def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
         checks.power_balance,
     )
     if solution.flow_rule == "associative":
-        return checks.gap <= asked and all(value <= APPROXIMATE_RESIDUAL for value in residuals)
-    above = _above(solution, checks.kinematic_bound, asked * abs(checks.kinematic_bound))
-    return not above and all(value <= asked for value in residuals)
+        return checks.gap <= requested and all(value <= APPROXIMATE_RESIDUAL for value in residuals)
+    above = _above(solution, checks.kinematic_bound, requested * abs(checks.kinematic_bound))
+    return not above and all(value <= requested for value in residuals)
 
 
 def tolerances(flow_rule: str) -> dict[str, float]:

@@ -68,7 +68,7 @@ def _points(axes: Sequence[Axis], positions: Sequence[Sequence[int]]) -> list[Po
 
 
 def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
-    """What is worth knowing of samples."""
+    """Remarks on samples."""
     remarks: list[str] = []
     samples = [axis for axis in axes if axis.sampling]
     for i, axis in enumerate(axes):

@@ -130,7 +130,7 @@ class Design:
     parts    : what it is made of, slowest first, each with the names of the axes that it makes: one for each parameter
                of a grid, one of any other part
     breaches : constraints with how many points break each; a point may break several
-    remarks  : what is worth knowing of it, in sentences
+    remarks  : remarks on it, in sentences
     """
 
     columns: tuple[SweepColumn, ...]

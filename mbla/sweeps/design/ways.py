@@ -3,7 +3,7 @@
 Values of a grid are those at quantiles too: of a range at equal steps from 0 to 1, of a list in the middle of each.
 
 Values are written as a person would write them: 0.13, not 0.13000000000000003. ``DIGITS`` significant digits are far
-more than anybody measures, few enough that the rounding of the arithmetic and the last digits of mathematical
+more than any measurement gives, few enough that the rounding of the arithmetic and the last digits of mathematical
 libraries, which differ from machine to machine, do not show.
 
 A distribution that is cut off is what remains of the full one, in proportion: with F its distribution function,

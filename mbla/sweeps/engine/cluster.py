@@ -1,7 +1,7 @@
 """Points on the workers of a Dask scheduler (only importer of distributed).
 
 A sliding window of points is under way, so that neither the scheduler nor this process holds more than that of a sweep
-of any length. What was delivered stays, whatever becomes of the rest. Nothing waits without end: a scheduler or workers
+of any length. What was delivered stays, whatever happens to the rest. Nothing waits without end: a scheduler or workers
 that are gone are reported in words, with the remedy.
 """
 
@@ -78,7 +78,7 @@ def outcomes_of_cluster(options: EngineOptions, plan: Plan, tasks: Sequence[Task
                     except Exception as error:
                         words = f"a worker cannot solve points of this sweep: {' '.join(str(error).split())}"
                         raise UsageError("worker-refused", words) from error
-        finally:  # nothing goes on for nobody: what is under way is cancelled, the processes of the workers are ended
+        finally:  # nothing runs without a reader: what is under way is cancelled, processes of the workers are ended
             if running:
                 futures = [future for _, future in running.values()]
                 connection.ask_quietly(lambda client: client.cancel(futures, force=True))
@@ -233,7 +233,7 @@ class Connection:
     def _lost(self) -> FileError:
         return FileError(
             "scheduler-lost",
-            f"{self._name()} is gone; finished points are in the journal, --resume goes on with the rest",
+            f"{self._name()} is gone; finished points are in the journal, --resume continues with the rest",
         )
 
 

@@ -110,7 +110,7 @@ def _outcomes_here(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) ->
                     return
                 late = options.until is not None and time.monotonic() >= options.until
                 found.put(_not_begun(task) if late else runner.run(task))
-        except StoppedError:  # nobody waits for it any more
+        except StoppedError:  # nothing waits for it any more
             return
         except BaseException as error:
             found.put(error)

@@ -1,4 +1,4 @@
-"""Points in a process of their own: limits of time and memory, and what becomes of a point that its process dies of.
+"""Points in a process of their own: limits of time and memory, and points that end their process.
 
 The process has a session of its own, so that an interrupt from the keyboard reaches the parent alone, which stops it
 with all its copies. Plan, tasks and outcomes go over a pipe, whose end each side sees when the other is gone.

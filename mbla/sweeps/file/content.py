@@ -17,7 +17,7 @@ from mbla.deck.section import Section, shape
 from mbla.deck.text.tree import KeyPath
 
 MAX_POINTS = 1_000_000
-"""points of one sweep; more would not end in a table that anybody reads"""
+"""points of one sweep; more would not give a readable table"""
 
 DISTRIBUTIONS = ("normal", "lognormal", "uniform", "triangular")
 """ways of a parameter to say its values that have no levels: a grid cannot take them"""

@@ -229,7 +229,7 @@ def zipped_lists(sweep: SweepContent) -> Iterator[Finding]:
 
 @rule(SweepContent)
 def number_of_points(sweep: SweepContent) -> Iterator[Finding]:
-    """Not more than anybody reads."""
+    """Not more points than a readable table has."""
     parts = design_parts(sweep)
     sizes = [_size(sweep, part) for part in parts]
     known = [size for size in sizes if size is not None]

@@ -105,7 +105,7 @@ def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusi
 
 
 def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
-    """The gravest of points without a verified answer, 4 where bounds contradict each other, 5 without any load factor.
+    """The worst of points without a verified answer, 4 where bounds contradict each other, 5 without any load factor.
 
     A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
     """
@@ -169,7 +169,7 @@ def _angles(angles: Sequence[float]) -> str:
 
 
 def _domain_words(question: Question, domain: Domain | None) -> list[str]:
-    """What the bounds of all points say of the domain of associative flow."""
+    """What follows from the bounds of all points for the domain of associative flow."""
     if not question.pair:
         return ["no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"]
     if domain is None:

@@ -45,7 +45,7 @@ USUAL: dict[str, Callable[[View], bool]] = {
 def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
     """Demands on each result column by its name, ascending; none where the sweep asks for no fragility.
 
-    Raises FileError where the record is none.
+    Raises FileError where the record is invalid.
     """
     found: dict[str, tuple[float, ...]] = {}
     try:

@@ -26,7 +26,7 @@ from mbla.sweeps.plan import Plain, override_texts
 from mbla.sweeps.tables.sweep_table import as_text
 
 REFERENCE = "accuracy: reference"
-"""name of the setting that the others are held against"""
+"""name of the setting that the others are compared with"""
 LADDER: tuple[tuple[str, Mapping[str, Plain]], ...] = (
     ("the deck's own settings", {}),
     *((f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in ("1e-4", "1e-6", "1e-8", "1e-10")),
@@ -130,7 +130,7 @@ def other_model(deck: DeckContent, changed: DeckContent) -> str:
 
 
 def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
-    """Settings of the two options, none if neither is given; raises UsageError for a text that is none."""
+    """Settings of the two options, none if neither is given; raises UsageError for an invalid text."""
     choices = [_choice(text) for text in knobs]
     count = len(settings) + (prod(map(len, choices)) if knobs else 0)
     if count > MOST:

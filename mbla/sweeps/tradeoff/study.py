@@ -198,7 +198,7 @@ def _error(distance: float, resolution: float) -> str:
 
 
 def _mark(trade: CaseTrade, n: int) -> str:
-    """What the last column says of a setting: its status where it is not solved, its model where it is another."""
+    """Last column for a setting: its status where it is not solved, its model where it is another."""
     status = Status(trade.status[n])
     words = [] if status == Status.SOLVED else [status_name(status)]
     words += ["stands only by self-stress"] if status == Status.SOLVED and math.isnan(trade.answer[n]) else []
@@ -235,7 +235,7 @@ def draw_trade(title: str, trade: CaseTrade, advised: str, path: Path) -> None:
     Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
     """
     rows = [n for n in np.flatnonzero(np.isfinite(trade.distance + trade.seconds)) if not trade.rungs[n].model]
-    mark = "" if trade.certain else "NOT VERIFIED: no run is verified that the others could be held against"
+    mark = "" if trade.certain else "NOT VERIFIED: no run is verified that the others could be compared with"
     with open_diagrams(path, PictureOptions(), [title, f"load case {trade.name}", advised], mark) as sheet:
         if not rows:
             return

@@ -38,7 +38,7 @@ class CaseTrade:
     verified   : as sharply as the setting asks for, or that there is no load factor
     answer     : load factor, angle of a tilting table, or reaction of a support that gives way
     seconds    : of the load case by the clock
-    reference  : number of the setting that the others are held against; None where none has an answer
+    reference  : number of the setting that the others are compared with; None where none has an answer
     certain    : the reference is verified
     resolution : distances below this cannot be resolved; nan without a reference
     distance   : relative, from the reference; 0 where both confirm that there is no figure, nan where only one has one
@@ -75,7 +75,7 @@ def trade_of(
     least: float = 0.0,
     shown: Mapping[str, FloatArray] | None = None,
 ) -> CaseTrade:
-    """The settings held against each other; arrays (n,) as of ``CaseTrade``.
+    """The settings compared with each other; arrays (n,) as of ``CaseTrade``.
 
     accuracy : (n,) what the answer is good to, relatively: the gap of the bounds, or the largest residual
     least    : size below which differences of answers are relative to this

@@ -69,7 +69,7 @@ def test_pandas_reads_it(path: Path) -> None:
 
 def test_an_earlier_journal_is_refused_without_a_word_of_what_to_do_with_it(path: Path) -> None:
     before = path.read_bytes()
-    with pytest.raises(FileError, match=r"journal\.csv: exists already; --resume goes on with it, --force begins anew"):
+    with pytest.raises(FileError, match=r"journal\.csv: exists already; --resume continues it, --force starts over"):
         begun(path).__enter__()
     assert path.read_bytes() == before
 
@@ -108,7 +108,7 @@ def test_to_go_on_where_nothing_is_begins(tmp_path: Path) -> None:
     ],
 )
 def test_a_journal_of_something_else_is_refused_and_told_why(path: Path, other: JournalHeader, words: str) -> None:
-    assert f"{path}: of another sweep ({words}): it cannot be continued; --force begins" in refusal(path, other)
+    assert f"{path}: of another sweep ({words}): it cannot be continued; --force starts" in refusal(path, other)
 
 
 @pytest.mark.parametrize(
