@@ -17,8 +17,8 @@ NEAR_MISS = 10.0
 """Gaps up to this many tolerances are near misses."""
 
 MOST_PAIRS, PAIRS_OF_A_BLOCK = 300_000, 30
-"""of blocks that are looked at: so many, or so many times the number of blocks; those that share no volume have some
-ten"""
+"""of blocks that are examined: this number, or this multiple of the number of blocks; those that share no volume have
+some ten"""
 
 # Facets farther from opposite than this are no contact: the strip along their common line where the gap stays within
 # the tolerance would be narrower than 3.5 tolerances.

@@ -68,7 +68,7 @@ class Contacts:
 
 
 class ContactsRefused(Refusal):
-    """What no search for contacts can handle; ``path`` leads to the key of the deck that asks for it."""
+    """A model that the search for contacts cannot handle; ``path`` leads to the key of the deck that asks for it."""
 
     def __init__(self, identifier: str, words: str, path: KeyPath) -> None:
         super().__init__(identifier, words)
@@ -77,7 +77,7 @@ class ContactsRefused(Refusal):
 
 @dataclass(frozen=True)
 class ContactReport:
-    """What the search saw besides the contacts it kept; blocks as body numbers.
+    """Findings of the search besides the contacts kept; blocks as body numbers.
 
     slivers        : (n, 2) bodies of common surfaces dropped because they are thinner than the tolerance
     sliver_widths  : (n,) relative to block size

@@ -25,7 +25,7 @@ from mbla.model.solids.ragged import rows_and_items
 from mbla.model.wording import named
 
 CANCELLED = 1e-12
-"""sum of live loads on a solid, relative to the loads themselves, at which nothing is left of them"""
+"""sum of live loads on a solid, relative to the loads themselves, at which they cancel"""
 
 
 def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, Message]]:
@@ -137,7 +137,7 @@ def bent_contacts(model: Model, contacts: Contacts, tolerance: float) -> tuple[I
 
 
 def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, reach: FloatArray) -> BoolArray:
-    """Whether a point (n, 3) of a surface with a normal (n, 3) lies on a triangle (n, 3, 3) that looks the same way."""
+    """Whether a point (n, 3) of a surface with a normal (n, 3) lies on a triangle (n, 3, 3) that faces the same way."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     area = np.cross(b - a, c - a)
     double = np.linalg.norm(area, axis=1)

@@ -10,7 +10,7 @@ and from its motion (v, ω) about c come those of its members::
 
     v_b = v + ω × (c_b − c),    ω_b = ω
 
-Contact forces of glued interfaces are not asked for: they are inner forces of a rigid body. An interface of any other
+Contact forces of glued interfaces are not computed: they are internal forces of a rigid body. An interface of any other
 law between two members of one solid carries nothing that equilibrium could determine either and is left out with them.
 
 Guides of blocks that are glued into solids: the solid moves as its guided block does.
@@ -182,7 +182,7 @@ def solid_guides(guides: Guides, label: IntArray, arms: FloatArray) -> Guides:
 
 
 def guides_at_odds(guides: Guides, label: IntArray, arms: FloatArray) -> tuple[int, int] | None:
-    """Two guided blocks of one solid whose guides do not say the same of it; None where there are none.
+    """Two guided blocks of one solid whose guides contradict each other; None where there are none.
 
     label : (n_blocks,) solid of each block
     arms  : (n_blocks, 3) m, from the centroid of the solid to that of the block

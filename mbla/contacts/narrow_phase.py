@@ -10,7 +10,7 @@ is judged by itself (tolerance ε, lengths relative to the block size of the pai
 
 Where the part is narrow because a facet is (a finely faceted cylinder in its socket), and takes at least half of that
 facet, it is no sliver but a contact. Parts narrower than a thousandth of ε are facets that share an edge, not a
-surface: they are nothing at all. What has a block in between is left out after
+surface: they are left out. What has a block in between is left out after
 (:mod:`mbla.contacts.third_block`).
 """
 

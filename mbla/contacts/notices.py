@@ -22,7 +22,7 @@ from mbla.model.wording import counted, named
 def report_notices(
     model: Model, section: ContactsSection, report: ContactReport, findings: Findings
 ) -> tuple[Notice, ...]:
-    """What the report and the findings it was made of have to say."""
+    """Notices on the report and the findings behind it."""
     bodies = findings.contacts.overlays.bodies
     return (
         *_loose(model, section, report),
@@ -51,7 +51,7 @@ def _loose(model: Model, section: ContactsSection, report: ContactReport) -> Ite
 
 
 def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
-    """One sentence for each pair of blocks that overlap: names, depth, remedy; the deck is wrong if there is any."""
+    """One sentence for each pair of blocks that overlap: names, depth, remedy; any makes the deck invalid."""
     return tuple(
         f"{_pair(model, pair)} overlap by {_length(model, pair, depth)}: move them apart, leave one out"
         f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
@@ -128,7 +128,7 @@ def _left_out(model: Model, report: ContactReport, findings: Findings) -> Iterat
 
 
 def glue_words(report: ContactReport, sizes: IntArray) -> str:
-    """What glue made of the blocks; sizes (n,) of the solids of several blocks."""
+    """Rigid bodies formed by glue; sizes (n,) of the solids of several blocks."""
     parts = []
     if len(sizes):
         parts.append(f"{counted(int(sizes.sum()), 'block')} make {counted(len(sizes), 'rigid body')}")
@@ -157,7 +157,7 @@ def _length(model: Model, pair: IntArray, relative: float) -> str:
 
 
 def _by_tolerance(relative: float, text: str) -> str:
-    """The text with the tolerance that would do, or nothing where no allowed tolerance would."""
+    """The text with the tolerance that would suffice, or nothing where no allowed tolerance would."""
     rounded = float(f"{relative * 1.05:.1e}")
     return text.format(rounded) if rounded < WIDEST else ""
 

@@ -1,4 +1,4 @@
-"""Files and folders: errors of the operating system in our words, and files that are there completely or not at all.
+"""Files and folders: errors of the operating system in plain words, and files that are there completely or not at all.
 
 A single file next to results, such as a picture, is written under a temporary name in the same folder, flushed to the
 disk and renamed into place. What killed runs left under temporary names is cleared away:
@@ -17,7 +17,7 @@ file says who holds it; it is removed at the end, and one that a killed process 
 
 Over NFS the lock holds between machines (Linux has it from the server since 2.6.12) unless the file system was mounted
 with ``local_lock``; Lustre has locks where it was mounted with ``flock``. Where there are none a sweep is refused; a
-run of one deck goes on without.
+run of one deck continues without.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def _process_exists(process: int) -> bool:
 
 
 @contextlib.contextmanager
-def writing_whole(path: Path) -> Iterator[Path]:
+def writing_complete(path: Path) -> Iterator[Path]:
     """Where to write what is to be at ``path``: in place when the block ends, gone if it fails or is interrupted.
 
     Missing folders are made, and removed again if the block fails. An earlier file is replaced. The temporary path has
@@ -176,8 +176,8 @@ def writing_whole(path: Path) -> Iterator[Path]:
 
 
 def write_complete(path: Path, data: bytes) -> None:
-    """Write one file; raises as ``writing_whole`` does."""
-    with writing_whole(path) as temporary:
+    """Write one file; raises as ``writing_complete`` does."""
+    with writing_complete(path) as temporary:
         temporary.write_bytes(data)
 
 

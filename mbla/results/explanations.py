@@ -118,7 +118,7 @@ def _of_message(query: str) -> tuple[Explanation, ...]:
 
 
 def _with_word(query: str) -> tuple[Explanation, ...]:
-    """Entries that have all words query for in identifier, title or messages; else anywhere."""
+    """Entries that have all words of the query in identifier, title or messages; else anywhere."""
     words = _kebab(query).split("-")
 
     def having(texts: Sequence[str]) -> bool:

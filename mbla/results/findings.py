@@ -83,7 +83,7 @@ def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, 
 
 
 def _reason_of(case: CaseResult) -> str:
-    """What is said where the solver gives no reason; of an answer that is not verified also what it came from."""
+    """Reason where the solver gives none; of an answer that is not verified also its origin."""
     words = WITHOUT_REASON[case.status]
     ended = [record for record in case.solution.programs if record.status in BROKEN]
     if case.status is not Status.NOT_VERIFIED or not ended:
@@ -109,7 +109,7 @@ def _of_figures(case: CaseResult) -> list[Notice]:
 
 
 FAR_APART = 1e6
-"""Ratio of loads, or of strength and loads, from which it is named as the cause."""
+"""Ratio of loads, or of strength and loads, from which it is reported as the cause."""
 
 SMALL_FACTOR = 1e-5
 """Load factor, over dead over live load, below which the rounding of forces is more than a ten thousandth of it."""
@@ -123,7 +123,7 @@ NOT_SETTLED = (Status.APPROXIMATE, Status.NOT_VERIFIED, Status.ITERATION_LIMIT, 
 def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, doubtful: bool) -> list[Notice]:
     """What lies too far apart in a case that is not settled, and a load factor that is rounding.
 
-    doubtful : solved, but forces and velocities miss the law by more than they should
+    doubtful : solved, but forces and velocities violate the law by more than they should
     """
     if not len(model.free) or not np.any(case.load_case.live_load[model.free]):
         return []

@@ -1,8 +1,8 @@
-"""What may be reported of a case: which figures are results, which only the best that was reached.
+"""What may be reported of a case: which figures are results, which only those of the best iterate.
 
-A load factor is a result where the case is solved or approximate. Without associative flow it is none where the
-structure stands only by forces that someone would have to lock in: equilibrium under that load exists, but nothing
-brings it about. Everything that shows figures (listing, JSON, summary, pictures) asks here, so that none says more.
+A load factor is a result where the case is solved or approximate. Without associative flow it is no result
+where the structure stands only in a self-stressed state: equilibrium under that load exists, but nothing leads to it.
+Everything that shows figures (listing, JSON, summary, pictures) asks here, so that all agree.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ RESIDUALS = {
     "slip_residual": "of the power",
     "power_balance": "of the power",
 }
-"""what says how badly forces and velocities fit the joint law, and what each is relative to"""
+"""measures of how badly forces and velocities fit the joint law, and what each is relative to"""
 WORST_STANDING = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL)
 """verdicts that apply to the whole structure as soon as one case has them, the worst first"""
 
@@ -46,12 +46,12 @@ def result_of(case: CaseResult) -> Mechanics | None:
 
 
 def best_iterate(case: CaseResult) -> Mechanics | None:
-    """The best that was reached where that is no result; nothing where it is settled that there is none."""
+    """The best iterate where that is no result; nothing where it is settled that there is none."""
     return None if result_of(case) is not None or case.status is Status.UNBOUNDED else case.solution.mechanics
 
 
 def associative_of(case: CaseResult) -> Mechanics | None:
-    """The associative answer where it is a result: bounds confirm it whatever became of the deck's own flow rule."""
+    """The associative answer where it is a result: bounds confirm it whatever the deck's own flow rule gave."""
     associative = case.solution.associative
     if case.status is Status.UNBOUNDED:
         return None
@@ -80,7 +80,7 @@ def standing_unproved(case: CaseResult) -> bool:
 def presumes_standing(case: CaseResult) -> bool:
     """Whether what is claimed of the live load counts only if it stands, which nothing proves.
 
-    Associative flow presumes nothing: its bounds hold with and without forces locked in.
+    Associative flow presumes nothing: its bounds hold with and without self-stress.
     """
     claimed = case.status in (*WITH_VALUE, Status.UNBOUNDED)
     return claimed and case.solution.flow_rule != "associative" and standing_unproved(case)

@@ -54,8 +54,8 @@ class Results:
     exit_code  : exit status of the run
     created    : date of the run, UTC, ISO 8601
     files      : names of the files that were written for it, in its folder
-    complete   : whether the run came to its end
-    not_done   : load cases that it was asked for and did not come to
+    complete   : whether the run completed
+    not_done   : requested load cases that it did not reach
     """
 
     deck: DeckRecord

@@ -4,7 +4,7 @@ Model, contacts and loads are built again from the deck in the file and must com
 prove an answer for the arrays of a file, and that these arrays are the structure that its deck describes follows from
 its texts and the meshes and tables that it names. Of every case the forces and mechanisms are taken, and all that
 follows from them is found again: velocities, modes, parts, work, residuals, bounds, ends of ranges, standing, angle,
-status. The file that this gives must be the one at hand, dataset by dataset. So the file is believed in nothing but the
+status. The file that this gives must be the one at hand, dataset by dataset. So nothing in the file is trusted but the
 fields that say what the run alone can state (``unverified`` of :class:`mbla.results.record.quantity.Quantity`), which
 are marked in it and named in what is printed.
 """
@@ -260,7 +260,7 @@ def _differences(results: Results, built: Content) -> list[str]:
 
 
 def same(one: Value, other: Value) -> bool:
-    """Whether two entries are equal but for rounding."""
+    """Whether two entries are equal up to rounding."""
     first, second = np.asarray(one), np.asarray(other)
     if first.shape != second.shape:
         return False

@@ -3,7 +3,7 @@
 A run that is stopped leaves the load cases that were done, next to an earlier result and never in its place. Their
 files are ``STEM.partial.h5``, ``.lst`` and ``.json`` in the folder of the results. They say that they are not complete,
 what was not done, and give way to those of the next run of the deck, complete or stopped again. A run that is refused
-(its deck, its options, a file) leaves nothing: it has said why, and comes as far again.
+(its deck, its options, a file) leaves nothing: it has reported why, and gets as far again.
 """
 
 from __future__ import annotations

@@ -44,7 +44,7 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
 
 
 def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, float]:
-    """The solution with motions of the solids, and how far blocks that are glued move apart, over the largest motion.
+    """The solution with motions of the solids, and how far glued blocks move apart, over the largest motion.
 
     The block that falls stays as it is: it is a name for messages.
     """
@@ -88,7 +88,7 @@ def _standing(standing: StandingResult | None, mapped: Callable[[FloatArray], Fl
     return replace(standing, settlement=mapped(standing.settlement))
 
 
-# --- What follows from forces and mechanisms, found again for who does not believe it --------------------------------
+# --- What follows from forces and mechanisms, recomputed for verification ---------------------------------------------
 
 ROUNDING = 1e-9
 """Difference of velocities over the largest that is rounding: those stored are kept then, as modes at thresholds follow

@@ -80,7 +80,7 @@ class PartResult:
     """What was found for one part.
 
     associative : by the associative flow rule
-    sequence    : by the flow rule of the analysis where that is another one, None where it did not come to it
+    sequence    : by the flow rule of the analysis where that is another one, None where it was not reached
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
     standing    : assessment of the dead load alone, None where it was not asked for
     range       : of the load factor without normality, for the mechanism found
@@ -114,7 +114,7 @@ class PartResult:
         """Of the flow rule of the analysis.
 
         Residuals speak for a state of another flow rule than the associative one, whose proved kinematic bound holds
-        however far the static one is from it; what another solver contradicts stays that.
+        however far the static one is from it; what another solver contradicts stays contradicted.
         """
         if self.sequence is None or (self._doubted and self.sequence.status is Status.SOLVED):
             return self.associative.status
@@ -228,10 +228,10 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
 
 
 def _judged(result: PartResult, settings: SolverSettings, log: Log, path: StandingPath | None = None) -> PartResult:
-    """Without dilatancy: the load factor and the peak that the load path leaves, where there is reason to follow it.
+    """Without dilatancy: the load factor and the peak that the load path leaves, where that is followed.
 
     Where a support gives way there is no path: it starts with a reaction that is chosen. The published procedure is
-    there to be compared with the literature, and stays what it is.
+    there to be compared with the literature, and is not changed.
 
     path : as far as it was followed before
     """
@@ -271,7 +271,7 @@ def _falls_before(result: PartResult, state: LawState, most: float, settings: So
 def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
     """The range where it is asked for; where lower states are searched its lower end is the answer, asked for or not.
 
-    Only of a state that fits the law: the mechanism of another one belongs to nothing.
+    Only of a state that fits the law: the mechanism of another one is meaningless.
     """
     state = None if result.sequence is None else result.sequence.state
     if state is None:

@@ -25,7 +25,7 @@ collapse. With what 3e-8 leaves unbalanced no static bound was found of a wall w
 
 NEAR = 1e-3
 """Relative difference up to which a part collapses soon after. At the load factor a program that looks for the least
-forces has hardly an inside then, and its answer was too rough for a static bound."""
+forces has hardly an interior then, and its answer was too rough for a static bound."""
 
 BELOW = 1e-2
 """Share of the load factor by which such a part is examined below it. Forces of there and of its own collapse,

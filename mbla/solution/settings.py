@@ -1,4 +1,4 @@
-"""Settings of the solver stage as one record: the analysis section, and what ``accuracy`` and single knobs come to."""
+"""Settings of the solver stage as one record: the analysis section, and what ``accuracy`` and single knobs set."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MAX_ITERATIONS = 300
 
 @dataclass(frozen=True)
 class SolverSettings:
-    """What the deck asks of the solver stage, passed down to whoever solves.
+    """What the deck asks of the solver stage, passed down to the solvers.
 
     tolerance      : relative, on gap and feasibility of the scaled program
     max_iterations : for one program

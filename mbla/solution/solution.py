@@ -83,18 +83,18 @@ class Standing(StrEnum):
 
 
 PROVED_STANDING = (Standing.YES, Standing.NO)
-"""verdicts that something proves: forces with the displacements that bring them about, and a certificate"""
+"""verdicts that can be proved: by forces with the displacements that bring them about, and a certificate"""
 
 
 @dataclass(frozen=True)
 class StandingResult:
     """What the assessment of standing found.
 
-    verdict : YES: equilibrium arises from the stress-free assembly; SELF_STRESS: only from forces locked in before
+    verdict : YES: equilibrium arises from the stress-free assembly; SELF_STRESS: only in a self-stressed state
     block   : the block that falls or would fall first; None where none does
     reason  : one sentence in words
     forces, settlement : where it stands: (n_points, 3) contact forces under the dead load alone [N], and (n_blocks, 6)
-              the displacements and rotations that bring them about on joints of unit stiffness; None where not known
+              the displacements and rotations that cause them on joints of unit stiffness; None where not known
     """
 
     verdict: Standing
@@ -173,7 +173,7 @@ class Solution:
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
     tolerance_requested : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis
-                  asks for, where the answer is no sharper only because no more was asked for; None otherwise
+                  asks for, where the answer is no sharper only because no more was requested; None otherwise
     """
 
     flow_rule: str

@@ -33,7 +33,7 @@ FAILED = (
     Status.ITERATION_LIMIT,
     Status.NOT_VERIFIED,
 )
-"""what of one part decides for all, the most severe first"""
+"""statuses of one part that decide for all, the most severe first"""
 
 DECIDED = (Status.SOLVED, Status.UNBOUNDED)
 
@@ -79,7 +79,7 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
     if program.convex is None:
         solution = solve_parts(program.reduced, settings, log)
     else:
-        from mbla.solution.resultants.solve_convex import solve_convex  # late: interfaces are asked for rarely
+        from mbla.solution.resultants.solve_convex import solve_convex  # late: interfaces are rarely needed
 
         solution = solve_convex(program.convex, settings, log)
     return solution_on_blocks(solution, program.solids)
@@ -148,7 +148,7 @@ def _combined(stage: _Stage, results: Sequence[PartResult]) -> Solution:
 
 
 def _load_factor(result: PartResult) -> float:
-    """By the flow rule of the analysis, the associative one where that gave none."""
+    """By the flow rule of the analysis, or the associative one where that gave none."""
     return _factor(result.state if result.state is not None else result.associative.state)
 
 
@@ -198,7 +198,7 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
 
 
 def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:
-    """Status and reason of the part that collapses first; a part that is not solved might yet go before it."""
+    """Status and reason of the part that collapses first; a part that is not solved might collapse before it."""
     open_parts = [result for result in results if result.loaded and result.status not in DECIDED]
     result = results[first] if results[first].status not in DECIDED or not open_parts else open_parts[0]
     return result.status, result.reason
@@ -251,7 +251,7 @@ def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution
 
 
 def _without_claim(solution: Solution) -> Solution:
-    """What stands by forces locked in beforehand has no load factor without them, save the associative upper value."""
+    """What stands only in a self-stressed state has no load factor without it, save the associative upper value."""
     if solution.flow_rule == "associative":
         return solution
     claims = (*WITH_VALUE, Status.UNBOUNDED)

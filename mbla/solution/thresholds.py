@@ -2,7 +2,7 @@
 
 - associative flow: the load factor lies between its proved bounds, and they are no further apart than 1e-5. Forces and
   mechanism then fit the law to 1e-4;
-- flow without normality: no bound proves the factor, its residuals speak for it. The largest is at most 1e-6: solved;
+- flow without normality: no bound proves the factor, only its residuals. The largest is at most 1e-6: solved;
   1e-4: solved, with a warning among the results' notices; 1e-2: approximate; beyond: not verified. Unbalanced forces
   count as solved up to 1e-5 with every flow rule.
 """
@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 EXACT_RESIDUAL = 1e-6
-"""Residual of the joint law, relative as in the verification, up to which a state fits it without a word of warning."""
+"""Residual of the joint law, relative as in the verification, up to which a state fits it without a warning."""
 
 SOLVED_RESIDUAL = 1e-4
 """Residual up to which a factor counts as solved; without a proof the results warn of it from ``EXACT_RESIDUAL`` on."""
@@ -29,4 +29,4 @@ GAP_TOLERANCE = 1e-5
 """Greatest relative distance of static and kinematic bound at which an associative factor counts as verified."""
 
 BOUNDS_ROUNDING = 1e-9
-"""Bounds that cross by no more than this, relative to the load factor, have met."""
+"""Bounds that cross by no more than this, relative to the load factor, count as equal."""

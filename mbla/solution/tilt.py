@@ -1,7 +1,7 @@
 """Tilting table: the angle at which the structure collapses.
 
 Where joints have no strength but friction and only gravity acts, the size of the loads does not matter: the level
-structure with the live load ``across`` has the tangent of the angle for its load factor, in one go.
+structure with the live load ``across`` has the tangent of the angle for its load factor, in one program.
 
 Else the loads of the angle t itself must be those at collapse. Of an angle t the load factor λ of the line from the
 level loads to those at t is found; λ < 1 says that t is too large. Associative flow: its mechanism gives a line that no
@@ -34,7 +34,7 @@ Angles: TypeAlias = Generator[LoadCase, "Answer", "Answer"]
 ENDED = 1e-9
 """distance of the load factor from 1 at which the angle is that of collapse: below what the bounds resolve"""
 SETTLED = 1e-10
-"""change of the angle in radians below which steps go round in rounding"""
+"""change of the angle in radians below which steps are rounding"""
 GOOD = 1e-6
 """distance of the load factor from 1 up to which the case may be called solved"""
 NEAR = 1e-2
@@ -52,7 +52,7 @@ BETWEEN = 8
 
 @dataclass(frozen=True)
 class Answer:
-    """What was asked last, and what came of it."""
+    """The last request and its answer."""
 
     load_case: LoadCase
     solution: Solution
@@ -84,7 +84,7 @@ class Answer:
 def tilt_angles(model: Model, contacts: Contacts, load_case: LoadCase) -> Angles:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
     tilt = load_case.tilt
-    assert tilt is not None  # that is why it is asked for
+    assert tilt is not None  # that is why it is requested
     tangent = only_direction_counts(model, contacts, tilt)
     level = yield load_case
     level = replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=tangent)))
@@ -190,7 +190,7 @@ class _Search:
         return found
 
     def with_words(self, found: Answer) -> Answer:
-        """With what a reader must know of the search."""
+        """With remarks on the search."""
         solution, tilt = found.solution, found.load_case.tilt
         assert tilt is not None  # every answer has one
         degrees = ", ".join(f"{math.degrees(angle):.7g}" for angle in self.angles)

@@ -17,7 +17,7 @@ from mbla.solution.solution import Mechanics
 
 FULL_TURN = 2.0 * math.pi
 AT_ONCE = 1e-8
-"""angle within which the circle is left at its beginning; the arc cosine near 1 knows angles no better"""
+"""angle within which the circle is left at its beginning; the arc cosine near 1 is no more accurate"""
 CLOSE = 1e-9
 """share of the radius by which a side of the proof may cut into the circle: what STEEPEST takes off it, and rounding"""
 STEEPEST = 1e6

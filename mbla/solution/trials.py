@@ -32,7 +32,7 @@ from mbla.solution.verification.verify import verify
 
 
 class Trials:
-    """Load cases to solve and verify in a loop, whose body hands each answer back; the last answer is that of the case.
+    """Load cases to solve and verify in a loop, whose body returns each answer; the last answer is that of the case.
 
     ::
 
@@ -93,8 +93,8 @@ def posed(
 ) -> LoadCase:
     """A load case with its settlement posed; the same one where no support gives way.
 
-    Where no forces were found that carry the dead load while the support is held the reaction starts high: it is then
-    not for want of reaction if the programs that follow find no equilibrium.
+    Where no forces were found that carry the dead load while the support is held the reaction starts high: a lack of
+    equilibrium in the programs that follow is then not due to the reaction.
     """
     settlement = load_case.settlement
     if settlement is None:

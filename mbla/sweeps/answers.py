@@ -1,6 +1,6 @@
 """What each point of a sweep has of one result: a verified value, or which other answer, or none.
 
-Whatever draws, or says probabilities, asks here, so that a point without a verified answer looks so everywhere.
+Pictures and probabilities use these records, so that a point without a verified answer looks the same everywhere.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mbla.sweeps.results import FACTORS, STATUS, is_of_run
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 ALIKE = 1e-6
-"""relative; numbers are shown with six digits, and the accuracy of solvers decides upon the others"""
+"""relative; numbers are shown with six digits, and the others are below the accuracy of solvers"""
 
 
 class Answer(IntEnum):
@@ -82,7 +82,7 @@ class Answers:
 
     @property
     def unknown(self) -> BoolArray:
-        """Points of which not even that is known, (n_points,)."""
+        """Points whose place is unknown, (n_points,)."""
         return np.asarray(~self.good & ~self.below & ~self.above)
 
     def of(self, answer: Answer) -> BoolArray:
@@ -103,13 +103,13 @@ def answers_of(table: SweepTable, column: SweepColumn) -> Answers:
         answer[known & np.isin(status, UNSURE)] = Answer.UNVERIFIED
         for state, own in ((Status.NO_EQUILIBRIUM, Answer.NO_EQUILIBRIUM), (Status.UNBOUNDED, Answer.UNBOUNDED)):
             answer[~known & (status == state)] = own
-    if column.path == STATUS:  # is itself the word for what came of a point
+    if column.path == STATUS:  # is itself the word for the outcome of a point
         answer[known] = Answer.VALUE
     return Answers(column, values, answer, categories)
 
 
 UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status.NUMERICAL_ERROR)
-"""states in which a value is not verified, whatever became of the other load cases"""
+"""states in which a value is not verified, whatever the outcome of the other load cases"""
 
 
 def told_apart(values: FloatArray) -> FloatArray:

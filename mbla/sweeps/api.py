@@ -45,9 +45,9 @@ def sweep(
         Address of a Dask scheduler whose workers solve the points, in the place of processes of this machine. At a
         ``tls://`` address the certificates are those of Dask's own configuration.
     resume, retry_failed
-        Go on with the journal that is there; with ``retry_failed`` failed points are solved again.
+        Continue with the journal that is there; with ``retry_failed`` failed points are solved again.
     force
-        Begin anew and replace earlier files.
+        Start over and replace earlier files.
     progress
         Called with how many points are finished, and how many there are; first before any is solved.
 

@@ -47,7 +47,7 @@ class SweepOptions:
     folder       : of all files; SWEEP_NAME.out next to the sweep file if None
     shard        : part and number of parts, counted from 1: only these points, for job arrays
     resume       : continue with the journal that is there
-    force        : begin anew and replace earlier files
+    force        : start over and replace earlier files
     retry_failed : on resuming, solve failed points again
     goes_on      : how a sweep that was broken off is continued, in words
     """
@@ -99,7 +99,7 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Finished:
-    """What a sweep ends with; ``table`` has every point, those not solved yet without values."""
+    """Outcome of a sweep; ``table`` has every point, those not solved yet without values."""
 
     record: dict[str, Any]
     table: SweepTable
@@ -173,7 +173,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         {**deck, "mbla": plan.program, **library_versions()}, {each.name: each.kind for each in prepared.columns}
     )
     part, parts = options.shard or (1, 1)
-    asked = prepared.tasks[part - 1 :: parts]  # neighbours take about as long as each other, and so do shards then
+    asked = prepared.tasks[part - 1 :: parts]  # neighbours take about equal times, and so do shards then
     path = folder / (SINGLE if options.shard is None else journal_name(part, parts))
     check_options(options.engine)
     refuse_tables(folder, prepared.files, replace=options.force or options.resume)
@@ -193,7 +193,7 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
                         report(progress, task, journal.finished[outcome.key])
         except (
             BaseException
-        ) as error:  # what breaks a sweep off says how much of it is kept, where its own words do not
+        ) as error:  # an error that ends a sweep says how much of it is kept, where its own words do not
             if not isinstance(error, UsageError) and RESUME not in str(error):
                 kept = counted(len(journal.finished), "finished point")
                 error.add_note(f"{kept} in the journal, {options.goes_on}")

@@ -18,7 +18,7 @@ from mbla.results.disk import (
     mark_as_new,
     remove_new,
     temporary_path,
-    writing_whole,
+    writing_complete,
 )
 
 
@@ -81,7 +81,7 @@ def test_a_process_of_another_user_is_alive(
 
 
 def fail_half_way(path: Path, error: BaseException) -> None:
-    with writing_whole(path) as temporary:
+    with writing_complete(path) as temporary:
         temporary.write_text("half")
         raise error
 
@@ -98,7 +98,7 @@ def test_a_failure_leaves_the_earlier_file(tmp_path: Path, error: BaseException)
 
 
 def write_where_nothing_can_be(path: Path) -> None:
-    with writing_whole(path) as temporary:
+    with writing_complete(path) as temporary:
         try:
             (temporary / "no").touch()
         except OSError as error:

@@ -1,12 +1,12 @@
-"""The parts of a mechanism as they are listed: few rigid motions that explain most of it.
+"""The parts of a mechanism as they are listed: few rigid motions that reproduce most of it.
 
 Rigid parts (:mod:`mbla.results.collapse.rigid_parts`) are exact to the residual of a solution. The mechanism of a large
 structure may have hundreds of them that differ by a thousandth, and a facade that is pushed out of its plane opens a
-little in every joint: to the eye it is one plate or two that turn. Where there are more than ``MOST``, each is given to
-that of a few rigid motions, rest among them, which its own comes nearest to, and every motion is the one that fits its
-parts best (Lloyd 1982, doi:10.1109/TIT.1982.1056489), until nothing changes. As few are taken as explain ``ENOUGH`` of
-the motion: of the sum of squared velocities over the volume, that is, of what would be its kinetic energy. With the
-sums of a part about a common origin, for blocks of volume m and inertia J about their centroids ::
+little in every joint: to the eye it is one plate or two that turn. Where there are more than ``MOST``, each is assigned
+to the nearest of a few rigid motions, rest among them, and every motion is the one that fits its
+parts best (Lloyd 1982, doi:10.1109/TIT.1982.1056489), until nothing changes. The fewest are taken that reproduce
+``ENOUGH`` of the motion: of the sum of squared velocities over the volume, that is, of what would be its kinetic
+energy. With the sums of a part about a common origin, for blocks of volume m and inertia J about their centroids ::
 
     A = Σ m [1, −x×]ᵀ[1, −x×] + diag(0, J),   b = Σ m [1, −x×]ᵀ v + (0, J ω),   c = Σ m v² + ω·J ω
 
@@ -28,9 +28,9 @@ from mbla.results.collapse.rigid_parts import PartMotion, numbered, part_motions
 MOST = 12
 """rigid parts that are listed as they are; an arch that fails has three, a wall in bond up to ten"""
 FEW = 4
-"""parts that a reader keeps apart, which stand for more"""
+"""parts that a reader can distinguish, which stand for more"""
 ENOUGH = 0.95
-"""share of the motion that these are to explain"""
+"""share of the motion that these are to reproduce"""
 MOST_DIVISIONS = 50
 
 _Sums: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
@@ -42,7 +42,7 @@ class Clusters:
 
     of_block  : (n_blocks,) part of each block, 0 at rest; numbered by falling weight
     motions   : of each, as ``part_motions`` has them
-    explained : share of the motion that they explain; 1 where they are the rigid parts themselves
+    explained : share of the motion that they reproduce; 1 where they are the rigid parts themselves
     """
 
     of_block: IntArray
@@ -56,7 +56,7 @@ class Clusters:
 
 
 def clusters_of(model: Model, parts: IntArray, motion: FloatArray) -> Clusters:
-    """Of a motion, (n_blocks, 6), few parts where these explain enough of it, else its rigid parts, (n_blocks,)."""
+    """Of a motion, (n_blocks, 6), few parts where these reproduce enough of it, else its rigid parts, (n_blocks,)."""
     motions = part_motions(model, parts, motion)
     if len(motions) <= MOST:
         return Clusters(parts, motions, 1.0)
@@ -64,7 +64,7 @@ def clusters_of(model: Model, parts: IntArray, motion: FloatArray) -> Clusters:
     squares = sums[2]
     label, left = np.zeros(len(squares), dtype=np.int64), squares
     for count in range(1, FEW + 1):
-        worst = int(np.argmax(left))  # what the last ones explain least begins the next
+        worst = int(np.argmax(left))  # what the last ones reproduce least begins the next
         label, left = _nearest(sums, np.where(np.arange(len(label)) == worst, count, label))
         explained = 1.0 - float(left.sum() / squares.sum())
         if explained >= ENOUGH:

@@ -79,7 +79,7 @@ def kept(function: Callable[P, T]) -> Callable[P, T]:
 
 @dataclass(frozen=True)
 class Collapse:
-    """Everything that follows from forces and velocities; result files hold it for others, mbla finds it anew.
+    """Everything that follows from forces and velocities; result files hold it for others, mbla recomputes it.
 
     interfaces : what each interface does
     parts      : (n_blocks,) part of each block, 0 at rest
@@ -131,7 +131,7 @@ class Failure:
 
     clusters       : (n_blocks,) listed part of each block, 0 at rest
     motions        : of these parts, the heaviest first
-    explained      : share of the motion that they explain, 1 where they are the rigid parts themselves
+    explained      : share of the motion that they reproduce, 1 where they are the rigid parts themselves
     hinge_lines    : the one that moves most first
     sliding_planes : the one that dissipates most first
     cracks         : the one that opens most first

@@ -15,10 +15,10 @@ all of them, but for a set of measure zero.
 The rank is counted by Sylvester's law of inertia in the factors of A Aᵀ − εI, with ε on both sides of a gap: where the
 two disagree it is not determined.
 
-Fix every block that rests in the mechanism. Forces that balance the structure balance the moving blocks too, so that
-the load factor of the smaller model is no less; and the mechanism, in which nothing else moves, is one of the smaller
-model with the same power, so that by the kinematic theorem it is no more. By associative flow both models have one and
-the same load factor. A resting block that touches no moving one then takes no part at all and can be left out.
+Fix every block that is at rest in the mechanism. Forces that balance the structure balance the moving blocks too, so
+that the load factor of the smaller model is no less; and the mechanism, in which nothing else moves, is one of the
+smaller model with the same power, so that by the kinematic theorem it is no more. By associative flow both models have
+one and the same load factor. A resting block that touches no moving one then takes no part at all and can be left out.
 
 Without normality there are no bounds, but forces and mechanism together fit the law at every interface that is left:
 the state found is one of the smaller model, whose load factors may reach further, lower ones among them, because fewer
@@ -59,8 +59,8 @@ UNTOUCHED = 1e-6
 
 @dataclass(frozen=True)
 class ForceFreedom:
-    """degree : ways in which the forces may vary at the load factor, at most; 0 where they are unique
-    determined : (n_interfaces,) whose resultant is the same in all of them
+    """degree : of static indeterminacy at the load factor, at most; 0 where forces are unique
+    determined : (n_interfaces,) whose resultant is unique
     """
 
     degree: int

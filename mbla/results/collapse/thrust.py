@@ -127,7 +127,7 @@ def allowed_at_points(model: Model, contacts: Contacts, contact_forces: FloatArr
 
 
 def shear_use(shear: FloatArray, allowed: FloatArray) -> FloatArray:
-    """Ratio, (n,) of forces (n,) N each; nan where both are nothing, measured by the largest force."""
+    """Ratio, (n,) of forces (n,) N each; nan where both vanish, measured by the largest force."""
     finite = allowed[np.isfinite(allowed)]
     nothing = ROUNDING * max(finite.max(initial=0.0), shear.max(initial=0.0))
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -12,7 +12,7 @@ from mbla.results.pictures.geometry import front_axis
 from mbla.results.record.scene import Scene
 
 USUAL = (-60.0, 25.0)
-"""azimuth and elevation where nothing speaks for another view"""
+"""default azimuth and elevation"""
 SIDES = (
     (-60.0, -120.0, 60.0, 120.0),
     (-68.0, -112.0, 68.0, 112.0),
@@ -36,7 +36,7 @@ class Camera:
     right, up : (3,) unit, directions of the picture
     height    : m from the lower to the upper edge of the picture
     aspect    : width over height of the picture
-    depth     : m, radius of everything that is seen
+    depth     : m, radius of everything that is visible
     """
 
     centre: FloatArray

@@ -20,7 +20,7 @@ from typing import Any
 
 from mbla.arrays import FloatArray
 from mbla.errors import FileError, UsageError
-from mbla.results.disk import writing_whole
+from mbla.results.disk import writing_complete
 from mbla.results.listing.text import number
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of, is_single
 
@@ -306,6 +306,6 @@ def write_pictures(pictures: Sequence[PictureFile], target: Path, stem: str, end
             )
         paths = [target]
     for picture, path in zip(pictures, paths, strict=True):
-        with writing_whole(path) as temporary:
+        with writing_complete(path) as temporary:
             picture.write(temporary)
     return paths

@@ -165,11 +165,7 @@ class Scene(RecordScene):
             return "" if kind == "model" or self.is_result or self.mechanics is None else "NO RESULT: no collapse load"
         if status is Status.APPROXIMATE and self.is_result:
             return "APPROXIMATE: residuals are larger than for a solved case"
-        return (
-            "NOT VERIFIED: no result"
-            if self.mechanics is None
-            else "NOT VERIFIED: no result, the best that was reached"
-        )
+        return "NOT VERIFIED: no result" if self.mechanics is None else "NOT VERIFIED: no result, the best iterate"
 
 
 def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:

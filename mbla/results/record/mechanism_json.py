@@ -126,7 +126,7 @@ def _force_freedom(freedom: ForceFreedom | str) -> dict[str, int] | None:
 
 
 def _enough(model: Model, contacts: Contacts, collapse: Collapse) -> dict[str, int]:
-    """Counts of what is enough for the load factor: see :mod:`mbla.results.collapse.force_freedom`."""
+    """Counts of the part relevant to the load factor: see :mod:`mbla.results.collapse.force_freedom`."""
     enough = enough_of(model, contacts, collapse.parts)
     return {
         "moving_blocks": len(enough.moving),

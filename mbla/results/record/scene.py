@@ -24,7 +24,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 
 FIGURES = ("", "result", "best_iterate", "lock")
-"""what forces and velocities are, by number: none, a result, the best that was reached, or forces that balance the live
+"""what forces and velocities are, by number: none, a result, the best iterate, or forces that balance the live
 load alone"""
 
 
@@ -47,7 +47,7 @@ class Scene:
 
     @property
     def best(self) -> Mechanics | None:
-        """The best that was reached where there is no result."""
+        """The best iterate where there is no result."""
         return None if self.case is None else best_iterate(self.case)
 
     @property
@@ -57,7 +57,7 @@ class Scene:
 
     @property
     def mechanics(self) -> Mechanics | None:
-        """Forces and velocities: the result, else the best that was reached; None where there are none."""
+        """Forces and velocities: the result, else the best iterate; None where there are none."""
         return self.result or self.best
 
     @property

@@ -130,7 +130,7 @@ def alarm_of(case: CaseResult) -> str:
         return "there is no load factor, the live load may grow without end."
     if case.solution.mechanics is None:
         return "there is no load factor."
-    return "no load factor; figures, forces and mechanism below are the best that was reached, and no result."
+    return "no load factor; figures, forces and mechanism below are those of the best iterate, not a result."
 
 
 # --- The table at the head of a report: every load case with its status, answer and bounds --------------------------

@@ -151,5 +151,5 @@ def _words(results: Results, scene: Scene) -> list[str]:
     elif scene.mechanics is None and case.solution.certificate is not None:
         lines.append("Motion: one under which the dead load does work that no joint resists.")
     elif scene.mechanics is not None and scene.figures != "result":
-        lines.append("Forces and motion are NO RESULT: the best that was reached.")
+        lines.append("Forces and motion are NO RESULT: those of the best iterate.")
     return lines

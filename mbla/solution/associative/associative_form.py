@@ -14,7 +14,7 @@ from mbla.solution.associative.repair import carried_loads
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 
 LIGHT = 1e-2
-"""Load of a block, in mean loads, below which its equilibrium deserves units of its own."""
+"""Load of a block, in mean loads, below which its equilibrium has units of its own."""
 
 LIGHTEST = 1e-12
 """Least unit of a block's equilibrium, in mean loads."""

@@ -1,8 +1,8 @@
 """Bounds of the associative load factor that forces and velocities prove once they are repaired.
 
-They are repaired in :mod:`mbla.solution.associative.repair`. Nothing there needs to be believed: what the repaired
+They are repaired in :mod:`mbla.solution.associative.repair`. Nothing there needs to be trusted: what the repaired
 forces and velocities prove is evaluated by ``verify`` with its own statics and kinematics. ``certified_gap`` is the
-solver stage's own reckoning of the same, on the program alone.
+solver stage's own evaluation of the same, on the program alone.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class CertifiedGap:
 
 @stage("repair")
 def certified_gap(program: Program, state: LawState) -> CertifiedGap:
-    """Bounds of the associative load factor that a state proves; no solver is asked."""
+    """Bounds of the associative load factor that a state proves; no solver is called."""
     repaired = repaired_forces(program, state.forces, state.load_factor)
     forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
     charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))

@@ -1,4 +1,4 @@
-"""The motion that proves that the dead load is not carried, with nothing in it that does not fall.
+"""The motion that proves that the dead load is not carried, in which only moves what falls.
 
 A cone program without equilibrium ends on some motion in which the dead load does more work than the joints dissipate.
 Any multiple of it, and anything that costs less than it gains, may be mixed in: a wall from which one lintel falls
@@ -38,7 +38,7 @@ CARRIED_SHARE = 1e-7
 
 
 def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> FloatArray | None:
-    """The motion in which the dead load gains most, (n_rows,), largest entry 1; None where there is none to be proved.
+    """The motion in which the dead load gains most, (n_rows,), largest entry 1; None where nothing falls.
 
     Blocks that stand are at rest in it. It is compatible with the yield conditions up to rounding.
     """

@@ -3,8 +3,8 @@
 The forces that carry the load factor are those that fit the mechanism, whichever of its mechanisms was found
 (complementary slackness; :mod:`mbla.program.static`). Over them the sum of the normal forces of an interface
 has a least and a greatest value: two programs for each interface, linear ones in a plane, that differ in their cost
-alone. A range without an end means that the interface can be pressed as hard as one likes: what it carries is not
-decided by the loads.
+alone. A range without an end means that the interface can carry any normal force: what it carries is not determined by
+the loads.
 
 A part at rest carries its loads at the given load factor by any forces within the yield conditions.
 
@@ -40,7 +40,7 @@ ALL = 0.95
 directions of sliding leaves hardly any."""
 
 FORCE_SET_TOLERANCE, FORCE_SET_REGULARIZATION = 1e-8, 1e-8
-"""Of the cone solver: the set of forces has hardly an inside."""
+"""Of the cone solver: the set of forces has hardly an interior."""
 
 FALL = 2e-8
 """Share of the load factor (at least of dead over live load) by which that of the forces may be lower."""
@@ -54,7 +54,7 @@ class ForceRanges:
     """Least and greatest total normal force of each interface.
 
     ranges : (n_interfaces, 2) in units of the program's forces; inf without an end; NaN where the program has no points
-             of the interface, or where the solver came to no answer
+             of the interface, or where the solver gave no answer
     remark : how many were not found; None where all were
     """
 

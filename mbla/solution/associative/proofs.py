@@ -8,7 +8,7 @@
 Rounding leaves velocities incompatible by δ = μ s − v_N here and there. By virtual work each δ is worth at most N δ: it
 is charged with a normal force that no solution comes near. Likewise forces are left out of balance by R and beyond the
 yield conditions by e: in the mechanism of collapse these are worth |R·u| + e |v|, and the static bound is charged with
-that. Where the load factor is as small as rounding, only so is the static bound one.
+that. Where the load factor is as small as rounding, the static bound is a bound only with that charge.
 """
 
 from __future__ import annotations

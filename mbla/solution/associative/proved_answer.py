@@ -65,7 +65,7 @@ FIRST_OF_LARGE = 1e-8
 planar wall of 19,951 blocks came to it in 76 iterations, bounds 1.7e-8 apart; it stalled at 2.8e-9 thirty later."""
 
 CLOSE = 1e-7
-"""A wanted distance of the bounds below this is worth every try, at any size."""
+"""A wanted distance of the bounds below this justifies every try, at any size."""
 
 
 @dataclass
@@ -156,7 +156,7 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
         if tolerance >= before[1] or not sharpen(solver, tolerance):
             break
         again = _once(run, form, solver, unit, answer)
-        if again is answer:  # it was that sharp already
+        if again is answer:  # it was that accurate already
             continue
         answer = better(answer, again)
         if not answer.distance <= WORTHWHILE * before[0]:
@@ -165,7 +165,7 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
 
 
 def _first_tolerance(run: AssociativeRun, settings: SolverSettings) -> float:
-    """Tolerance of the first run of a program: the one asked for, no finer than is worth trying where it is large."""
+    """Tolerance of the first run of a program: the one asked for, no finer than is worthwhile where it is large."""
     return max(settings.tolerance, FIRST_OF_LARGE) if _is_large(run) else settings.tolerance
 
 
@@ -237,7 +237,7 @@ def solved_once(
     unit: float,
     enough: float = 0.0,
 ) -> ConeSolution:
-    """Solve what is loaded, once, and record it; ``unit`` times the objective is the load factor of the program."""
+    """Solve the loaded program once and record it; ``unit`` times the objective is the load factor of the program."""
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
     solution = solver.solve_once(number, to_load_factor, enough)
     value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
@@ -247,7 +247,7 @@ def solved_once(
 
 
 def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
-    """Whether a program, of either sign of the live load, says that there is no equilibrium without live load."""
+    """Whether a program, of either sign of the live load, shows that there is no equilibrium without live load."""
     if not run.program.dead_load.any():  # no forces balance no load
         return False
     negative = solution.objective < -STANDS_MARGIN * run.size

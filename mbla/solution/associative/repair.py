@@ -94,7 +94,7 @@ EQUILIBRIUM_TOLERANCE = 1e-9
 on their cones at once, double precision does not get far below 1e-10."""
 
 BALANCED = 1e-13
-"""Residual at which nothing is left to be mended."""
+"""Residual at which no repair is needed."""
 
 INSIDE = 1e-13
 """Excess over a yield condition, relative to the mean load of a block, that is rounding."""
@@ -110,7 +110,7 @@ MARGIN = 1e-12
 """Share of the largest normal force, or of what a light block has to balance, by which forces are put inside."""
 
 NO_FORCE = 1e-18
-"""Share of the largest force that is no normal force next to a shear."""
+"""Share of the largest force below which a normal force counts as zero next to a shear."""
 
 STEEP = 10.0
 """Friction up to which the metric follows the cone: beyond it shear could move so much more freely than normal force
@@ -187,7 +187,7 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
 def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
     """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
     limits = program.limits
-    least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone is none: no digits are left
+    least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone has none: no digits are left
     needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
     matrix = program.equilibrium_matrix

@@ -1,7 +1,7 @@
 """The associative load factor: a cone program, solved until proved bounds meet, and a proof that the dead load stands.
 
 With associative flow the static and the kinematic theorem hold, so that the optimum is unique. What the solver returns
-is not believed but repaired (``bounds``): forces that balance the loads prove the factor from below,
+is not trusted but repaired (``bounds``): forces that balance the loads prove the factor from below,
 compatible velocities from above. Where the two lie too far apart the program is solved again: with a sharper tolerance,
 and in units of the load factor where that is small, since the solver's tolerance is absolute there.
 
@@ -47,18 +47,18 @@ from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 
 ENOUGH = 1e-1
 """Residuals and gap at which the program with the live load reversed is stopped: its forces, far inside the cones then,
-can mostly be repaired to carry a load factor below zero, after six iterations instead of 25 on a wall of 410 blocks."""
+can usually be repaired to carry a load factor below zero, after 6 iterations instead of 25 on a wall of 410 blocks."""
 
 ROUGH = 1e3
 """Friction beyond which the solver may break down. Where it does, its forces are sought within this friction, which the
-true one contains; whether the answer is good enough is for the proved bounds to say."""
+true one contains; whether the answer is good enough is decided by the proved bounds."""
 
 LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
 
 
 @dataclass(frozen=True)
 class AssociativeResult:
-    """What the associative program says: a state with a load factor, a certificate without equilibrium.
+    """Answer of the associative program: a state with a load factor, a certificate without equilibrium.
 
     certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
                   joints dissipate
@@ -91,7 +91,7 @@ def solve_associative(
 
     first       : number of its first program in the sequence of the load case
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
-                  load reversed, which it mostly saves
+                  load reversed, which it usually saves
     """
     run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
@@ -171,7 +171,7 @@ def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettin
 
 
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
-    """No mechanism in which the live load does work, of either sign: that says nothing of the dead load, so ask."""
+    """No mechanism in which the live load does work, of either sign: that decides nothing on the dead load."""
     form = gravity_form(run.program)
     solution = cone_solver(form.cone_program, settings, run.log).solve(run.first + len(run.records), 0.0)
     status, number = solution.status, run.first + len(run.records)

@@ -35,7 +35,7 @@ DISPLACEMENT_ROUNDING = 64 * np.finfo(float).eps
 """Unbalanced force, per unit of the largest displacement, that rounding leaves: falling blocks go as far as 1/κ."""
 
 PATTERN_FROM = 8
-"""Tangents after which the pattern is worked out: that takes as long as some two of them by products of sparse
+"""Tangents after which the pattern is determined: that takes as long as some two of them by products of sparse
 matrices, each of which then takes three quarters of the time; many structures settle in six."""
 
 

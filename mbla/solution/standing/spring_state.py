@@ -38,7 +38,7 @@ def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple
     """Newton's method on the full law; whether it converged, and the iterate nearest to balance.
 
     Steps are shortened until they come nearer to balance. At a kink of the law none may: then the shortened step that
-    is left nearest is taken all the same, a few times in a row, for on its other side the way often goes on.
+    is left nearest is taken all the same, a few times in a row, for beyond the kink it often converges.
     """
     now = joints_at(problem, kappa, u)
     nearest, least, uphill = u, float(np.linalg.norm(now.unbalanced)), 0

@@ -1,8 +1,8 @@
 """Whether the structure stands under its dead load alone, before any live load.
 
 That an equilibrium exists is weaker than that the structure stands. A bar between two fixed walls, touching both with
-vertical faces, has an equilibrium for every friction above zero, since any thrust may be assumed; it falls unless
-someone presses the walls together. Coupled rigid-block analysis rejects such states (Kao et al. 2022,
+vertical faces, has an equilibrium for every friction above zero, since any thrust may be assumed; it falls unless the
+walls are pressed together. Coupled rigid-block analysis rejects such states (Kao et al. 2022,
 doi:10.1016/j.cad.2022.103216); limit analysis does not, and reports a load factor that means nothing. Here equilibrium
 has to arise from the assembly without stress, by the exact law of the joints: see ``weak_spring_continuation``.
 """
@@ -43,7 +43,7 @@ class DeadLoadState:
 
     forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
                     None where they do not balance it
-    displacements : (n_rows,) that bring them about: what the verification needs in addition to the forces
+    displacements : (n_rows,) that cause them: what the verification needs in addition to the forces
     """
 
     standing: StandingResult
@@ -101,7 +101,7 @@ def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
 def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
     """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
 
-    With a force of 1 per length of 1 in the deck's units, contact forces are what these displacements bring about; with
+    With a force of 1 per length of 1 in the deck's units, contact forces are those that these displacements cause; with
     joints k times as stiff everything moves 1/k as far. Those of parts add up. Where points are as stiff as their
     shares (:mod:`mbla.program.reductions.points`) 1 is the stiffest of them; joints of light blocks with units of their
     own are softer by the square of these.
@@ -134,7 +134,7 @@ def gravity_forces(
 
     They are those that arise from the stress-free assembly, where it stands. Where it does not, or that is doubtful,
     they are the least that carry the dead load. The least forces may hold a thrust between walls that nothing has
-    brought about: a bar lying on the ground between two walls and pushed along them, friction 0.5, then moves at 0.786
+    caused: a bar lying on the ground between two walls and pushed along them, friction 0.5, then moves at 0.786
     instead of 0.5.
 
     records : gets a line
@@ -162,7 +162,7 @@ def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
 
 
 def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:
-    """What a motion, (n_rows,), in which the dead load does more work than the joints dissipate says of standing.
+    """What a motion, (n_rows,), in which the dead load does more work than the joints dissipate implies for standing.
 
     The block named is the one whose load does most of that work.
     """

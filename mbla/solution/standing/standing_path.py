@@ -10,7 +10,7 @@ sticking, so that in a plane all states between them are their combinations; or 
 found by bisection.
 
 Measured on the decks, walls, arches, vaults, stairs: the end of the path was the load factor of steps of the law to
-five thousandths in 44 of 47. A stair in a round gets its factor 4 % lower, and an exact state there.
+five thousandths in 44 of 47. A spiral stair gets its factor 4 % lower, and an exact state there.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Whether an assembly carries a load from its stress-free state: springs that hold every block are made weaker.
+"""Whether an assembly carries a load from its stress-free state: continuation in springs that hold every block.
 
 On springs of κ times the size of each block's load the assembly always finds an equilibrium
 (``spring_state``). As κ goes to zero, the largest share s of a block's load that its spring carries
@@ -40,13 +40,13 @@ CARRIED_SHARE = 1e-6
 """Share of a block's load on its spring below which joints carry the load."""
 
 AIMED_SHARE = 1e-7
-"""What κ is chosen for once the share falls in proportion to it."""
+"""Target share for κ once the share falls in proportion to it."""
 
 WEAKEST = 1e-12
 """Least κ; columns of a thousand blocks settle by 1e5 units under their weight, all else by less."""
 
 PLATEAU_FROM = 1e-5
-"""κ from which on a share that stays counts: with stronger springs tall structures lean on them."""
+"""κ from which on a share that stays counts: with stiffer springs tall structures lean on them."""
 
 STAYS = 0.9
 """Least ratio of shares two decades apart on a plateau."""
@@ -59,7 +59,7 @@ LENGTHENING = 1.5
 """Power of a ratio that is the next one after a state was found."""
 
 MOST_FAILURES = 5
-"""Times that no state is found before it is given up: each costs some 200 factorisations."""
+"""Failed attempts at a state before giving up: each costs some 200 factorisations."""
 
 KAPPA_ROUNDING = 1e-9
 """Relative, in comparisons of one κ with another."""
@@ -75,7 +75,7 @@ ALIKE = 1 - 1e-6
 
 
 class Outcome(Enum):
-    """What became of the load as the springs got weaker."""
+    """How the load was carried as the springs got weaker."""
 
     CARRIED = auto()
     FALLS = auto()
@@ -145,7 +145,7 @@ def is_diagonal(matrix: sp.csr_array) -> bool:
 
 
 def agreed(first: Weakening, second: Weakening) -> Weakening:
-    """What two ratios of stiffness say together: nothing where they differ."""
+    """Outcome of two ratios of stiffness together: undecided where they differ."""
     if first.outcome is second.outcome:
         return first
     falls = first if first.outcome is Outcome.FALLS else second
@@ -213,7 +213,7 @@ def _weaken(
         state = _state_at(problem, blocks, kappa, states or [last])
         leapt = bool(states) and kappa < step * (1 - KAPPA_ROUNDING) * last.kappa
         if leapt and not problem.late and (state is None or state.share >= CARRIED_SHARE):
-            kappa, leaps = step * last.kappa, False  # too early: what the share does on the way decides
+            kappa, leaps = step * last.kappa, False  # too early: how the share develops decides
             continue
         if state is None:
             step, failures = float(np.sqrt(step)), failures + 1
@@ -242,7 +242,7 @@ def _outcome(outcome: Outcome, state: _State, reason: str = "") -> Weakening:
 def _elastic_state(problem: SpringProblem, blocks: _Blocks) -> _State | None:
     """The state in which every joint sticks and is closed, if that carries the load; None where it does not.
 
-    It is the first step of Newton's method from where nothing has moved. What goes on from another state has none.
+    It is the first step of Newton's method from where nothing has moved. A continuation from another state has none.
     """
     u = np.zeros(len(problem.load))
     step = newton_step(problem, WEAKEST, joints_at(problem, WEAKEST, u))

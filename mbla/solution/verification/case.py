@@ -1,4 +1,4 @@
-"""A load case as the verification sees it: what follows from model, contacts and loads, and what contact points allow.
+"""A load case for the verification: what follows from model, contacts and loads, and what contact points allow.
 
 Conditions on interfaces change some of it (:mod:`mbla.solution.verification.verify_convex`), by the same names.
 """
@@ -94,7 +94,7 @@ class Case:
     def unbalanced_loads(self, forces: FloatArray, factor: float) -> FloatArray:
         """Largest unbalanced component of each block, moments over the lever arm, zero on fixed blocks, (n_blocks,).
 
-        Of guided blocks only what their guides do not take counts.
+        Of guided blocks only what their guides do not carry counts.
         """
         unbalanced = np.abs(self.unbalanced_wrenches(forces, factor))
         unbalanced[:, 3:] /= self.scale.arms[:, None]
@@ -147,7 +147,7 @@ class Case:
         )
 
     def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
-        """What unbalanced forces and those beyond yield are worth in a mechanism, over its live power.
+        """Power of unbalanced forces and of those beyond yield in a mechanism, over its live power.
 
         forces : (n_points, 3) N, compression positive
         """

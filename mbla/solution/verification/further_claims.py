@@ -1,7 +1,7 @@
 """What is claimed in addition to the load factor, each judged with statics and kinematics of its own.
 
 *Standing*: the dead load is carried from the stress-free assembly. Forces balance the dead load within the yield
-conditions, and displacements of the blocks show how they come about. On joints of unit stiffness each is pressed by
+conditions, and displacements of the blocks show how they arise. On joints of unit stiffness each is pressed by
 closing, sheared against its sliding, and by no more than that asks for::
 
     N v_N ≤ 0,  |N| ≤ |v_N|,      T = −α v_T,  0 ≤ α ≤ 1
@@ -15,16 +15,16 @@ and stay within the yield conditions however often they are taken: ‖T‖ ≤ �
 Each block is judged by its own live load, the mean of the others' where it has none: a light block that breaks away
 must not be lost in the mean.
 
-*Range*: an end of the range of a load factor without normality is believed where its own forces balance the loads at
+*Range*: an end of the range of a load factor without normality is accepted where its own forces balance the loads at
 its load factor, keep to the yield conditions and fit, by the flow rule claimed, the mechanism of the load factor
-reported. That nothing lies beyond the ends is the word of the solver; that everything between them is possible needs no
-more than the two, since the states of one mechanism are convex.
+reported. That nothing lies beyond the ends is claimed by the solver alone; that everything between them is possible
+needs no more than the two, since the states of one mechanism are convex.
 
 *Peak*: the state at a peak of the load path is passed and not at rest, so that its velocities prove nothing. Its forces
-do: they balance the loads at its load factor within the yield conditions. That the path goes down from there is the
-word of the solver.
+do: they balance the loads at its load factor within the yield conditions. That the path goes down from there is claimed
+by the solver alone.
 
-*Tilt*: the loads at collapse are those of the tilting table at the angle said.
+*Tilt*: the loads at collapse are those of the tilting table at the angle stated.
 """
 
 from __future__ import annotations
@@ -56,8 +56,7 @@ from mbla.solution.verification.statics import (
 )
 
 UNBALANCED = 3e-6
-"""Share of a block's dead load that may be left unbalanced: what the assessment leaves on springs, counted in another
-norm."""
+"""Share of a block's dead load that may be left unbalanced: the rest on springs, measured in another norm."""
 
 FORCE_ROUNDING = 1e-12
 """The same over the forces that act on the block."""
@@ -110,7 +109,7 @@ def standing_failures(
 
 
 def _astray(forces: FloatArray, displaced: FloatArray) -> float:
-    """How far a force is from any that its joint's displacement can bring about, over the largest of either.
+    """How far a force is from any that its joint's displacement can cause, over the largest of either.
 
     Displacements count up to ``HIDDEN`` times the largest force.
     """
@@ -216,7 +215,7 @@ SAME_LOADS = 1e-6
 def never_failures(load_case: LoadCase, checks: Checks) -> tuple[Message, ...]:
     """What is wrong with the claim that a table collapses at no angle, proved by the loads of the one turned over."""
     tilt = load_case.tilt
-    assert tilt is not None  # asked for such cases only
+    assert tilt is not None  # needed for such cases only
     failures = checks.failures
     off = float(np.abs(load_case.live_load - chord(tilt, math.pi)).max(initial=0.0))
     if off > SAME_LOADS * float(np.abs(tilt.turning).max(initial=0.0)):

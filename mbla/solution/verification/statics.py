@@ -133,7 +133,7 @@ class LoadScale:
 
     arms : (n_blocks,) mean distance of a block's contact points from its centroid, its size where it has none
     own  : (n_blocks,) dead load of each free block, the mean of the others' where it has none; zero on fixed blocks.
-           Without any dead load the strength of the joints stands in for it, and without strength the live load
+           Without any dead load the strength of the joints is used instead, and without strength the live load
     mean : mean of ``own`` over the free blocks that have a load
     live : size of the live load: root of the sum of squares over free blocks
     """
@@ -155,7 +155,7 @@ class LoadScale:
     def rounded_scale(self, contacts: Contacts, contact_forces: FloatArray, factor: float, share: float) -> FloatArray:
         """``block_scale``, but no less than a share of the forces on the block, for their rounding, (n_blocks,).
 
-        No more of that than the mean and the live load, or forces locked in would prove what one likes.
+        No more of that than the mean and the live load, or self-stress could prove anything.
         """
         passed_on = forces_on_blocks(
             contacts, contact_forces, len(self.own)

@@ -52,8 +52,8 @@ APART = 1e-9
 def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
 
-    No solver is asked, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
-    are judged as the rigid body they make.
+    No solver is called, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
+    are judged as the rigid body they form.
     """
     solids = solids_of(model, contacts)
     of_solids, apart = solution_on_solids(solution, solids)
@@ -90,7 +90,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
 
 
 def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
-    """By how much forces and mechanism of a part of a solution miss the joint law at most, by the rule of that part.
+    """By how much forces and mechanism of a part of a solution violate the joint law at most, by the rule of that part.
 
     NaN where nothing moves.
     """

@@ -225,7 +225,7 @@ def _wrong_resultants(case: InterfaceCase, mechanics: Mechanics) -> tuple[Messag
 
 
 def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, contact_model: str) -> tuple[Message, ...]:
-    """Why forces, (n_points, 3) [N], are not within the conditions on interfaces however often they are taken."""
+    """Why forces, (n_points, 3) [N], are not within the conditions on interfaces at any multiple."""
     case = InterfaceCase(model, contacts, model.load_cases[0], contact_model)
     none = np.zeros(len(contacts))
     dry = replace(case.laws, cohesion=none, tension=none)

@@ -1,7 +1,7 @@
 """Verification: everything that is claimed, recomputed from model, contacts and solution.
 
-No solver is requested and no matrix of the program stage is used for a verdict: forces are summed over blocks and
-velocities taken from rigid-body motion directly (``statics``). What the residuals are is said in
+No solver is called and no matrix of the program stage is used for a verdict: forces are summed over blocks and
+velocities taken from rigid-body motion directly (``statics``). The residuals are defined in
 :mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.associative.proofs`.
 
 What may be claimed follows from the figures alone, by the limits of :mod:`mbla.solution.thresholds`.
@@ -149,7 +149,7 @@ def meets_what_was_asked(solution: Solution, checks: Checks) -> bool:
 def tolerances(flow_rule: str) -> dict[str, float]:
     """What a solved case may miss at most, by the name of each figure in ``Checks``; others are parts of these.
 
-    The live power may miss 1 by so much; the gap counts for associative flow, whose load factor the bounds prove.
+    The live power may deviate from 1 by that; the gap counts for associative flow, whose load factor the bounds prove.
     """
     associative = flow_rule == "associative"
     return {

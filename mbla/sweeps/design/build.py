@@ -29,7 +29,7 @@ def design_of(sources: Sources) -> Design:
     Raises
     ------
     DeckError
-        values that cannot be had, constraints that have no value, and a design that leaves no point
+        values that cannot be formed, constraints that have no value, and a design that leaves no point
     """
     parts, axes = _axes_of(sources)
     keep, breaches = constrained(sources.content.constraints, axes, sources.known, sources.fault_at)

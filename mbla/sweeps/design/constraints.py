@@ -1,6 +1,6 @@
 """Points that break a constraint: comparisons of the parameters of the sweep, and of the deck as they are there.
 
-A comparison is worked out once for each combination of positions along the axes that it depends on, however many other
+A comparison is evaluated once for each combination of positions along the axes that it depends on, however many other
 axes the design has.
 """
 

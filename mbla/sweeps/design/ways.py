@@ -2,7 +2,7 @@
 
 Values of a grid are those at quantiles too: of a range at equal steps from 0 to 1, of a list in the middle of each.
 
-Values are written as a person would write them: 0.13, not 0.13000000000000003. ``DIGITS`` significant digits are far
+Values are rounded for reading: 0.13, not 0.13000000000000003. ``DIGITS`` significant digits are far
 more than any measurement gives, few enough that the rounding of the arithmetic and the last digits of mathematical
 libraries, which differ from machine to machine, do not show.
 
@@ -43,7 +43,7 @@ GOLDEN_ANGLE = (3 - math.sqrt(5)) / 2
 
 
 class WayError(ValueRefused):
-    """The values cannot be had in this design; the message says why and what helps."""
+    """The values cannot be formed in this design; the message says why and what helps."""
 
 
 def columns_of(name: str, parameter: Parameter, unit: str, random: bool) -> tuple[SweepColumn, ...]:
@@ -123,7 +123,7 @@ def _numbers(section: Any, u: FloatArray) -> Sequence[Plain]:
 def rounded_within(values: FloatArray, least: float | None, greatest: float | None) -> list[float]:
     """Each value (n,) to DIGITS significant digits, and none thereby beyond its limits, if any.
 
-    Raises WayError where one is larger than numbers are.
+    Raises WayError where one is too large for a number.
     """
     if not np.isfinite(values).all():
         raise WayError("sweep-values", "has values beyond what a number holds")

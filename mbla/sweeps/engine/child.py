@@ -44,7 +44,7 @@ STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse"
 LATE = ("clarabel", "qdldl", "cvxopt", "scipy.sparse.linalg", "scipy.sparse.csgraph", "scipy.spatial")
 """libraries that the stages import when they need them; some are optional"""
 IDLE = 60.0
-"""seconds without a task after which it ends: whoever asked a worker of a cluster is gone"""
+"""seconds without a task after which it ends: the client of a worker of a cluster is gone"""
 
 
 def main() -> None:
@@ -70,7 +70,7 @@ def main() -> None:
 
 
 def _listen(pipe: Connection[Any, Any], questions: queue.Queue[Any]) -> None:
-    """Hand on what the parent asks; its end ends everything here, whatever is under way."""
+    """Pass on requests of the parent; its end ends everything here, whatever is under way."""
     with contextlib.suppress(EOFError, OSError):
         while True:
             questions.put(pipe.recv())
@@ -78,7 +78,7 @@ def _listen(pipe: Connection[Any, Any], questions: queue.Queue[Any]) -> None:
 
 
 def import_everything() -> None:
-    """Load what the stages may need late, so that neither its time nor its memory is charged to a point."""
+    """Load what the stages may need later, so that neither its time nor its memory is charged to a point."""
     for stage in STAGES:
         package = importlib.import_module(f"mbla.{stage}")
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
@@ -126,7 +126,7 @@ def requested_only(deck: Deck, plan: Plan) -> Deck:
     """The deck of a point, without range and peak where no column and no file shows them.
 
     They are further results on the state that was found (``mbla.solution.part``), change no other value, and may take
-    longer than the state itself. The range is worked out all the same where its lower end is the load factor.
+    longer than the state itself. The range is computed all the same where its lower end is the load factor.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck
@@ -148,7 +148,7 @@ def state_of(exit_code: int) -> str:
 class PointRunner:
     """Points of one plan, one after the other.
 
-    What points have in common is worked out once: ``memory``. Files that the deck names are taken as they were when
+    What points have in common is computed once: ``memory``. Files that the deck names are taken as they were when
     they were first read.
     """
 

@@ -36,7 +36,7 @@ LOOK = 1.0
 REPLY = 30.0
 """seconds in which a scheduler must answer a question; a busy one takes a few"""
 PARTING = 1.0
-"""seconds for taking leave of a scheduler; one that does not answer is left without"""
+"""seconds for disconnecting from a scheduler; without an answer the client leaves"""
 CANCELLED = (asyncio.CancelledError, concurrent.futures.CancelledError)
 WINDOW = 2
 """points under way for each thread of the workers: one is solved, the next waits with it"""
@@ -129,7 +129,7 @@ class Connection:
             yield
 
     def look(self, every: float = 0.0) -> None:
-        """See what workers there are, unless that was less than so many seconds ago.
+        """See what workers there are, unless that was done a few seconds ago.
 
         Raises
         ------
@@ -157,14 +157,14 @@ class Connection:
 
     @contextmanager
     def lost_where_it_fails(self) -> Iterator[None]:
-        """What cannot be asked or handed over is the scheduler's end: raises FileError."""
+        """A failed request means that the scheduler is gone: raises FileError."""
         try:
             yield
         except (OSError, RuntimeError, *CANCELLED) as error:  # a TimeoutError is one
             raise self._lost() from error
 
     def ask_quietly(self, ask: Callable[[Any], Any]) -> None:
-        """Ask the client for what is only of use while the scheduler is there, and not for long."""
+        """Request of the client that is of use only while the scheduler is there, with a short timeout."""
         if self.client is not None and self.client.status == "running":
             with suppress(Exception):
                 within(PARTING, lambda: ask(self.client))

@@ -26,7 +26,7 @@ TLS = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_cli
 
 @dataclass(frozen=True)
 class EngineOptions:
-    """What engine is wanted.
+    """Engine that is requested.
 
     workers        : processes on this machine
     scheduler      : address of a Dask scheduler, ``tcp://host:port`` or ``tls://host:port``; empty for none

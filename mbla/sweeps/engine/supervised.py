@@ -33,7 +33,7 @@ THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_
 TRIES = 2
 """of a point whose process dies"""
 STARTS = 5
-"""of a process that ends before it is ready: no point is to blame, and what ended it may be over soon"""
+"""of a process that ends before it is ready: no point caused that, and the cause may be temporary"""
 START = 120.0
 """seconds in which a process must be ready; importing takes a few, and some more from a busy network disk"""
 PATIENCE = 5.0

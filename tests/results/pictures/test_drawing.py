@@ -94,8 +94,8 @@ def test_without_equilibrium_the_motion_is_told_as_such(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("status", "words"),
     [
-        (Status.NOT_VERIFIED, "NOT VERIFIED: no result, the best that was reached"),
-        (Status.TIME_LIMIT, "NOT VERIFIED: no result, the best that was reached"),
+        (Status.NOT_VERIFIED, "NOT VERIFIED: no result, the best iterate"),
+        (Status.TIME_LIMIT, "NOT VERIFIED: no result, the best iterate"),
         (Status.APPROXIMATE, "APPROXIMATE: residuals are larger than for a solved case"),
         (Status.SOLVED, ""),
     ],
