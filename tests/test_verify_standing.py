@@ -109,9 +109,9 @@ def test_a_doubt_is_marked_and_a_load_factor_that_rests_on_it_not_confirmed(
     assert disagreements == ()
     assert again.exit_code == 4
     (words,) = unproved_words(again.cases)
-    assert "is not verified, the run reported 'doubtful'; what is said of the live load presumes" in words
+    assert "is not verified, the run reported 'doubtful'; statements on the live load presume" in words
     assert words in verification_json(again, disagreements)["not_verified"]
-    assert "presumes that it stands" in " ".join("\n".join(verification_lines(again, disagreements)).split())
+    assert "presume that it stands" in " ".join("\n".join(verification_lines(again, disagreements)).split())
     with h5py.File(written(tmp_path, changed)) as file:
         name = f"cases/{again.cases[0].load_case.name}/standing/verdict"
         assert file[name].attrs["verification"] == f"not verified: {UNVERIFIED['standing']}".encode()

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from mbla.sweeps.words import Progress
 
 NAMED_FAILURES = 20
-"""failed points that have a line of their own while the sweep goes on; the journal has the reasons of all"""
+"""failed points that have a line of their own while the sweep continues; the journal has the reasons of all"""
 BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
 
@@ -35,7 +35,7 @@ def add_sweep(commands: Any) -> None:
         "sweep",
         help="run a deck over a design of experiments: a table of all points",
         description="Solve a base deck at every point of a design of experiments. Each finished point is a row of "
-        "journal.csv at once; --resume goes on after an interruption. When none is missing, sweep.csv and sweep.json "
+        "journal.csv at once; --resume continues after an interruption. When none is missing, sweep.csv and sweep.json "
         "hold all points in the order of the design, and mbla sweep-plot draws them. mbla schema sweep says what a "
         "sweep file may have.",
         epilog="Exit status 0 where every point has a verified answer, also that there is no load factor; 8 with "

@@ -47,7 +47,7 @@ def line_width() -> int:
 
 
 def _write(text: str) -> None:
-    """Nobody may listen any more: what the program does goes on, and its exit status still says how it ended."""
+    """There may be no reader any more: the program continues, and its exit status still says how it ended."""
     with contextlib.suppress(OSError, ValueError):
         print(text, end="", file=sys.stderr, flush=True)
 

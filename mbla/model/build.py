@@ -100,7 +100,7 @@ NO_LAW = JointLaw(friction=0.0)
 
 @dataclass(frozen=True)
 class Structure:
-    """Blocks by name, with the masses that rest on them, and what holds them; what is wrong with it is in the roster.
+    """Blocks by name, with the masses that rest on them, and what holds them; faults go to the roster.
 
     bent          : faces that were split
     first_notices : before those on joint laws
@@ -114,7 +114,7 @@ class Structure:
 
 
 def structure_of(deck: Deck) -> Structure:
-    """Build it, or take that of an earlier deck that says the same of it in the same files."""
+    """Build it, or take that of an earlier deck that describes the same structure in the same files."""
     bare = _bare(deck)
     keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is relative to where it is named
     files = tuple(str(source.path.absolute()) for source in deck.sources)

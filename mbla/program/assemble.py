@@ -1,7 +1,7 @@
 """From model, contacts and load case to the non-dimensional program.
 
 Light blocks have units of force of their own: what hangs on one heavy block alone is measured by its own load. A
-program in units of the mean load says nothing of a block that carries less of it than sixteen digits hold: a block of
+program in units of the mean load cannot resolve a block that carries less of it than sixteen digits hold: a block of
 1 m on a free one of 10 km is 2e-12 of it. But such a block, or a pile of them, that touches no more than one heavier
 body cannot be pressed by anything but its own loads. Its rows of equilibrium, and the forces at its contacts, are then
 measured by these; in the row of the heavy block the latter are as small as they are.
@@ -38,7 +38,7 @@ def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool
 
 
 def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, own: bool) -> Program:
-    """The program in which guided blocks move as they like, six rows a free block."""
+    """The program in which guided blocks move freely, six rows a free block."""
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
     scaling = _scaling(lever_arms(model, contacts, free), dead, live)

@@ -1,8 +1,8 @@
 """From the solids of a model to the program that is solved: contact points or interfaces, and what reductions leave.
 
 Every load case takes this way, whatever its contact model; the solids keep the way back to the blocks. Conditions on
-interfaces are torsion where it is asked for, and crushing wherever it can be. Where a program has none, notices say
-what the contact model is known to get wrong for the joints of a model.
+interfaces are torsion where it is asked for, and crushing wherever it can be. Where a program has none, notices state
+the known errors of the contact model for the joints of a model.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ class Program:
     halved             : the reduction is to one half of a structure with a plane of symmetry
     allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
-    settles            : a support gives way: what the load factor counts from is chosen, and 0 says nothing of how the
+    settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
                          structure stands
     """
 
@@ -103,7 +103,7 @@ class Program:
     settles: bool = False
 
     def without_live_load(self) -> Program:
-        """What of it is the same whatever the live load, down to the program of the full model."""
+        """The part of it that does not depend on the live load, down to the program of the full model."""
         way = self.reduction
         return replace(
             self,

@@ -33,7 +33,7 @@ from mbla.sweeps.words import Progress
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
 MEGABYTE = 1e6
-RESUME = "--resume goes on"
+RESUME = "--resume continues"
 """words on finished points in a journal"""
 
 Report = Callable[[Progress, Task | None, Outcome | None], None]

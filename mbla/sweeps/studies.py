@@ -28,7 +28,7 @@ def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions)
     folder = run.folder or deck.path.with_name(f"{deck.path.stem}_{name}.out")
     refuse_tables(folder, TableFiles(), replace=run.force)
     resume = not run.force and (folder / SINGLE).exists()
-    return SweepOptions(folder, engine, resume=resume, force=run.force, goes_on="the same command goes on")
+    return SweepOptions(folder, engine, resume=resume, force=run.force, goes_on="the same command continues")
 
 
 def prepared_study(

@@ -160,7 +160,7 @@ def make_study(name: str, folder: Path) -> Path:
         assert main(["interact", str(deck), "--directions", "72", "-o", str(folder / "interact"), "-q"]) == 0
         return (folder / "interact" / "interact.svg").replace(target)
     sweep, out = folder / "door.yaml", folder / "door.out"
-    text = readme_block("`door.yaml`, beside", DECKS / "sweeps" / README)
+    text = readme_block("`door.yaml`, next to", DECKS / "sweeps" / README)
     assert text.count(SAMPLE[0]) == 1
     sweep.write_text(text.replace(*SAMPLE), encoding="utf-8")
     assert main(["sweep", str(sweep), "-q"]) == 0

@@ -32,4 +32,4 @@ def test_deck_has_the_load_case(picture: DeckPicture, tmp_path: Path) -> None:
 
 
 def test_the_sweep_of_the_readme_has_the_sample_that_its_picture_enlarges() -> None:
-    assert readme_block("`door.yaml`, beside", DECKS / "sweeps" / "README.md").count(SAMPLE[0]) == 1
+    assert readme_block("`door.yaml`, next to", DECKS / "sweeps" / "README.md").count(SAMPLE[0]) == 1

@@ -24,7 +24,7 @@ from tests.results.synthetic import tower_results
 
 PACKAGE = Path(mbla.__file__).parent
 SOURCES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
-WRITTEN_BY = {"Notice": 1, "warn": 0, "tell": 0, "_drop": 2, "take_welded": 1, "_counted": 0, "_worst": 0}
+WRITTEN_BY = {"Notice": 1, "warn": 0, "note": 0, "_drop": 2, "take_welded": 1, "_counted": 0, "_worst": 0}
 """Functions that take an identifier, and which argument it is."""
 COMPUTED = {
     "f'{key}-not-applied'": {"inset-not-applied", "rounding-not-applied"},

@@ -162,4 +162,4 @@ def test_friction_that_is_next_to_none_is_named_where_a_case_is_not_settled(fric
     stuck = replace(case, status=Status.NUMERICAL_ERROR)
     notices = magnitude_notices(results.model, results.contacts, stuck, doubtful=False)
     assert [notice.identifier for notice in notices] == ["magnitudes-far-apart"] * named
-    assert all("friction of 1e-09 is next to none" in notice.message for notice in notices)
+    assert all("friction of 1e-09 is negligible" in notice.message for notice in notices)

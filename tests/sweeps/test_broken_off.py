@@ -45,7 +45,7 @@ def test_a_full_disk(path: Path, clean: Path, tmp_path: Path) -> None:
     ended = run(path, tmp_path / "full", "-q", file_size=room)
     said = re.search(
         r"^mbla: \S+/full/journal\.csv: File too large; "
-        r"(\d+) finished points in the journal, --resume goes on  \[file-not-written\]$",
+        r"(\d+) finished points in the journal, --resume continues  \[file-not-written\]$",
         ended.said,
         re.M,
     )

@@ -28,7 +28,7 @@ def interrupt(path: Path, number: signal.Signals, options: Sequence[str] = ()) -
             ended = command.end(number)
         assert ended.status == status
         said = re.search(
-            rf"^mbla: {word}; (\d+) finished points? in the journal, --resume goes on  \[exit-{status}\]$",
+            rf"^mbla: {word}; (\d+) finished points? in the journal, --resume continues  \[exit-{status}\]$",
             ended.said,
             re.M,
         )

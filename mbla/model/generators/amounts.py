@@ -1,4 +1,4 @@
-"""How many blocks an item may ask for: a slip in the units of length asks for far more than anyone can mean."""
+"""How many blocks an item may ask for: an error in the units of length asks for far more than is meant."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST = 2_000_000
 
 
 def amount_of(item: Item) -> tuple[float, str]:
-    """About how many units one copy of an item makes, known before it is made, and the key that has most to do with it.
+    """About how many units one copy of an item makes, known before it is made, and the key that matters most.
 
     Where blocks have many facets each of these counts; an item that cannot ask for much counts as one unit.
     """
@@ -85,5 +85,5 @@ def copies_of(item: Item) -> int:
 
 
 def too_many(units: float) -> str:
-    """What is said after an item, or all of them, that makes more than can be handled."""
+    """Message on an item, or all of them, that makes more than can be handled."""
     return f"about {min(units, 1e300):.0e} units; at most {MOST:,} can be handled"

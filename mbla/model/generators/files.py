@@ -57,7 +57,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
 
 
 def _read(path: Path, item: MeshItem) -> Geometry:
-    """The file's content, of the members asked for, with cells joined if that is asked for."""
+    """The file's content, of the members selected, with cells joined if requested."""
     geometry = read_geometry(path)
     if item.members is not None:
         names = [member_name(name) for name in geometry.names]

@@ -35,7 +35,7 @@ NOT_READ = (".gltf", ".glb")
 LARGEST_FILE = 1024**3
 """bytes of a geometry file: some ten million triangles as text"""
 LEAST_MEMORY, MEMORY_PER_BYTE = 96 * 1024**2, 60
-"""bytes that reading may take: libraries believe the sizes that files announce, and unpack what is packed"""
+"""bytes that reading may take: libraries trust the sizes that files announce, and unpack what is packed"""
 
 
 def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geometry:

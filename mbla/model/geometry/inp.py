@@ -136,7 +136,7 @@ def _cards(text: str) -> Iterator[_Card]:
 
 
 def _read_card(content: _Content, card: _Card) -> None:
-    """Cards that are not known are passed over; one that is nearly known would take its blocks with it."""
+    """Cards that are not known are passed over; a misspelt one would lose its blocks."""
     if card.keyword in REFUSED:
         words = f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}"
         raise GeometryFileError("geometry-not-read", words)

@@ -3,7 +3,7 @@
 Volume cells are blocks, one each; files without any hold surfaces, whose closed parts are the blocks. Cells of higher
 order go by their corners, which come first.
 
-meshio believes what cells and sections announce, and blocks would be missing or wrong: of a VTU file it takes as many
+meshio trusts what cells and sections announce, and blocks would be missing or wrong: of a VTU file it takes as many
 points as the type of a cell needs, counted back from its offset, of a Gmsh file as many lines as a section announces.
 So these numbers are compared with the content.
 
@@ -72,7 +72,7 @@ def read_vtu(path: Path) -> Geometry:
 
 def read_msh(path: Path) -> Geometry:
     """Volume cells, or closed parts of surfaces, of a Gmsh file; raises GeometryFileError for malformed ones."""
-    _refuse_other_sections(path)  # before room is made for what they announce
+    _refuse_other_sections(path)  # before memory is allocated for what they announce
     return _read(str(path), "gmsh")
 
 
@@ -96,7 +96,7 @@ def _read(path: str, file_format: str) -> Geometry:
     volumes = [block for block in mesh.cells if _shape(block.type) in (*VOLUME_CELLS, POLYHEDRON)]
     used = volumes or [block for block in mesh.cells if _shape(block.type) in SURFACE_CELLS]
     others = [block for block in mesh.cells if not any(block is other for other in used) and block.type != "vertex"]
-    left_out = (block.type for block in others for _ in range(len(block.data)))  # single points are not worth a word
+    left_out = (block.type for block in others for _ in range(len(block.data)))  # single points need no remark
     cells_of = [(_shape(block.type), cell) for block in mesh.cells for cell in block.data]
     corners = [np.ravel(face) for shape, cell in cells_of for face in (cell if shape == POLYHEDRON else [cell])]
     rows = np.concatenate([np.empty(0, dtype=np.int64), *corners]).astype(np.int64)

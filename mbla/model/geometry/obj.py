@@ -29,7 +29,7 @@ SILENT = frozenset(
     | {"c_interp", "d_interp", "lod", "mg", "con", "cstype", "deg", "bmat", "step", "parm", "trim", "hole", "scrv"}
     | {"sp", "end", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res"}
 )
-"""keywords that say nothing of the shape of polygons"""
+"""keywords without effect on the shape of polygons"""
 LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf": "free-form surface"}
 """elements that carry geometry but no block"""
 

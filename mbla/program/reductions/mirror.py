@@ -3,7 +3,7 @@
 A mirror plane with unit normal m and reflection R = I − 2 m mᵀ maps block b to block σb and contact point k to πk. A
 motion (v, ω) of b becomes (R v, −R ω) of σb: an angular velocity is an axial vector. A force F on body b of a point
 becomes R F on σb. Under associative flow the program is convex, so that the mean of an optimum and its mirror image is
-an optimum too: it is enough to look among symmetric motions and forces.
+an optimum too: symmetric motions and forces are enough.
 
 ``half_of`` makes the program of one half of the structure.
 """

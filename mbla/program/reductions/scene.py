@@ -8,7 +8,7 @@ apart.
 
 Each part gets the mean dead load of its own blocks as its unit of force, as if it were alone: with forces x = f y and
 velocities u = q/f the power of the live load stays what it was, and the load factor too. In the unit of a part a
-million times as heavy all its loads would pass for rounding.
+million times as heavy all its loads would be rounding.
 """
 
 from __future__ import annotations

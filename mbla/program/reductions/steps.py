@@ -23,7 +23,7 @@ from mbla.program.program import Program
 
 
 class StepState(StrEnum):
-    """What became of a reduction: done; nothing found; switched off; on, but it would change what is asked for."""
+    """Outcome of a reduction: applied; nothing found; switched off; on, but it would change what is asked for."""
 
     APPLIED = "applied"
     NONE = "nothing found"

@@ -176,7 +176,7 @@ def _once(
     unit: float,
     before: ProvedAnswer | None = None,
 ) -> ProvedAnswer:
-    """One run of a solver, and what of its solution can be proved; ``before`` where it goes on from it by no step."""
+    """One run of a solver, and what of its solution can be proved; ``before`` where it takes no further step."""
     solution = solved_once(run, form, solver, "associative", unit)
     if before is not None and not solution.iterations:
         return before

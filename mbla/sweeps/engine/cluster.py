@@ -224,7 +224,7 @@ class Connection:
     def _no_worker(self) -> str:
         return (
             f"{self._name()} has had no worker for {self._options.patience:g} s: "
-            "start some with `dask worker`; what was solved is in the journal, --resume goes on from it"
+            "start some with `dask worker`; what was solved is in the journal, --resume continues from it"
         )
 
     def _name(self) -> str:

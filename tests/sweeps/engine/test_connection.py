@@ -15,7 +15,7 @@ from tests.sweeps.engine.scripted import ADDRESS, Script, scripted
 
 NO_WORKER = (
     f"the scheduler {ADDRESS} has had no worker for 0.2 s: start some with `dask worker`; "
-    "what was solved is in the journal, --resume goes on from it"
+    "what was solved is in the journal, --resume continues from it"
 )
 
 

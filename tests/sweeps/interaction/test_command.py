@@ -77,7 +77,7 @@ def test_an_interrupted_study_is_gone_on_with_by_the_same_command(
 
     monkeypatch.setattr(command, "outcomes_of", interrupted)
     assert main(arguments) == status
-    assert "1 finished point in the journal, the same command goes on" in capsys.readouterr().err
+    assert "1 finished point in the journal, the same command continues" in capsys.readouterr().err
     assert main(arguments) == 0
     assert begun == [4, 3]
     assert len(rows_of(tmp_path / "block_interact.out")) == 4

@@ -26,7 +26,7 @@ def named_curve(
 ) -> Curve:
     """Curve by its shape; span and rise [length], embrace and side_angle [degrees].
 
-    The deck's rules see to it that what a shape needs is given, and that the rise is one it can have.
+    The deck's rules ensure that what a shape needs is given, and that the rise is one it can have.
     """
     if shape == "semicircular":
         return circle(span, np.pi / 2)
