@@ -38,6 +38,7 @@ from mbla.solution.nonassociative.law_state import (
     residual_with_closing,
 )
 from mbla.solution.nonassociative.moving_anchor import run_with_moving_anchor
+from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.nonassociative.refine_equilibrium import imbalance, stepped
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, ProgramRecord, Status
@@ -51,13 +52,16 @@ to the programs."""
 WITHIN = 1e-7
 """Residual at which the interior-point run ends, unless a rougher one is asked for."""
 
-MOST_PAIRS, PATIENCE, PROGRESS = 12, 4, 0.7
+MOST_PAIRS, PATIENCE, AT_REST, PROGRESS = 12, 4, 2, 0.7
 """Pairs of programs from one start at most; given up where so many in a row have not brought the residual to this share
-of what it was."""
+of what it was, and joints that open under force emphasized after the number before it."""
 
 TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
 """Tilts in turn, and pairs of programs with each. On walls the last is a state of the law; with 0.3 the states were too
 far from it to come back lower."""
+
+MOST_PARTS = 2
+"""Times that the part that moves is solved alone before the whole structure is."""
 
 NOTABLE = 1e-4
 """Relative fall of the load factor by a round of the search after which another one is made."""
@@ -258,20 +262,53 @@ class _Scheme:
             self.keep(state)
 
     def approach(self, normal: FloatArray) -> FloatArray:
-        """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces."""
-        residuals: list[float] = []
-        for state in self.alternation.states(normal):
+        """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces.
+
+        Where little moves they are those of the moving part, and one pair of the whole says whether the rest carries
+        it, and rests.
+        """
+        self.alternation.emphasis[:] = 0.0
+        for _ in range(MOST_PARTS):
+            velocities = self.alternation.motion_for(normal)
+            part = None if velocities is None else moving_part(self.program, velocities)
+            if part is None:
+                break
+            inner = Alternation(part.program, self.slope[part.points], self.settings, self.log, self.records)
+            states = self._pairs(inner, inner.states(normal[part.points]))
+            self.spent += inner.work
+            if not states:
+                break
+            velocities = part.lifted(min(states, key=lambda state: state.residual).velocities)
+            found = self.alternation.forces_for(velocities, 0.0)
+            if found is None:
+                return normal
+            self.keep(state := self.alternation.state(found[0], velocities, found[1]))
+            normal = state.forces[:, 0]
+            if state.residual <= self.wanted or self.over:
+                return normal
+        else:
+            velocities = self.alternation.motion_for(normal)
+        for state in self._pairs(self.alternation, self.alternation.states_from(velocities)):
             self.keep(state)
             normal = state.forces[:, 0]
-            residuals.append(state.residual)
-            before = min(residuals[:-PATIENCE], default=np.inf)
-            stalls = min(residuals) > PROGRESS * before or len(residuals) >= MOST_PAIRS
-            if state.residual <= self.wanted or stalls or self.over:
-                break
         return normal
+
+    def _pairs(self, alternation: Alternation, states: Iterator[LawState]) -> list[LawState]:
+        """States of pairs of programs until one fits the law, or they stall."""
+        found: list[LawState] = []
+        for state in states:
+            found.append(state)
+            residuals = [each.residual for each in found]
+            least, before, recent = min(residuals), *(min(residuals[:-n], default=np.inf) for n in (PATIENCE, AT_REST))
+            if state.residual <= self.wanted or least > PROGRESS * before or len(found) >= MOST_PAIRS or self.over:
+                break
+            if least > PROGRESS * recent and self.program.components == 2:  # in space it led nowhere better
+                alternation.emphasize(state)
+        return found
 
     def descend(self, normal: FloatArray, tilts: Sequence[tuple[float, int]] = TILTS) -> None:
         """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law."""
+        self.alternation.emphasis[:] = 0.0
         for tilt, pairs in tilts:
             factor = np.inf
             for state in self.alternation.states(normal, [tilt] * pairs):

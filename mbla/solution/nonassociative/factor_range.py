@@ -76,8 +76,7 @@ def factor_range(
     """
     search = _Search(program, state, slope, first_program)
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION)
-    for touching in TOUCHING:
-        rest = max(touching, NOISE * state.residual)
+    for rest in dict.fromkeys(max(touching, NOISE * state.residual) for touching in TOUCHING):
         form = fixed_mechanism_form(program, point_motion(program, state, rest, slope))
         solver: ConeSolver | None = None
         for kind in tuple(search.pending):
