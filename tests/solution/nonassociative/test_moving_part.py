@@ -1,0 +1,69 @@
+"""The part that moves as a program of its own: its way back, and walls that are solved by it and as a whole alike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mbla.solution.nonassociative import moving_part as module
+from mbla.solution.nonassociative.alternation import Alternation
+from mbla.solution.nonassociative.moving_part import moving_part
+from tests.line import BLOCK, line_of
+from tests.solution.nonassociative.structures import FERRIS_5, SETTINGS, sequence_of, solved
+from tests.solution.planar import planar_program
+
+
+def allow_small_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts of small programs too, with one ring of blocks around what moves."""
+    monkeypatch.setattr(module, "FEW_POINTS", 0)
+    monkeypatch.setattr(module, "WORTHWHILE", 1.0)
+    monkeypatch.setattr(module, "RINGS", 1)
+
+
+def test_the_motion_of_a_part_is_one_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    allow_small_parts(monkeypatch)
+    program = planar_program(line_of(FERRIS_5))
+    state = solved(program)
+    part = moving_part(program, state.velocities)
+    assert part is not None
+    assert len(part.points) < program.n_points
+    assert len(part.program.dead_load) < len(program.dead_load)
+    inner = part.program.velocities(program.mechanism(state.velocities))
+    assert part.lifted(inner) == pytest.approx(state.velocities, abs=1e-9 * np.abs(state.velocities).max())
+    full = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, 2)[part.points]
+    assert (part.program.equilibrium_matrix.T @ inner).reshape(-1, 2) == pytest.approx(full, abs=1e-9)
+    assert part.program.live_load @ inner == pytest.approx(1.0)
+
+
+def test_a_wall_is_solved_by_its_moving_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = planar_program(line_of(FERRIS_5))
+    whole = sequence_of(program).state
+    allow_small_parts(monkeypatch)
+    sizes: list[int] = []
+    monkeypatch.setattr(Alternation, "__post_init__", noting(sizes))
+    by_part = sequence_of(program).state
+    assert min(sizes) < program.n_points == max(sizes)
+    assert whole is not None
+    assert by_part is not None
+    assert by_part.residual < 1e-6
+    assert by_part.load_factor == pytest.approx(whole.load_factor, rel=2e-3)
+
+
+def noting(sizes: list[int]) -> Callable[[Alternation], None]:
+    """Initialises as before, and notes how many points the programs have."""
+    before = Alternation.__post_init__
+
+    def after(self: Alternation) -> None:
+        before(self)
+        sizes.append(self.program.n_points)
+
+    return after
+
+
+def test_small_programs_and_those_that_move_as_a_whole_have_no_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    wall, block = planar_program(line_of(FERRIS_5)), line_of(BLOCK).program
+    assert moving_part(wall, solved(wall, SETTINGS).velocities) is None
+    monkeypatch.setattr(module, "FEW_POINTS", 0)
+    assert moving_part(block, np.ones(len(block.dead_load))) is None
