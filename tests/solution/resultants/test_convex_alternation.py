@@ -62,10 +62,12 @@ def test_a_program_without_a_solution_ends_the_scheme(
 def test_pairs_that_may_not_go_on_say_how_far_they_came(wall: Wall, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(convex_alternation, "EXACT_RESIDUAL", 0.0)
     monkeypatch.setattr(convex_alternation, "MOST_PAIRS", 1)
+    monkeypatch.setattr(convex_alternation, "SEEDS", 0)
     result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
-    assert "did not converge in 1 iterations" in " ".join([result.reason, *map(str, result.remarks)])
+    assert "did not converge in 3 iterations" in " ".join([result.reason, *map(str, result.remarks)])
     assert result.state is not None
-    assert result.spread == (result.state.load_factor, result.state.load_factor)
+    found = result.state.load_factor  # every start leads to it, with a residual of 4e-10
+    assert result.spread == pytest.approx((found, found), rel=1e-8)
 
 
 @pytest.mark.parametrize("name", OUTLINES)
