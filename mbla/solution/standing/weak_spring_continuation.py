@@ -30,7 +30,7 @@ from mbla.solution.standing.spring_problem import (
     joints_at,
     spring_problem,
 )
-from mbla.solution.standing.spring_state import newton_step, spring_state
+from mbla.solution.standing.spring_state import newton_step, newtons_method, spring_state
 
 SHEAR_STIFFNESSES = (1.0, 0.4)
 """Shear over normal stiffness of a joint. How forces share between joints before anything slides depends on it, and so
@@ -126,14 +126,16 @@ def weaken_springs(
     if program.n_points and is_diagonal(blocks.springs):
         basis = replace(basis, pattern=LatePattern(program))
     found: list[Weakening] = []
-    kappa, u = 1.0, np.zeros(len(program.dead_load))
+    last = before = _State(1.0, np.zeros(len(program.dead_load)), np.nan, -1)
     for ratio in SHEAR_STIFFNESSES:
-        problem = replace(basis, shear_stiffness=ratio)
-        outcome, last, before = _weaken(problem, blocks, kappa, u)
-        forces = joints_at(problem, 0.0, last.displacements).state.forces
-        found.append(replace(outcome, forces=forces, displacements=last.displacements))
-        if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is a state a start for the next: the one
-            kappa, u = before.kappa, before.displacements  # before the last leap (house: 1 s, from the last one 6)
+        problem, start = replace(basis, shear_stiffness=ratio), last
+        if before is not last and not newtons_method(problem, last.kappa, last.displacements)[0]:
+            start = before  # the one before the last leap (house: 1 s, by dashpots from the last one 6)
+        outcome, state, earlier = _weaken(problem, blocks, start.kappa, start.displacements)
+        forces = joints_at(problem, 0.0, state.displacements).state.forces
+        found.append(replace(outcome, forces=forces, displacements=state.displacements))
+        if outcome.outcome is Outcome.CARRIED:  # only where nothing moved on is a state a start for the next
+            last, before = state, earlier
         if outcome.outcome is Outcome.UNDECIDED:
             return found[-1]
     return agreed(*found)

@@ -110,7 +110,7 @@ def test_where_nothing_slides_or_opens_one_step_finds_the_state_that_the_path_le
     assert len(steps) == 1
     monkeypatch.setattr("mbla.solution.standing.weak_spring_continuation._elastic_state", lambda problem, blocks: None)
     by_path = weaken_springs(program, "dead_load", program.limits, settings)
-    assert len(steps) == 7
+    assert len(steps) == 5
     assert at_once.outcome is by_path.outcome is Outcome.CARRIED
     assert at_once.block == by_path.block
     # springs carry 1e-7 of a load at the end of the path
