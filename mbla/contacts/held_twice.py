@@ -46,10 +46,7 @@ def counted_once(
     still : (n_blocks,) blocks that do not move
     laws  : joint laws; those of the patches are at ``rows``
 
-    Raises
-    ------
-    ContactsRefused
-        for a piece between bodies of which one can move, or with two joint laws
+    Raises ContactsRefused for a piece between bodies of which one can move, or with two joint laws.
     """
     every = np.arange(len(patches))
     later, earlier, common = _shared(patches, len(model.blocks), tolerance)

@@ -48,10 +48,7 @@ class Comparison:
 def read_comparison(text: str) -> Comparison:
     """A comparison from its text.
 
-    Raises
-    ------
-    ExpressionError
-        with what is wrong; names are not looked up
+    Raises ExpressionError with what is wrong; names are not looked up.
     """
     source = text.strip().removeprefix("=")
     if path := _KEY_PATH.search(source):

@@ -113,10 +113,7 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = (), *, expe
     path     : the file it stands for, in messages and for the files that it names; not opened
     expected : as for ``read_deck``
 
-    Raises
-    ------
-    DeckError
-        with every fault found
+    Raises DeckError with every fault found.
     """
     with no_collection():
         return _read(path, overrides, text, expected=expected)

@@ -113,10 +113,7 @@ class Parameters:
     def value(self, name: str) -> float:
         """Value of a name: of a parameter or a constant.
 
-        Raises
-        ------
-        ExpressionError
-            if there is none; ParameterFaultError where the parameter itself is at fault
+        Raises ExpressionError if there is none; ParameterFaultError where the parameter itself is at fault.
         """
         if name in CONSTANTS:
             return CONSTANTS[name]

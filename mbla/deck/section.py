@@ -80,10 +80,7 @@ class WrongValues:
     def add(self, number: int = 1) -> None:
         """Count wrong values.
 
-        Raises
-        ------
-        TooManyWrongError
-            for more than ``MOST_WRONG``
+        Raises TooManyWrongError for more than ``MOST_WRONG``.
         """
         self.number += number
         if self.number > MOST_WRONG:

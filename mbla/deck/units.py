@@ -91,10 +91,7 @@ class Units:
     def convert(self, text: str, dimension: str) -> float:
         """Value of a string with a unit, in the deck's unit for a dimension (a key of DIMENSIONS).
 
-        Raises
-        ------
-        ValueRefused
-            with what is wrong with the string and what to write instead
+        Raises ValueRefused with what is wrong with the string and what to write instead.
         """
         number, unit = _split(text, dimension)
         if dimension == "number":

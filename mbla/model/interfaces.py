@@ -67,10 +67,7 @@ def read_interfaces(deck: Deck, roster: Roster, grounds: tuple[Ground, ...]) -> 
 def _prescribed(table: Table, bodies: _Bodies, joints: Collection[str]) -> PrescribedInterfaces:
     """Interfaces of a table with a row for each corner, those of an interface together; joints are names of laws.
 
-    Raises
-    ------
-    TableRefused
-        with every fault, by file and line
+    Raises TableRefused with every fault, by file and line.
     """
     points = table.numbers("xyz")
     both = np.array([_pair(table, row, bodies) for row in range(len(table))])

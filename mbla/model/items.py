@@ -51,10 +51,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
 
     Adds to ``faults``: items that cannot be built; their groups are partial.
 
-    Raises
-    ------
-    DeckError
-        with all faults, where no item can be built; where all of them together make too much
+    Raises DeckError with all faults, where no item can be built; where all of them together make too much.
     """
     _refuse_amounts(deck)
     placed: list[tuple[int, str, Part]] = []

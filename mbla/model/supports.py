@@ -144,7 +144,7 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
     if len(sunk):
         words = (
             f"blocks reach below it, by up to {depths[sunk].max():.4g}: {named(sunk, blocks.name)}; move the plane, or "
-            "name the blocks it carries with blocks"
+            "list the blocks that stand on it under the key blocks"
         )
         roster.refuse(Finding("ground-misplaced", words, *path))
     elif not _faces_on(ground, heights, may_carry, blocks, tolerance) and not roster.partial:

@@ -47,10 +47,7 @@ ACROSS = 1e-9
 def with_images(deck: Deck, model: Model) -> Model:
     """The model mirrored about every plane of the deck in turn.
 
-    Raises
-    ------
-    DeckError
-        for what keeps a plane from mirroring the model
+    Raises DeckError for what keeps a plane from mirroring the model.
     """
     for number, plane in enumerate(deck.content.symmetry):
         path: KeyPath = ("symmetry", number)

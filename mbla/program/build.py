@@ -85,6 +85,7 @@ def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection)
         f"joint law {names}: with this flow rule, scheme or solver compressive strength limits each contact point to "
         "its share of the area, which overstates an interface under eccentric load: with its corners alone it bears "
         "N (1 + 2 e/b) <= fc A, a stress block only N <= fc A (1 - 2 e/b), with eccentricity e and width b; "
-        "scheme: auto crushes as stress blocks do, more points (contacts.points) bring the difference down"
+        "associative and non_associative flow crush as stress blocks do with scheme: auto and solver: auto or "
+        "clarabel; more points (contacts.points) bring the difference down"
     )
     return (Notice("warning", "eccentric-crushing-overstated", text),)

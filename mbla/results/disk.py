@@ -213,10 +213,7 @@ def locked(
     busy     : what is said where another process holds it; unless given, who that is
     required : whether to refuse where there are no locks; without one nothing keeps others off
 
-    Raises
-    ------
-    FileError
-        another process holds it, or the file system has no locks
+    Raises FileError where another process holds it, or the file system has no locks.
     """
     file = lock_path(path)
     try:

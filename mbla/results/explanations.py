@@ -85,10 +85,7 @@ def _filled(text: str, words: dict[str, str]) -> str:
 def find_explanations(query: str) -> tuple[Explanation, ...]:
     """Entries for an identifier, another name of one, a complete message, or a word; the exact one alone.
 
-    Raises
-    ------
-    UsageError
-        nothing fits
+    Raises UsageError where nothing fits.
     """
     name = _kebab(query)
     entries = explanations().values()

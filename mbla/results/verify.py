@@ -49,10 +49,7 @@ from mbla.solution.verification.verify_points import verified_status
 def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     """Results with checks, status and exit status recomputed, and where they disagree with what the file says.
 
-    Raises
-    ------
-    FileError
-        as ``read_results_hdf5`` does
+    Raises FileError as ``read_results_hdf5`` does.
     """
     results = read_results_hdf5(path)
     deck, disagreements = rebuilt(results)

@@ -38,7 +38,9 @@ from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
 )
-LOCKED_BY_CONTACT = "no motion that closes no joint gains work from the live load: it locks under any multiple"
+LOCKED_BY_CONTACT = (
+    "the live load only presses the blocks together: it does no work in any possible mechanism, whatever its multiple"
+)
 APART = Message("associative-bounds-apart", "with associative flow {}")
 
 RANGE_RESIDUAL = SOLVED_RESIDUAL

@@ -107,10 +107,7 @@ class Base:
 def read_base(sweep: Sweep) -> Base:
     """Read the base deck and check what the sweep file states of it.
 
-    Raises
-    ------
-    DeckError
-        with every fault: of the deck as its own, of the sweep file at its place there
+    Raises DeckError with every fault: of the deck as its own, of the sweep file at its place there.
     """
     path = _deck_path(sweep)
     fixed = (*override_texts(sweep.content.set), *sweep.overrides)
@@ -183,10 +180,7 @@ def check_points(base: Base, points: Sequence[Point]) -> None:
 
     One that is readable is enough: corners of a design may be no structure, and their rows then say so.
 
-    Raises
-    ------
-    DeckError
-        with what is wrong with the first point
+    Raises DeckError with what is wrong with the first point.
     """
     tried = list({point.number: point for point in (points[0], points[len(points) // 2], points[-1])}.values())
     refused: list[DeckError] = []

@@ -35,10 +35,7 @@ def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
 
     data : the deck as read
 
-    Raises
-    ------
-    RefusedError
-        with what is wrong with it
+    Raises RefusedError with what is wrong with it.
     """
     words = key.strip().split(".")
     if words[0] in FIXED:

@@ -27,10 +27,7 @@ Resolve = Callable[[KeyPath, str], Path]
 def effective_tree(path: Path, overrides: Sequence[str]) -> Tree:
     """A deck as read, with what it includes and with overrides in it, not evaluated.
 
-    Raises
-    ------
-    DeckError
-        where the text or an override is at fault; what only checks find is left to ``read_deck``
+    Raises DeckError where the text or an override is at fault; what only checks find is left to ``read_deck``.
     """
     tree, reading = read_files(path)
     for number, text in enumerate(overrides, start=1):
@@ -51,10 +48,7 @@ def deck_fingerprint(deck: Deck, tree: Tree) -> str:
     Comments, the order of keys, titles, expectations and what is written do not count; names of files do, as the
     ending says how they are read.
 
-    Raises
-    ------
-    DeckError
-        where a file is missing or outside the deck's folder
+    Raises DeckError where a file is missing or outside the deck's folder.
     """
     content = {key: value for key, value in tree.data.items() if key not in WITHOUT_EFFECT}
     return _hash([canonical(content), *file_hashes(side_files(content), deck.resolve_file)])

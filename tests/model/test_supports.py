@@ -71,7 +71,7 @@ def test_fixed_blocks_may_reach_below_ground(tmp_path: Path) -> None:
 def test_blocks_below_ground(tmp_path: Path) -> None:
     assert messages(tmp_path, "[{ground: {z: 0.25}}]", BLOCK, SLAB) == [
         "supports[0].ground: blocks reach below it, by up to 1.25: block[0], slab[0]; "
-        "move the plane, or name the blocks it carries with blocks"
+        "move the plane, or list the blocks that stand on it under the key blocks"
     ]
 
 

@@ -50,10 +50,7 @@ def interface_points(
     centroids : (n_polygons, 2)
     sizes     : (n_polygons,) [m] unit of the local coordinates of each polygon
 
-    Raises
-    ------
-    ContactsRefused
-        where the spacing is too small
+    Raises ContactsRefused where the spacing is too small.
     """
     n = len(centroids)
     left_alone = 0

@@ -131,10 +131,7 @@ def _open(reading: Reading, source: SourceText, name: str) -> SourceText | None:
 def confined(folder: Path, name: str) -> Path:
     """Resolved path of a file named in a deck.
 
-    Raises
-    ------
-    FileError
-        if the name is absolute, or leads out of the folder tree of the file that names it, links followed
+    Raises FileError if the name is absolute, or leads out of the folder tree of the file that names it, links followed.
     """
     if "\0" in name or len(name) > 1000:
         raise FileError("bad-file-name", "is not a file name")

@@ -176,10 +176,7 @@ _EXACT = 2**53
 def plain_scalar(text: str) -> Scalar:
     """Value of an unquoted scalar.
 
-    Raises
-    ------
-    ValueRefused
-        for infinity, not-a-number, and numbers too large for double precision
+    Raises ValueRefused for infinity, not-a-number, and numbers too large for double precision.
     """
     if text[:1] not in _NUMBER_START or (match := _NUMBER.fullmatch(text)) is None:
         return _WORDS.get(text, text)

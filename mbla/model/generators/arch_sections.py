@@ -57,10 +57,7 @@ def build_section(
 ) -> Section:
     """Section over a curve; thickness at crown and springings [length], and the share of it inside the curve [-].
 
-    Raises
-    ------
-    ItemRefused
-        where the voussoirs are too few to be blocks, or joints cross each other within the thickness
+    Raises ItemRefused where the voussoirs are too few to be blocks, or joints cross each other within the thickness.
     """
     _check_count(curve, voussoirs)
     parameters = curve.divide(voussoirs, (0.5 - inside) * (crown + springing) / 2)

@@ -56,10 +56,7 @@ class _Frame:
 def generate_bridge(item: BridgeItem, site: Site) -> Generated:
     """Voussoirs span by span, piers and abutments, springers, spandrels, backing, parapets.
 
-    Raises
-    ------
-    ItemRefused
-        where voussoirs are too few or cross, or springing joints do not fit piers and abutments
+    Raises ItemRefused where voussoirs are too few or cross, or springing joints do not fit piers and abutments.
     """
     frame = _frame(item)
     parts = [*_arches(item, frame), *_supports(item, frame)]

@@ -65,10 +65,7 @@ def _facets(item: DomeItem) -> int:
 def generate_dome(item: DomeItem, site: Site) -> Generated:
     """Drum from the bottom, rings from the springing, keystone.
 
-    Raises
-    ------
-    ItemRefused
-        for an opening or keystone as wide as the dome, or a drum that does not carry it
+    Raises ItemRefused for an opening or keystone as wide as the dome, or a drum that does not carry it.
     """
     dome = _dome(item)
     joints = [dome.joint(angle) for angle in dome.angles]

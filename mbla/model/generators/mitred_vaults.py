@@ -151,10 +151,7 @@ def _edge(item: CrossVaultItem) -> float:
 def generate_cross_vault(item: CrossVaultItem, site: Site) -> Generated:
     """Groins from the springings up, four blocks in each course; units of the webs; keystone; fixed springers.
 
-    Raises
-    ------
-    ItemRefused
-        where the webs end before the feet of the groins
+    Raises ItemRefused where the webs end before the feet of the groins.
     """
     section = half_section(item, item.bay)
     ends = _ends(item, section)

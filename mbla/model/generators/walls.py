@@ -142,10 +142,7 @@ def _parts(walls: Sequence[_Wall], legs: Sequence[Leg], numbered: bool) -> Itera
 
     numbered : whether blocks are labelled by the number of their wall
 
-    Raises
-    ------
-    ItemRefused
-        where openings leave nothing of the walls
+    Raises ItemRefused where openings leave nothing of the walls.
     """
     parts = [(units_of(leg), leg) for leg in legs]
     if not any(len(part.polyhedra) for part, _ in parts):

@@ -54,10 +54,7 @@ class _Context:
 def read_compas_json(path: Path) -> Geometry:
     """Meshes and polyhedra of a file written by ``compas.json_dump`` or ``to_json``.
 
-    Raises
-    ------
-    GeometryFileError
-        for files that are no JSON, hold no mesh, or a mesh that is malformed
+    Raises GeometryFileError for files that are no JSON, hold no mesh, or a mesh that is malformed.
     """
     found = _Found()
     with well_formed("COMPAS JSON"):

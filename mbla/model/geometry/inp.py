@@ -74,10 +74,7 @@ class _Content:
 def read_inp(path: Path) -> Geometry:
     """Solid elements, or else the surfaces, of an input file in the order of the file.
 
-    Raises
-    ------
-    GeometryFileError
-        for malformed lines, with their number, and for cards that are not followed
+    Raises GeometryFileError for malformed lines, with their number, and for cards that are not followed.
     """
     text = path.read_text(encoding="utf-8", errors="replace")
     content = _Content()

@@ -180,10 +180,7 @@ def _plain_cells(points: IntArray, offsets: IntArray, types: IntArray) -> tuple[
     offsets : (n_cells,) where the points of each cell end
     types   : (n_cells,) numbers of VTK
 
-    Raises
-    ------
-    GeometryFileError
-        for a type that is not read, and for a cell of more or fewer points than its type needs
+    Raises GeometryFileError for a type that is not read, and for a cell of more or fewer points than its type needs.
     """
     points, offsets, types = (np.array(each, dtype=np.int64) for each in (points, offsets, types))
     sizes = np.diff(offsets, prepend=0)
@@ -274,10 +271,7 @@ def write_mesh(
     point_data : by name, (n_points,) or (n_points, k)
     cell_data  : by name, one array per entry of ``cells``; no booleans and no text
 
-    Raises
-    ------
-    FileError
-        where the file cannot be written
+    Raises FileError where the file cannot be written.
     """
     meshio = _meshio()
     of_cells = {name: list(arrays) for name, arrays in (cell_data or {}).items()}

@@ -56,10 +56,7 @@ class _Content:
 def read_obj(path: Path) -> Geometry:
     """Objects or groups of an OBJ file, in file order.
 
-    Raises
-    ------
-    GeometryFileError
-        for malformed lines, with their number
+    Raises GeometryFileError for malformed lines, with their number.
     """
     content = _Content()
     for number, line in _lines(path):

@@ -20,10 +20,7 @@ HEADER, TRIANGLE = 84, 50
 def read_stl(path: Path) -> Geometry:
     """The solids of a text file, or all triangles of a binary one.
 
-    Raises
-    ------
-    GeometryFileError
-        for files that are neither, or end amid a triangle
+    Raises GeometryFileError for files that are neither, or end amid a triangle.
     """
     content = path.read_bytes()
     n_triangles = int.from_bytes(content[80:HEADER], "little") if len(content) >= HEADER else -1

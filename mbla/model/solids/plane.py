@@ -81,10 +81,7 @@ def meeting_boxes(
 
     The tree works on the two axes along which the others are smallest relative to all; the third is compared after.
 
-    Raises
-    ------
-    CrowdedError
-        where there are more
+    Raises CrowdedError where there are more.
     """
     import shapely
 

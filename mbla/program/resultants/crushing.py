@@ -84,10 +84,7 @@ def crushing_limits(shapes: InterfaceShapes, strength: FloatArray, tension: Floa
 
     strength, tension : (n_interfaces,) f_c A, inf where unlimited, and f_t A [force]
 
-    Raises
-    ------
-    ValueError
-        where such an interface is neither a parallelogram nor a triangle
+    Raises ValueError where such an interface is neither a parallelogram nor a triangle.
     """
     counts = np.diff(shapes.start)
     crushing = np.isfinite(strength)

@@ -112,10 +112,7 @@ def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
 def read_results_hdf5(path: Path) -> Results:
     """Results from a file, complete: nothing of a run is missing but the live objects of the deck.
 
-    Raises
-    ------
-    FileError
-        The file cannot be read, is not an mbla result, has another layout version or is damaged.
+    Raises FileError where the file cannot be read, is not an mbla result, has another layout version or is damaged.
     """
     import h5py
 

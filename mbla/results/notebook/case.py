@@ -189,10 +189,7 @@ class Case:
     def show(self) -> View:
         """A view to be turned with the mouse: shown by a notebook, or written with ``save``.
 
-        Raises
-        ------
-        UsageError
-            The extra for reports is not installed.
+        Raises UsageError where the extra for reports is not installed.
         """
         return View.of_case(self.results, self.record)
 

@@ -120,10 +120,7 @@ class Run:
 
         tables : only these; None for all
 
-        Raises
-        ------
-        UsageError
-            There is no such table, or the extra for tables is not installed.
+        Raises UsageError where there is no such table, or the extra for tables is not installed.
         """
         from mbla.results.tables.tables import tables_of
 

@@ -143,10 +143,7 @@ def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
 def render(content: Mapping[str, Any], views: Iterable[str]) -> str:
     """The page; ``views`` are the pieces of trusted HTML in ``content``, whose scripts may run.
 
-    Raises
-    ------
-    UsageError
-        The extra for reports is not installed.
+    Raises UsageError where the extra for reports is not installed.
     """
     jinja2 = library()
     environment = jinja2.Environment(
@@ -193,10 +190,7 @@ def case_view(results: Results, case: CaseResult, view: tuple[float, float] | No
 
     view : azimuth and elevation in degrees from which it is seen first, as in its pictures
 
-    Raises
-    ------
-    UsageError
-        The extra for reports is not installed.
+    Raises UsageError where the extra for reports is not installed.
     """
     html = view_html(results, case, include_library=False, view=view)
     begin = files("mbla.results.report").joinpath("views.js").read_text(encoding="utf-8")  # when it is seen

@@ -86,10 +86,7 @@ def parquet_bytes(columns: Sequence[ParquetColumn], about: Mapping[str, str]) ->
 
     about : where the table comes from, as metadata of the file
 
-    Raises
-    ------
-    UsageError
-        pyarrow is not installed.
+    Raises UsageError where pyarrow is not installed.
     """
     require_parquet()
     import pyarrow

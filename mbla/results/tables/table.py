@@ -115,10 +115,7 @@ class Table:
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a DataFrame with plain column names; ``attrs`` holds ``units`` and ``meanings`` by column.
 
-        Raises
-        ------
-        UsageError
-            pandas is not installed.
+        Raises UsageError where pandas is not installed.
         """
         try:
             import pandas

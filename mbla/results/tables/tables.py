@@ -142,10 +142,7 @@ def tables_of(
     names : of the tables; None for all, of which those without rows are there too
     cases : names of load cases; None for all that were run
 
-    Raises
-    ------
-    UsageError
-        There is no such table or load case.
+    Raises UsageError where there is no such table or load case.
     """
     chosen = chosen_cases(results, cases)
     for name in names or ():

@@ -35,10 +35,7 @@ def view_html(
     view
         Azimuth and elevation of the eye at first, degrees; None: what suits the structure.
 
-    Raises
-    ------
-    UsageError
-        The extra for reports is not installed.
+    Raises UsageError where the extra for reports is not installed.
     """
     library = library_html() if include_library else ""
     data = json.dumps(scene_of(results, case, view), separators=(",", ":"), allow_nan=False, ensure_ascii=True)

@@ -26,10 +26,7 @@ RANGES = ("linear", "log", "horizon")
 def design_of(sources: Sources) -> Design:
     """The design of a sweep; the same for the same content, on every machine.
 
-    Raises
-    ------
-    DeckError
-        values that cannot be formed, constraints that have no value, and a design that leaves no point
+    Raises DeckError for values that cannot be formed, constraints without a value, and a design that leaves no point.
     """
     parts, axes = _axes_of(sources)
     keep, breaches = constrained(sources.content.constraints, axes, sources.known, sources.fault_at)

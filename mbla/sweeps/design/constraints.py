@@ -41,10 +41,7 @@ def constrained(
     tuple
         (size of each dimension, ...) True where no constraint is broken; the constraints as they are shown
 
-    Raises
-    ------
-    DeckError
-        a constraint that names something else, or has no value at a point
+    Raises DeckError where a constraint that names something else, or has no value at a point.
     """
     keep = np.ones([axis.dimension.size for axis in axes], dtype=bool)
     breaches: list[tuple[str, int]] = []

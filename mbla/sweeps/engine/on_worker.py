@@ -30,10 +30,7 @@ def run_point(plan: Plan, task: Task, libraries: Mapping[str, str]) -> Outcome:
 
     libraries : versions that the client has; a worker that came later may have others
 
-    Raises
-    ------
-    UsageError
-        this worker cannot solve points of this plan
+    Raises UsageError where this worker cannot solve points of this plan.
     """
     if words := difference(libraries, library_versions()):
         raise UsageError("workers-differ", words)

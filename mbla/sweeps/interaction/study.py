@@ -184,7 +184,7 @@ def _domain_words(question: Question, domain: Domain | None) -> list[str]:
         f"open between safe points and mechanisms is {percent(domain.gap)} % of its area"
     ]
     if domain.everywhere is not None:
-        words.append(f"at angles between the points too, it carries at least {number(domain.everywhere)}")
+        words.append(f"at angles between the points too, associative flow carries at least {number(domain.everywhere)}")
     return words
 
 

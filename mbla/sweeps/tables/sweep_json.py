@@ -87,10 +87,7 @@ def _places(dimensions: Sequence[Dimension], position: IntArray) -> list[int] | 
 def positions_at(places: Sequence[int] | None, dimensions: Sequence[Dimension]) -> IntArray:
     """Positions along each dimension, (n_points, n_dimensions), from the places; the way back.
 
-    Raises
-    ------
-    ValueError
-        a place lies outside the design
+    Raises ValueError where a place lies outside the design.
     """
     shape = tuple(dimension.size for dimension in dimensions)
     where = np.arange(np.prod(shape, dtype=np.int64)) if places is None else np.array(places, dtype=np.int64)
