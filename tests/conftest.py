@@ -3,8 +3,10 @@ a line at the end that says whether there was one."""
 
 from __future__ import annotations
 
+import gc
 import signal
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,13 +15,28 @@ from hypothesis import HealthCheck, settings
 from tests.browser import ARGUMENTS, CHROMIUM, PATIENCE
 
 # A machine whose processors are busy elsewhere is no fault of what is tested: 7 ms took 265 ms on one, and failed.
-settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("untimed", deadline=None, max_examples=40, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
+
+SHORT = "not long and not trust"
+"""the tests that pyproject.toml takes where nothing else is asked for"""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """``--update`` writes texts that tests compare with anew."""
     parser.addoption("--update", action="store_true", help="write texts that tests compare with anew")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """The scenes of ``extremes`` take seconds to write down, in every process: left out where their tests are."""
+    left_out = collection_path.name == "test_extremes.py" and config.getoption("markexpr") == SHORT
+    return True if left_out else None
+
+
+def pytest_collection_finish() -> None:
+    """What all tests share is looked through for garbage no more: thousands of functions and their syntax trees."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)

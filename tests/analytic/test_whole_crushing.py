@@ -66,6 +66,7 @@ def test_a_force_that_is_nearly_centred(eccentricity: float, strength: float, fl
     assert found == pytest.approx(exact, rel=1e-8)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("flow_rule", FLOW_RULES)
 def test_a_force_that_is_nearly_centred_both_ways_has_one_figure_in_every_unit(flow_rule: str) -> None:
     """The weight is next to nothing: only the outline counts."""

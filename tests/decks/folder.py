@@ -33,19 +33,36 @@ PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder
 BENCHMARKS = {path.stem: path for path in PATHS if path.parts[-3] == "benchmarks"}
 """decks of closed forms and published cases by their names"""
 LONG = (
+    "benchmarks/closed_forms/beam_under_travelling_load",
+    "benchmarks/closed_forms/drum_column",
+    "regressions/bridge_axle_crushing",
+    "regressions/ground_given_twice_crushing",
+    "regressions/nave_crushing",
     "regressions/shelf",
     "regressions/shelf_across",
+    "regressions/trapezium_crushing",
+    "regressions/two_footings_crushing",
+    "regressions/vehicle_beside_its_path",
     "structures/arch_bridge",
+    "structures/colonnade",
     "structures/dome_on_drum",
     "structures/house",
+    "structures/retaining_wall",
     "structures/room",
     "structures/spiral_stair",
     "tutorials/bridge_with_parapets",
     "tutorials/buttressed_wall",
+    "tutorials/corner",
+    "tutorials/crossvault",
     "tutorials/crossvault_without_dilatancy",
+    "tutorials/gable_wall",
+    "tutorials/lintels_and_arches",
+    "tutorials/segmental_domes",
     "tutorials/two_leaf_walls",
+    "tutorials/vault_in_rings",
+    "tutorials/walls_at_a_corner",
 )  # fmt: skip
-"""take more than three seconds: run by ``pytest -m long`` only"""
+"""take long: run by ``pytest -m long`` only"""
 
 
 @dataclass(frozen=True)

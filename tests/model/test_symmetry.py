@@ -107,6 +107,7 @@ def test_the_half_has_the_factor_of_the_whole(tmp_path: Path, case: str) -> None
     assert factors[0] == pytest.approx(factors[1], rel=1e-6)
 
 
+@pytest.mark.long
 def test_the_half_has_the_factor_of_the_whole_without_dilatancy(tmp_path: Path) -> None:
     """Where that is unique: the front falls off its sides, which friction holds in no other way."""
     factors = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,6 @@ from mbla.sweeps.command import FAILED_POINTS
 from tests.results.synthetic import tower_results
 
 PACKAGE = Path(mbla.__file__).parent
-SOURCES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
 WRITTEN_BY = {"Notice": 1, "warn": 0, "note": 0, "_drop": 2, "take_welded": 1, "_counted": 0, "_worst": 0}
 """Functions that take an identifier, and which argument it is."""
 COMPUTED = {
@@ -35,9 +35,15 @@ COMPUTED = {
 """Identifiers that are no constants, as the source has them, and what they can be."""
 
 
+@cache
+def sources() -> dict[Path, ast.Module]:
+    """The modules of the program, read when the first test asks: every process that collects tests loads this file."""
+    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+
+
 def identifiers_in_source() -> Iterator[tuple[str, str]]:
     """Every identifier of a notice and the file that has it; ``f'...'`` where it is computed."""
-    for path, tree in SOURCES.items():
+    for path, tree in sources().items():
         for node in ast.walk(tree):
             if isinstance(node, ast.Call):
                 name = getattr(node.func, "id", getattr(node.func, "attr", ""))
@@ -60,34 +66,43 @@ def expanded(found: str, file: str) -> set[str]:
     return COMPUTED[found]
 
 
-NOTICES = {name for found, file in identifiers_in_source() for name in expanded(found, file)}
-OF_SOLUTIONS = {
-    value.value
-    for path, tree in SOURCES.items()
-    if path.is_relative_to(PACKAGE / "solution")
-    for node in ast.walk(tree)
-    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Message"
-    for value in ast.walk(node.args[0])
-    if isinstance(value, ast.Constant) and isinstance(value.value, str)
-}
-"""identifiers of what solver and verification say"""
-FINDINGS = OF_SOLUTIONS | {status.value.replace("_", "-") for status in WITHOUT_REASON}
+@cache
+def notices() -> set[str]:
+    return {name for found, file in identifiers_in_source() for name in expanded(found, file)}
+
+
+@cache
+def of_solutions() -> set[str]:
+    """Identifiers of what solver and verification say."""
+    return {
+        value.value
+        for path, tree in sources().items()
+        if path.is_relative_to(PACKAGE / "solution")
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Message"
+        for value in ast.walk(node.args[0])
+        if isinstance(value, ast.Constant) and isinstance(value.value, str)
+    }
+
+
+def findings() -> set[str]:
+    return of_solutions() | {status.value.replace("_", "-") for status in WITHOUT_REASON}
 
 
 def test_the_walk_finds_notices_of_every_stage() -> None:
-    assert {"key-idle", "faces-flat", "force-outside-block", "near-misses", "law-residual"} <= (NOTICES)
+    assert {"key-idle", "faces-flat", "force-outside-block", "near-misses", "law-residual"} <= notices()
     assert APPLIES  # key-idle can occur
 
 
 def test_every_notice_is_explained_and_every_explained_notice_occurs() -> None:
-    assert set(explanations()) >= NOTICES | FINDINGS
+    assert set(explanations()) >= notices() | findings()
     told = {name for name, entry in explanations().items() if entry.kind in ("notice", "warning", "warning or notice")}
-    assert told <= NOTICES | FINDINGS
+    assert told <= notices() | findings()
 
 
 def test_severity_is_that_of_the_source() -> None:
     severities: dict[str, set[str]] = {}
-    for tree in SOURCES.values():
+    for tree in sources().values():
         for node in ast.walk(tree):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Notice" and len(node.args) > 1:
                 severity, identifier = node.args[:2]
@@ -97,7 +112,7 @@ def test_severity_is_that_of_the_source() -> None:
         kind = explanations()[name].kind
         if kind not in ("standing", "verification"):
             assert kind == " or ".join(sorted(found, reverse=True)), name
-    remarks = {name for name in OF_SOLUTIONS if explanations()[name].kind in ("notice", "warning")}
+    remarks = {name for name in of_solutions() if explanations()[name].kind in ("notice", "warning")}
     assert {name for name in remarks if explanations()[name].kind == "warning"} == REMARKS_THAT_WARN
 
 
@@ -136,7 +151,7 @@ def sentences(tree: ast.AST) -> Iterator[str]:
 
 
 def test_messages_of_errors_occur_in_the_source() -> None:
-    texts = [text for tree in SOURCES.values() for text in sentences(tree)]
+    texts = [text for tree in sources().values() for text in sentences(tree)]
     for entry in explanations().values():
         for words in entry.says:
             kind = words.removeprefix("unknown ")  # "unknown {kind}" is written in one place for all kinds

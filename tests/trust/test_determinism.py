@@ -171,6 +171,7 @@ def test_a_difference_is_found() -> None:
     assert differences(first, replace(first, statuses=(0, 0))) == ["exit statuses (0, 5), (0, 0)"]
 
 
+@pytest.mark.long
 def test_one_deck_with_everything_changed_at_once(tmp_path: Path) -> None:
     """All ways together: what one of them changes is not put right by another."""
     locale = comma_locale(tmp_path) or {"LC_ALL": "POSIX"}

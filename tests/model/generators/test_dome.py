@@ -48,6 +48,7 @@ def test_rings_have_the_volume_of_polyhedral_rings(keys: dict[str, Any], sides: 
     assert top.blocks.volumes == pytest.approx([area * height * (r1**2 + r1 * r2 + r2**2) / 3], rel=1e-12)
 
 
+@pytest.mark.long
 def test_volume_goes_to_that_of_the_hemisphere_with_the_square_of_the_facets() -> None:
     shell = 2 / 3 * np.pi * (2.3**3 - 2.0**3)
     errors = []

@@ -33,6 +33,7 @@ supports:""",
 """A wall and its copy of another density."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pushed", ["wall", "other", "both"])
 @pytest.mark.parametrize("ratio", [1e-6, 1e6])
 def test_a_copy_of_another_density_changes_nothing(ratio: float, pushed: str) -> None:

@@ -171,6 +171,7 @@ def test_truncated_files_are_refused(path: Path, image: bytes) -> None:
         refused(path)
 
 
+@pytest.mark.long
 def test_flipped_bits_are_refused_or_change_nothing(path: Path, image: bytes, results: Results) -> None:
     """Seeded: what no checksum covers is padding and tables of dimensions, which are not read."""
     generator = random.Random(1)

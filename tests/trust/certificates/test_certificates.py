@@ -43,6 +43,7 @@ def stack() -> tuple[Outcome, Outcome]:
     return associative(STACK), without_dilatancy(STACK)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", FEW)
 def test_what_is_settled_is_proved(seed: int) -> None:
     outcome = associative(seed)

@@ -132,6 +132,7 @@ def spoilt(
     return counts, wrong
 
 
+@pytest.mark.long
 def test_some_spoilt_files(tmp_path: Path) -> None:
     """One of each kind of damage, given to commands that draw nothing."""
     originals = write_decks(tmp_path, ("incline_too_steep",)).values()
@@ -193,6 +194,7 @@ def forgeries(folder: Path, originals: Mapping[str, Path], number: int, seed: in
     return counts, wrong
 
 
+@pytest.mark.long
 def test_some_forgeries(tmp_path: Path) -> None:
     originals = write_decks(tmp_path, ("bar_between_walls",))
     assert verify_file(originals["bar_between_walls"])[1] == ()

@@ -34,6 +34,7 @@ def test_the_generator_gives_every_kind_and_always_the_same() -> None:
     assert len({case.reduced for case in cases}) == 2
 
 
+@pytest.mark.long
 def test_neither_solver_contradicts_the_other() -> None:
     count = compared(SHORT)
     assert count.contradictions == []
