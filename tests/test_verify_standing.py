@@ -70,14 +70,11 @@ def told(verdict: Standing, results: Results, *, proof: bool = False) -> Standin
     ("verdict", "forged", "proof", "words"),
     [
         (YES, DOUBTFUL, True, SHOWN),
-        (YES, SELF_STRESS, True, SHOWN),
         (YES, SELF_STRESS, False, LOCKED),
         (YES, NO, True, FALL_NOT_SHOWN),
         (YES, NO, False, FALL_NOT_SHOWN),
         (SELF_STRESS, YES, False, NOT_SHOWN),
-        (SELF_STRESS, NO, False, FALL_NOT_SHOWN),
         (NO, YES, False, FALL_SHOWN),
-        (NO, SELF_STRESS, False, FALL_SHOWN),
         (NO, DOUBTFUL, False, FALL_SHOWN),
     ],
 )

@@ -210,7 +210,12 @@ def mean_positive(values: FloatArray) -> FloatArray:
 
 def positive_share(values: FloatArray) -> FloatArray:
     """Share of a triangle where a linear function with given values at the corners, (..., 3), is positive, (...,)."""
-    return np.asarray(corner_weights(values).sum(axis=-1))
+    low, middle, high = np.sort(values, axis=-1).T
+    with np.errstate(divide="ignore", invalid="ignore"):  # of the two parts the one that is not there
+        above = high / (high - low) * (high / (high - middle))
+        below = low / (middle - low) * (low / (high - low))
+    share = np.where(middle > 0.0, np.where(low > 0.0, 1.0, 1.0 - below), np.where(high > 0.0, above, 0.0))
+    return np.asarray(share.T)
 
 
 def corner_weights(values: FloatArray) -> FloatArray:
