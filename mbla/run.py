@@ -15,6 +15,7 @@ from mbla.errors import UsageError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
+from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import timing
 from mbla.program.build import build_program
 from mbla.results.files import OutputFolder
@@ -105,8 +106,10 @@ def solved_case_by_case(
         results = results_before(deck, model, contacts, settings, {"read": read - started, "contacts": found - read})
         results = replace(results, not_done=tuple(case.name for case in load_cases))
         yield results
+        memory = Memory()
         for load_case in load_cases:
-            solved = solve_case(deck, model, contacts, load_case, settings, status_file, progress)
+            with sharing(memory):
+                solved = solve_case(deck, model, contacts, load_case, settings, status_file, progress)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
 

@@ -1,7 +1,7 @@
-"""What several decks that are solved one after the other have in common is worked out once.
+"""What load cases of a deck, or several decks that are solved one after the other, have in common is worked out once.
 
 A function whose result costs much and depends on nothing but its arguments says so (``shared``, or ``once`` around a
-call). Whoever solves many decks opens a memory for such results (``sharing``); with none open both work everything out.
+call). Whoever solves several opens a memory for such results (``sharing``); with none open both work everything out.
 What is kept is the very object that the function returned, for arguments of the same content: an answer is the same,
 bit for bit, with and without.
 
@@ -88,8 +88,9 @@ _open: ContextVar[Memory | None] = ContextVar("memory", default=None)
 
 @contextlib.contextmanager
 def sharing(memory: Memory) -> Iterator[None]:
-    """Keep results in ``memory`` during a ``with`` block."""
-    token = _open.set(memory)
+    """Keep results in ``memory`` during a ``with`` block; within another block, in the memory of that one."""
+    outer = _open.get()
+    token = _open.set(memory if outer is None else outer)
     try:
         yield
     finally:
