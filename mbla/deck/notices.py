@@ -20,10 +20,32 @@ from mbla.errors import Message, Notice
 GRAVITY_TOLERANCE = 0.02
 """Covers 9.8, 9.80665 and the variation over the earth."""
 
+USUAL: tuple[tuple[str, str, float | str, float | str, str], ...] = (
+    ("joints", "friction", 0.0, 5.0, "is more than masonry has; an angle is given as friction_angle, in degrees"),
+    ("joints", "friction_angle", 1.0, 90.0, "is less than masonry has; a coefficient is given as friction"),
+    ("materials", "density", "200 kg/m^3", "20000 kg/m^3", "is not that of masonry, 1500 to 3000 kg/m^3"),
+    ("materials", "unit_weight", "2 kN/m^3", "200 kN/m^3", "is not that of masonry, 15 to 30 kN/m^3"),
+)
+"""What values of a section's keys are taken for another unit outside of, and in words what then."""
+
 
 def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Parameters) -> tuple[Notice, ...]:
-    """Warnings about unusual gravity and keys without effect, and remarks on names that nothing uses."""
-    return (*_gravity(tree, content, units), *unused_keys(tree, content), *_unused(tree, content, parameters))
+    """Warnings about unusual values and keys without effect, and remarks on names that nothing uses."""
+    odd = (*_gravity(tree, content, units), *_unusual(tree, content, units))
+    return (*odd, *unused_keys(tree, content), *_unused(tree, content, parameters))
+
+
+def _unusual(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
+    """Values far from those of masonry: mostly of another unit, or an angle for a coefficient."""
+    odd: list[tuple[KeyPath, str]] = []
+    for section, key, least, most, words in USUAL:
+        low, high = (units.convert(end, key) if isinstance(end, str) else end for end in (least, most))
+        values = {name: getattr(item, key) for name, item in getattr(content, section).items()}
+        odd += [((section, name, key), words) for name, value in values.items() if value and not low <= value <= high]
+    multiples = ((path, load.acceleration) for path, load in _loads(content) if load.acceleration is not None)
+    odd += [((*path, "acceleration"), "is in units of g = 9.81 m/s^2") for path, a in multiples if math.hypot(*a) > 5.0]
+    for path, words in odd:
+        yield Notice("warning", "value-unusual", str(tree.fault(path, Message("value-unusual", words))))
 
 
 def _gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
@@ -48,13 +70,10 @@ def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
 
 
 def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterator[Notice]:
-    for name in content.parameters:
-        if name not in parameters.used:
-            path = ("parameters", name)
-            yield Notice("notice", "parameter-unused", f"{tree.place_at(path)} {key_text(path)} is not used")
-    for section, name in unused_names(tree.data):
-        path = (section, name)
+    unused = [("parameters", name) for name in content.parameters if name not in parameters.used]
+    for section, name in (*unused, *unused_names(tree.data)):
         identifier = f"{section.removesuffix('s')}-unused"
+        path = (section, name)
         yield Notice("notice", identifier, f"{tree.place_at(path)} {key_text(path)} is not used")
 
 
@@ -71,6 +90,5 @@ def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
 
 
 def _notice(tree: Tree, path: KeyPath, where: str) -> Notice:
-    return Notice(
-        "warning", "key-idle", str(tree.fault(path, Message("key-idle", f"has no effect: it applies to {where}")))
-    )
+    fault = tree.fault(path, Message("key-idle", f"has no effect: it applies to {where}"))
+    return Notice("warning", "key-idle", str(fault))

@@ -136,6 +136,7 @@ def test_none_for_the_working_deck(tmp_path: Path) -> None:
 
 def test_gravity_in_metres_in_a_deck_in_millimetres(tmp_path: Path) -> None:
     text = changed(LIVE_2, "    dead: [{gravity: [0, 0, -9.81]}]\n" + LIVE_2).replace("length: m", "length: mm")
+    text = text.replace("density: 2000", "density: 2.e-6")
     assert notices(tmp_path, text) == [
         "warning [gravity-unusual]: deck.yaml:16:22 load_cases.push.dead[0].gravity = [0, 0, -9.81]: "
         "is 0.00981 m/s^2, not 9.81: its numbers are in mm/s^2"
@@ -156,7 +157,7 @@ def test_gravity_in_metres_in_a_deck_in_millimetres(tmp_path: Path) -> None:
 )
 def test_usual_gravity(tmp_path: Path, length: str, gravity: str) -> None:
     text = changed(LIVE_2, f"    dead: [{{gravity: {gravity}}}]\n" + LIVE_2).replace("length: m", f"length: {length}")
-    assert notices(tmp_path, text) == []
+    assert notices(tmp_path, text.replace("density: 2000", 'density: "2000 kg/m^3"')) == []
 
 
 def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
@@ -166,9 +167,29 @@ def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("usual", "unusual", "words"),
+    [
+        ("{friction: 0.6}", "{friction: 33}", "joints.dry.friction = 33: is more than masonry has; an angle"),
+        ("{friction_angle: 33}", "{friction_angle: 0.6}", "joints.dry.friction_angle = 0.6: is less than masonry has"),
+        ("density: 2000", "density: 20", "materials.stone.density = 20: is not that of masonry, 1500 to 3000 kg/m^3"),
+        ("unit_weight: 20e3", "unit_weight: 20", "materials.stone.unit_weight = 20: is not that of masonry"),
+        ("[1, 0, 0]}]", "[9.81, 0, 0]}]", "live[0].acceleration = [9.81, 0, 0]: is in units of g = 9.81 m/s^2"),
+    ],
+)
+def test_values_that_are_mostly_meant_in_another_unit(usual: str, unusual: str, words: str, tmp_path: Path) -> None:
+    text = BLOCK.replace('{friction: "=mu"}', usual) if usual.startswith("{") else BLOCK
+    text = text.replace("density: 2000", usual) if usual.startswith("unit") else text
+    assert usual in text, text
+    assert [notice for notice in notices(tmp_path, text) if "unusual" in notice] == []
+    (notice,) = (notice for notice in notices(tmp_path, text.replace(usual, unusual)) if "unusual" in notice)
+    assert notice.startswith("warning [value-unusual]: deck.yaml:")
+    assert words in notice
+
+
 def test_names_that_nothing_uses(tmp_path: Path) -> None:
     text = changed("{mu: 0.6}", "{mu: 0.6, nu: 1, xi: '=nu'}").replace(
-        "joints:\n", "  brick: {density: 1}\njoints:\n  wet: {friction: 1}\n"
+        "joints:\n", "  brick: {density: 1000}\njoints:\n  wet: {friction: 1}\n"
     )
     assert notices(tmp_path, text) == [
         "notice [parameter-unused]: deck.yaml:4:34 parameters.xi is not used",

@@ -183,8 +183,7 @@ def write_labelled_hdf5(content: LabelledFile) -> bytes:
 
 
 def _create_labelled(file: h5py.File, name: str, content: Labelled) -> h5py.h5d.DatasetID:
-    text = content.values.dtype.kind == "O"
-    values = content.values
+    values, text = content.values, content.values.dtype.kind == "O"
     if text:
         values = np.reshape(_text_array([str(value) for value in values.ravel()]), values.shape)
     dataset = _create(file, name, np.asarray(values, order="C"))
@@ -266,8 +265,7 @@ def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.h
     links.set_create_intermediate_group(True)
     space = h5s.create_simple(array.shape) if array.ndim else h5s.create(h5s.SCALAR)
     dataset = h5d.create(file.id, path.encode(), h5t.py_create(array.dtype, logical=True), space, properties, links)
-    if array.size:
-        dataset.write(h5s.ALL, h5s.ALL, array, h5t.py_create(array.dtype))
+    dataset.write(h5s.ALL, h5s.ALL, array, h5t.py_create(array.dtype))
     return dataset
 
 

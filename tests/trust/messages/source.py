@@ -19,7 +19,7 @@ BUILDERS = {"Message", "Finding"} | {
     for name, kind in inspect.getmembers(errors, inspect.isclass)
     if issubclass(kind, (MblaError, Refusal)) and kind is not DeckError
 }
-NOT_PRINTED = frozenset({"key-idle", "gravity-unusual"})
+NOT_PRINTED = frozenset({"key-idle", "gravity-unusual", "value-unusual"})
 """messages from which remarks are made, which have identifiers of their own kind"""
 PRINTED_BY = {"internal-error": "results/failures.py", "deck-invalid": "errors.py"}
 """identifiers of what is no error of the program's own making, and the module that has each"""
