@@ -86,13 +86,14 @@ class ClarabelProgram:
         """
         solution = self.solve_once(program_number, to_load_factor)
         for easier in _easier(self.settings, regularization(self.cone_program, self.settings)):
-            if solution.status not in UNDECIDED or self._reached <= easier.tolerance:
+            if solution.status not in UNDECIDED:
                 break
             self.settings, self._solver = easier, None
+            if self._reached <= easier.tolerance:
+                return replace(solution, status=Status.SOLVED)
             again = self.solve_once(program_number, to_load_factor)
             solution = again if again.status not in UNDECIDED or solution.status is not Status.APPROXIMATE else solution
-        good = solution.status is Status.APPROXIMATE and self._reached <= FALLBACK_TOLERANCE
-        return replace(solution, status=Status.SOLVED) if good else solution
+        return solution
 
     def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
         """Solve what is loaded once, for callers that judge the answer themselves.
