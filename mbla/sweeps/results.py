@@ -67,7 +67,8 @@ def reason_of(record: Mapping[str, Any]) -> str:
 
     Each reason once, with the names of its cases where several were solved.
     """
-    apart = [notice["message"] for notice in record["notices"] if _is_fault(notice)]
+    warnings = (notice for notice in record["notices"] if notice["severity"] == "warning")
+    apart = [notice["message"] for notice in warnings if notice["identifier"] == "isolated-blocks"]
     names: dict[str, list[str]] = {}
     for case in record["cases"]:
         if case["reason"]:
@@ -75,10 +76,6 @@ def reason_of(record: Mapping[str, Any]) -> str:
     if len(record["cases"]) == 1:
         return "; ".join([*apart, *names])
     return "; ".join([*apart, *(f"{listed(cases, 'and')}: {reason}" for reason, cases in names.items())])
-
-
-def _is_fault(notice: Mapping[str, Any]) -> bool:
-    return bool(notice["identifier"] == "isolated-blocks" and notice["severity"] == "warning")
 
 
 def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -99,15 +99,12 @@ def _verdict_lines(model: Model, case: CaseResult, summary: str, sentences: Sequ
     """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
     says = verdict(model, case)
     if summary:
-        says += f"{_mechanism_label(case)}: {summary}"
+        says += "" if result_of(case) is not None else "; its mechanism, not verified"
+        says += f": {summary}"
     lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
     lines += spaced([line for text in sentences for line in sentence(text)])
     known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
     return lines + spaced([line for text in known for line in sentence(text)])
-
-
-def _mechanism_label(case: CaseResult) -> str:
-    return "" if result_of(case) is not None else "; its mechanism, not verified"
 
 
 ANOTHER_POSITION = (

@@ -216,24 +216,16 @@ def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPla
 
 
 def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[str]:
-    rows = [
-        [
-            *_joint(model, contacts, crack.interfaces, crack.clusters),
-            point_words(model, crack.start),
-            point_words(model, crack.end),
-            "stepped" if _is_stepped(contacts.normals[crack.interfaces]) else "one way",
-            f"{crack.area:.4g}",
-        ]
-        for crack in _shown(cracks)
-    ]
+    rows = []
+    for crack in _shown(cracks):
+        normals = contacts.normals[crack.interfaces]
+        course = "stepped" if np.abs(normals @ normals[0]).min() < 0.5 else "one way"
+        ends = (point_words(model, crack.start), point_words(model, crack.end))
+        joint = _joint(model, contacts, crack.interfaces, crack.clusters)
+        rows.append([*joint, *ends, course, f"{crack.area:.4g}"])
     length = model.units.length
     head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
     return long_table(head, rows, len(cracks), left=5)
-
-
-def _is_stepped(normals: FloatArray) -> bool:
-    """Whether joints have several directions at right angles or so, from their normals, (n, 3)."""
-    return bool(np.abs(normals @ normals[0]).min() < 0.5)
 
 
 def _shown(found: Sequence[T]) -> list[T]:

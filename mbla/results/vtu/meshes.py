@@ -79,11 +79,7 @@ def contacts_mesh(scene: Scene) -> Mesh | None:
     """Contact points as vertices; None where there are none."""
     points = scene.contacts.points
     data = arrays_of(scene, "contacts", "points") | {"displacement": scene.contact_displacements}
-    return Mesh(points, [_vertices(np.arange(len(points)))], data, {}) if len(points) else None
-
-
-def _vertices(rows: IntArray) -> tuple[str, IntArray, slice]:
-    return "vertex", rows[:, None], slice(None)
+    return Mesh(points, [("vertex", np.arange(len(points))[:, None], slice(None))], data, {}) if len(points) else None
 
 
 def interfaces_mesh(scene: Scene) -> Mesh | None:

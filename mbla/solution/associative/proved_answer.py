@@ -148,7 +148,8 @@ def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
 
 def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedAnswer:
     """The program in the given unit of the load factor, and what of its solution can be proved."""
-    settings = replace(settings, tolerance=_first_tolerance(run, settings))
+    if _is_large(run):  # no finer than is worthwhile
+        settings = replace(settings, tolerance=max(settings.tolerance, FIRST_OF_LARGE))
     solver = cone_solver(form.cone_program if unit == 1.0 else form.in_units(unit), settings, run.log)
     answer, tolerance = _once(run, form, solver, unit), settings.tolerance
     while answer.solution.status is Status.SOLVED and _is_open(run, answer):
@@ -162,11 +163,6 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
         if not answer.distance <= WORTHWHILE * before[0]:
             break
     return answer
-
-
-def _first_tolerance(run: AssociativeRun, settings: SolverSettings) -> float:
-    """Tolerance of the first run of a program: the one asked for, no finer than is worthwhile where it is large."""
-    return max(settings.tolerance, FIRST_OF_LARGE) if _is_large(run) else settings.tolerance
 
 
 def _once(

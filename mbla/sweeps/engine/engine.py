@@ -109,7 +109,8 @@ def _outcomes_here(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) ->
                 if task is None:
                     return
                 late = options.until is not None and time.monotonic() >= options.until
-                found.put(_not_begun(task) if late else runner.run(task))
+                not_begun = Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)
+                found.put(not_begun if late else runner.run(task))
         except StoppedError:  # nothing waits for it any more
             return
         except BaseException as error:
@@ -131,7 +132,3 @@ def _outcomes_here(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) ->
             runner.kill()
         for thread in threads:
             thread.join()
-
-
-def _not_begun(task: Task) -> Outcome:
-    return Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)

@@ -110,11 +110,6 @@ def sweep_parquet(record: Mapping[str, Any], table: SweepTable) -> bytes:
     return parquet_bytes(columns, about)
 
 
-def sweep_csv(table: SweepTable) -> str:
-    """The text of sweep.csv: units in the header, a row for each point; see ``csv_text`` for the cells."""
-    return csv_text([column.header for column in table.columns], table.values)
-
-
 PARQUET, HDF5, FRAGILITY = "sweep.parquet", "sweep.h5", "sweep_fragility.csv"
 PICTURES = ("png", "svg")
 
@@ -182,7 +177,7 @@ def write_tables(
     """
     remark = _without_pictures() if conclusion.pictures else ""
     with OutputFolder(folder, "sweep", True, secondary=True) as out:
-        out.write_text(CSV, sweep_csv(table))
+        out.write_text(CSV, csv_text([column.header for column in table.columns], table.values))
         for name, text in conclusion.texts.items():
             out.write_text(name, text)
         if files.parquet:

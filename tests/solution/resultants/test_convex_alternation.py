@@ -54,7 +54,7 @@ def test_a_program_without_a_solution_ends_the_scheme(
     assert result.status is status
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
     assert (result.state is None) is (after < 2 * (len(convex_alternation.TILTS) + 1))
-    starts = 1 if status is Status.TIME_LIMIT or result.state else 3 + convex_alternation.SEEDS
+    starts = 1 if status is Status.TIME_LIMIT or result.state else 3 + convex_alternation.HOPS
     assert [record.kind for record in result.programs].count("gravity") == 1
     assert len(result.programs) == 1 + after + starts
 
@@ -62,7 +62,7 @@ def test_a_program_without_a_solution_ends_the_scheme(
 def test_pairs_that_may_not_go_on_say_how_far_they_came(wall: Wall, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(convex_alternation, "EXACT_RESIDUAL", 0.0)
     monkeypatch.setattr(convex_alternation, "MOST_PAIRS", 1)
-    monkeypatch.setattr(convex_alternation, "SEEDS", 0)
+    monkeypatch.setattr(convex_alternation, "HOPS", 0)
     result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
     assert "did not converge in 3 iterations" in " ".join([result.reason, *map(str, result.remarks)])
     assert result.state is not None
