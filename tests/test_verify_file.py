@@ -98,6 +98,7 @@ def test_numbers_near_the_end_of_all_are_disagreed_with(path: Path, name: str) -
     assert differences(path)
 
 
+@pytest.mark.long
 def test_resultants_and_motions_of_interfaces_near_the_end_of_all_numbers_are_disagreed_with(tmp_path: Path) -> None:
     deck = tmp_path / "deck.yaml"
     deck.write_text(TWIST, encoding="utf-8")

@@ -12,6 +12,7 @@ SHARE_SOLVED = 0.95
 """Measured: all of 40 within 1e-6, 39 within 1e-9; which of the hardest ones fail may change with rounding."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SHORT)
 def test_a_case_is_solved_and_verified(name: str) -> None:
     solution, checks, status = verified(line_of(CASES[name](), "analysis={standing: false, range: false}"))

@@ -69,6 +69,7 @@ def written(folder: Path) -> dict[str, str]:
     }
 
 
+@pytest.mark.long
 def test_the_table_is_the_same_in_every_folder(tmp_path: Path) -> None:
     """A deck refused in one point: its file stands in the reason, under the name in the sweep file."""
     here, there = written(tmp_path / "here"), written(tmp_path / "there" / "deeper")

@@ -58,6 +58,7 @@ def test_an_added_mass_has_the_factor_of_its_place(tmp_path: Path) -> None:
     assert (loaded - alone)[0] == pytest.approx([share, 0, 0, 0, share * 1, 0], rel=1e-12, abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("level", [-0.4, 0.31, 1.0])
 def test_ramps_over_blocks_that_are_not_convex_or_not_upright(level: float) -> None:
     """Against sums over many thin layers of tetrahedra's points: here a rotated grid of points inside a prism."""

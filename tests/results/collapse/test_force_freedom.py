@@ -167,6 +167,7 @@ def same_with_rest_fixed(seed: int) -> bool:
     return True
 
 
+@pytest.mark.long
 def test_random_decks_have_the_same_load_factor_with_the_rest_fixed() -> None:
     assert sum(map(same_with_rest_fixed, range(12))) >= 4
 

@@ -88,6 +88,7 @@ def test_single_letters_stay_apart(path: Path) -> None:
         assert data.units.values.tolist() == ["m", "N", "t"]
 
 
+@pytest.mark.long
 def test_the_snippet_of_the_page_runs(path: Path) -> None:
     (snippet,) = re.findall(r"```python\n(import xarray\n.+?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
     (path.parent / "arch.h5").write_bytes(path.read_bytes())

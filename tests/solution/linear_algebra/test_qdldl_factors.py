@@ -104,6 +104,7 @@ def test_a_star_keeps_its_centre_for_last() -> None:
     assert fill(pattern, order) == 2 * 11
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [3, 6])
 def test_fill_is_that_of_the_order_of_all_rows_or_about(size: int) -> None:
     """That of SuperLU, as dear as a factorisation. On a small grid it fills 3 % less, on walls 10 % more."""

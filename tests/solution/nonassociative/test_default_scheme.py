@@ -213,6 +213,7 @@ def test_a_deck_asks_for_dilatancy_and_it_is_verified() -> None:
 # --- the search for lower factors -----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", LEAST, ids=["1", "3", "5"])
 def test_more_search_never_ends_higher(text: str) -> None:
     program = planar_program(line_of(text))
@@ -231,6 +232,7 @@ def test_without_a_search_no_programs_are_made_for_one() -> None:
     assert result.state.load_factor == pytest.approx(result.first, rel=1e-6)
 
 
+@pytest.mark.long
 def test_nothing_depends_on_clock_or_chance() -> None:
     program = planar_program(line_of(FERRIS_3))
     one, two = sequence_of(program), sequence_of(program)

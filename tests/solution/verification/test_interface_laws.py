@@ -151,6 +151,7 @@ def with_moment(resultants: FloatArray, share: float) -> FloatArray:
     return changed
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tension", [0.0, TENSION])
 @pytest.mark.parametrize("name", OUTLINES)
 def test_full_stress_over_any_part_is_at_the_border(name: str, tension: float) -> None:
@@ -170,6 +171,7 @@ def test_the_conditions_of_the_program_have_the_same_border(name: str, tension: 
     assert np.all(crushing_violation(limits, with_moment(border, 0.999)) < 0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PIECES)
 def test_both_agree_anywhere(name: str) -> None:
     """Random forces: pressed too much, pulled, beside the middle, within."""

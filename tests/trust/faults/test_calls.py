@@ -133,11 +133,13 @@ def where_there_was_nothing(scene: Scene, call: str, number: int) -> None:
     assert sorted(content(scene.out)) == sorted({*record["files"]}), told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "call", "number"), [("run", "rename", 3), ("check", "write", 2), ("new", "sync", 1)])
 def test_a_call_that_fails(faulty: Commands, tmp_path: Path, name: str, call: str, number: int) -> None:
     assert Written(faulty, tmp_path, COMMANDS[name]).fails(call, number, "ENOSPC")
 
 
+@pytest.mark.long
 def test_a_call_that_fails_where_there_was_nothing(faulty: Commands, scene: Scene) -> None:
     where_there_was_nothing(scene, "write", 2)
 

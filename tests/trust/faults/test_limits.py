@@ -76,6 +76,7 @@ def memory_that_suffices(scene: Scene) -> int:
     return high * MEGABYTE
 
 
+@pytest.mark.long
 def test_too_little_of_each(scene: Scene, tmp_path: Path) -> None:
     assert with_limit(scene, "RLIMIT_FSIZE", max(map(len, scene.earlier.values())) - 2000)
     assert with_limit(scene, "RLIMIT_AS", MEGABYTE)
@@ -105,6 +106,7 @@ def refused(scene: Scene, out: Path, *options: str) -> str:
     return ended.err
 
 
+@pytest.mark.long
 def test_a_read_only_folder(scene: Scene, tmp_path: Path) -> None:
     """Of a file system that is mounted so: the administrator may write to every other one."""
     disk = tmp_path / "disk"
@@ -117,6 +119,7 @@ def test_a_read_only_folder(scene: Scene, tmp_path: Path) -> None:
         assert content(disk / "block.out") == {"block.h5": b"earlier"}
 
 
+@pytest.mark.long
 def test_folders_are_made_where_no_file_stands_in_the_way(scene: Scene, tmp_path: Path) -> None:
     assert scene.run("-o", tmp_path / "a" / "b").status == 0
     assert "block.h5" in content(tmp_path / "a" / "b")
@@ -126,6 +129,7 @@ def test_folders_are_made_where_no_file_stands_in_the_way(scene: Scene, tmp_path
     assert (tmp_path / "mine").read_text() == "mine"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", ["h5", "json"])
 def test_a_folder_where_a_file_should_be(scene: Scene, tmp_path: Path, suffix: str) -> None:
     folder = tmp_path / "out" / f"block.{suffix}"

@@ -131,15 +131,18 @@ def every_call(scene: Scene, which: signal.Signals) -> int:
     return done
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("which", [*SIGNALS, signal.SIGKILL])
 def test_a_signal_at_a_call(faulty: Commands, scene: Scene, which: signal.Signals) -> None:
     assert at_call(scene, "rename", 3, which)
 
 
+@pytest.mark.long
 def test_a_run_killed_at_some_moment(scene: Scene) -> None:
     kill_at(scene, 0.6 * scene.lasts)
 
 
+@pytest.mark.long
 def test_a_killed_first_run_is_in_nobodys_way(faulty: Commands, scene: Scene) -> None:
     restored(scene.out, {})
     assert scene.run(fault=scene.fault("rename", 5, signal=signal.SIGKILL)).status == -signal.SIGKILL
