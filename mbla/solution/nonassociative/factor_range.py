@@ -17,6 +17,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Message
+from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
 from mbla.program.static import StaticForm, fixed_mechanism_form
 from mbla.solution.cone_solvers.choice import cone_solver
@@ -80,8 +81,11 @@ def factor_range(
     search = _Search(program, state, slope, first_program)
     most = min(settings.max_iterations, ITERATIONS)
     settings = replace(settings, tolerance=TOLERANCE, regularization=REGULARIZATION, max_iterations=most)
+    form: StaticForm | None = None
     for rest in dict.fromkeys(max(touching, NOISE * state.residual) for touching in TOUCHING):
-        form = fixed_mechanism_form(program, point_motion(program, state, rest, slope))
+        before, form = form, fixed_mechanism_form(program, point_motion(program, state, rest, slope))
+        if before is not None and _are_same(before.cone_program, form.cone_program):
+            continue
         solver: ConeSolver | None = None
         for kind in tuple(search.pending):
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
@@ -97,6 +101,13 @@ def factor_range(
     missing = "; ".join(f"{kind} end of the range: {why}" for kind, why in search.missing.items())
     reason = Message("range-not-found", missing) if missing else None
     return FactorRange(lower, upper, tuple(search.records), reason)
+
+
+def _are_same(one: ConeProgram, other: ConeProgram) -> bool:
+    """Whether two programs would have the same answer, bit for bit."""
+    if one.matrix.shape != other.matrix.shape or not np.array_equal(one.rhs, other.rhs):
+        return False
+    return bool((one.matrix - other.matrix).count_nonzero() == 0 and np.array_equal(one.cost, other.cost))
 
 
 SIGNS = {"lower": 1.0, "upper": -1.0}
