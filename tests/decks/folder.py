@@ -111,7 +111,8 @@ def run_deck(path: Path, *options: str) -> Outcome:
     """Run a deck in this process, results in a folder of its own."""
     output, messages = io.StringIO(), io.StringIO()
     with TemporaryDirectory() as folder:
-        arguments = ["run", str(path), "--expected", "--json", "--force", "-o", folder, *options]
+        few = ("--set", "output.frames=2")  # the frames of a film are a tenth of the time, and tested elsewhere
+        arguments = ["run", str(path), "--expected", "--json", "--force", "-o", folder, *few, *options]
         with contextlib.redirect_stdout(output), contextlib.redirect_stderr(messages):
             status = main(arguments)
         files = tuple(sorted(file.name for file in Path(folder).iterdir()))

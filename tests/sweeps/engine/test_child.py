@@ -32,6 +32,7 @@ print("solved")
 """
 
 
+@pytest.mark.long
 def test_it_ends_in_the_middle_of_a_point_when_its_parent_is_killed(tmp_path: Path) -> None:
     command = (sys.executable, "-c", PARENT, str(tmp_path))
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=PACKAGES) as parent:
@@ -91,6 +92,7 @@ def test_a_point_that_runs_out_of_memory_is_tried_without_what_others_left(
     assert (outcome.state, outcome.reason) == ((DONE, "") if solved_before else ("failed", "out of memory"))
 
 
+@pytest.mark.long
 def test_one_that_nobody_asks_ends_and_another_takes_its_place(tmp_path: Path) -> None:
     code = "from mbla.sweeps.engine import child; child.IDLE = 0.1; child.main()"
     with SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner:

@@ -57,6 +57,7 @@ def test_a_point_over_the_time_limit_is_told(tmp_path: Path) -> None:
     assert (row["status"], row["verified"], row["load_factor"]) == ("time_limit", "False", "")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("error", "status"), [(KeyboardInterrupt, 130), (Terminated, 143)])
 def test_an_interrupted_study_is_gone_on_with_by_the_same_command(
     tmp_path: Path,

@@ -77,6 +77,7 @@ def findings(chosen: list[Mutant], folder: Path) -> tuple[Counter[str], list[str
     return counts, defects
 
 
+@pytest.mark.long
 def test_some_mutants(tmp_path: Path) -> None:
     """Some that must be refused, of every format, and one that is mended and solved."""
     everything = [mutant for mutant in mutants() if mutant.expect is REFUSED][::SHORT]
