@@ -70,11 +70,14 @@ def told(verdict: Standing, results: Results, *, proof: bool = False) -> Standin
     ("verdict", "forged", "proof", "words"),
     [
         (YES, DOUBTFUL, True, SHOWN),
+        pytest.param(YES, SELF_STRESS, True, SHOWN, marks=pytest.mark.long),
         (YES, SELF_STRESS, False, LOCKED),
         (YES, NO, True, FALL_NOT_SHOWN),
         (YES, NO, False, FALL_NOT_SHOWN),
         (SELF_STRESS, YES, False, NOT_SHOWN),
+        pytest.param(SELF_STRESS, NO, False, FALL_NOT_SHOWN, marks=pytest.mark.long),
         (NO, YES, False, FALL_SHOWN),
+        pytest.param(NO, SELF_STRESS, False, FALL_SHOWN, marks=pytest.mark.long),
         (NO, DOUBTFUL, False, FALL_SHOWN),
     ],
 )

@@ -249,7 +249,7 @@ def _scale(scales: dict[str, Labelled], path: str, name: str, size: int) -> str:
 
 
 def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.h5d.DatasetID:
-    """By the functions beneath ``create_dataset`` of h5py, which take a third of its time for the many small arrays."""
+    """By the functions beneath ``create_dataset`` of h5py, which take half of its time for the many small arrays."""
     from h5py import h5d, h5p, h5s, h5t
 
     properties = h5p.create(h5p.DATASET_CREATE)

@@ -73,13 +73,10 @@ class ClarabelProgram:
     _raised: BaseException | None = field(init=False, default=None)
     _logged: int = field(init=False, default=-1)
     _enough: float = field(init=False, default=0.0)
-    _reached: float = field(init=False, default=np.inf)
     _had_enough: bool = field(init=False, default=False)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; where the solver does not finish, again with settings that are easier for it.
-
-        What it reached that these would have to reach needs no second run.
 
         to_load_factor : factor from the objective to the load factor, for the log
         Raises SolverError if the data are not finite (the solver would answer with a confident verdict).
@@ -89,8 +86,6 @@ class ClarabelProgram:
             if solution.status not in UNDECIDED:
                 break
             self.settings, self._solver = easier, None
-            if self._reached <= easier.tolerance:
-                return replace(solution, status=Status.SOLVED)
             again = self.solve_once(program_number, to_load_factor)
             solution = again if again.status not in UNDECIDED or solution.status is not Status.APPROXIMATE else solution
         return solution
@@ -122,9 +117,7 @@ class ClarabelProgram:
             raise raised
         if self._logged < result.iterations:  # the callback misses the last one where that is converged
             self._log(self._solver.get_info(), program_number, to_load_factor, started)
-        name, value, bound = str(result.status), result.obj_val, result.obj_val_dual
-        gap = abs(value - bound) / max(1.0, min(abs(value), abs(bound)))
-        self._reached = max(gap, result.r_prim, result.r_dual) if name == "AlmostSolved" else np.inf
+        name = str(result.status)
         if name not in STATUS_MAP:
             raise SolverError("solver-status", f"clarabel returned a status that is not known: {name}")
         return ConeSolution(

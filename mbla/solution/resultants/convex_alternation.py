@@ -140,10 +140,12 @@ def solve_by_alternation(
         return broken_off(gravity, records)
     points = in_unit.points
     pair = ConvexAlternation(points, np.zeros(points.n_points), own, log, records, convex=in_unit)
-    above = gravity if associative.state is None else associative.state.forces
-    most, dead = above[:, 0] / unit, gravity[:, 0] / unit
-    starts: list[tuple[FloatArray, tuple[float, ...]]] = [(most, TILTS), (dead, ()), (dead, TILTS)]
-    for normal, tilts in chain(starts if above is not gravity else starts[1:], _hops(most, dead, states)):
+    above = dead = gravity[:, 0] / unit
+    starts: list[tuple[FloatArray, tuple[float, ...]]] = [(dead, ()), (dead, TILTS)]
+    if associative.state is not None:
+        above = associative.state.forces[:, 0] / unit
+        starts.insert(0, (above, TILTS))
+    for normal, tilts in chain(starts, _hops(above, dead, states)):
         pair.ended = None
         states += _run(pair, normal, tilts, settings)
         if pair.late:
@@ -177,7 +179,7 @@ def _hops(
     """
     random = np.random.default_rng(0)
     for hop in range(HOPS):
-        best = min(states, key=lambda state: state.residual, default=None)
+        best = _best(states)
         normal = gravity if best is None else best.forces[:, 0]
         factors = np.exp(WIDTHS[hop % len(WIDTHS)] * random.standard_normal(len(normal)))
         near = 0.5 * (normal + (above, gravity)[hop]) if hop < 2 else normal * factors

@@ -131,7 +131,7 @@ def test_sliding_without_dilatancy_is_the_support_of_the_section() -> None:
 
 TENSION = 3.0
 """f_t A."""
-N_CUTS = 12
+N_CUTS = 40
 
 
 def at_the_border(name: str, tension: float = 0.0) -> FloatArray:
