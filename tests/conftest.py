@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import gc
 import signal
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,19 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     """The scenes of ``extremes`` take seconds to write down, in every process: left out where their tests are."""
     neither = {"not long", "not trust"} <= set(config.getoption("markexpr").split(" and "))
     return True if neither and collection_path.name == "test_extremes.py" else None
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """``every(n)``: of the examples of a test each n-th, from the first on, is short; the others are long."""
+    seen: Counter[str] = Counter()
+    for item in items:
+        mark = item.get_closest_marker("every")
+        if mark is not None:
+            name = item.nodeid.partition("[")[0]
+            if seen[name] % mark.args[0]:
+                item.add_marker(pytest.mark.long)
+            seen[name] += 1
 
 
 def pytest_collection_finish() -> None:

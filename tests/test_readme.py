@@ -113,6 +113,7 @@ def test_the_sweep_from_python_is_that_of_the_command(
     assert np.array_equal(mbla.read_sweep("door.out")["load_factor"], table["load_factor"])
 
 
+@pytest.mark.long
 def test_the_job_array_solves_every_point(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

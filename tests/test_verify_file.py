@@ -65,6 +65,7 @@ def test_a_file_as_it_was_written_agrees(path: Path) -> None:
     assert results.exit_code == 0
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     ("name", "factor", "words"),
     [
@@ -81,6 +82,7 @@ def test_what_the_deck_or_the_mechanism_does_not_give(path: Path, name: str, fac
     assert words in differences(path)
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     "name",
     [
@@ -131,6 +133,7 @@ def test_arrays_that_contradict_each_other_are_not_even_read(path: Path, name: s
         differences(path)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
@@ -165,6 +168,7 @@ def test_what_the_deck_asks_for_is_there(tmp_path: Path) -> None:
         assert lacks in differences(written(tmp_path, with_case(results, **changes)))
 
 
+@pytest.mark.long
 def test_the_load_across_that_a_level_table_bears_is_proved(tmp_path: Path) -> None:
     run(BENCHMARKS["tilting_block_cohesion"], RunOptions(folder=tmp_path / "out"))
     path = tmp_path / "out" / "tilting_block_cohesion.h5"
@@ -201,6 +205,7 @@ def test_a_deck_of_several_files_is_built_again_from_the_file(of_several_files: 
         assert file["deck/file_bytes"][()].tobytes() == CUBE.encode()
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("name", ["model/friction", "model/vertices", "deck/file_bytes"])
 def test_what_stands_in_other_files_is_verified_too(name: str, of_several_files: Path) -> None:
     with changing(of_several_files) as file:
@@ -223,6 +228,7 @@ def test_files_of_a_deck_stay_in_their_folder(of_several_files: Path) -> None:
         assert "the deck in the file is not valid" in differences(of_several_files), name
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     "name",
     [

@@ -117,6 +117,7 @@ def test_a_doubt_is_marked_and_a_load_factor_that_rests_on_it_not_confirmed(
         assert file[name].attrs["verification"] == f"not verified: {UNVERIFIED['standing']}".encode()
 
 
+@pytest.mark.long
 def test_a_structure_that_falls_is_not_made_doubtful_without_a_word(
     originals: dict[Standing, Results], tmp_path: Path
 ) -> None:
@@ -139,6 +140,7 @@ def test_proved_verdicts_are_not_marked(originals: dict[Standing, Results], tmp_
     assert UNVERIFIED["standing"] in unverified_kinds(originals[SELF_STRESS])
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("kept", [True, False])
 def test_a_structure_that_stands_is_not_made_to_fall(
     kept: bool, originals: dict[Standing, Results], tmp_path: Path

@@ -47,6 +47,7 @@ def overrides(values: tuple[str, ...]) -> list[str]:
     return [f"parameters.{value}" for value in values]
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("deck", "values"), VARIATIONS, ids=lambda value: value if isinstance(value, str) else ",".join(value)
 )

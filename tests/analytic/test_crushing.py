@@ -155,6 +155,7 @@ def test_crushing_by_points_contains_the_stress_block_within_its_bound(
         assert -1e-12 <= excess <= factor * breadth * np.ptp(heights) ** 2 / n**2 + 1e-12
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(("e1", "e2"), [(0.05, 0.0), (0.25, 0.1), (0.33, 0.25), (0.05, 0.4)])
 @pytest.mark.parametrize("rule", ["associative", "non_associative"])
 def test_interfaces_bear_the_exact_stress_block(e1: float, e2: float, rule: str) -> None:

@@ -86,7 +86,7 @@ def test_walls_of_ferris_and_tin_loi(number: int) -> None:
         assert expected(f"benchmarks/published/{deck}", "push_x") == pytest.approx(planar, rel=DIGITS)
 
 
-@pytest.mark.parametrize("n", [5, 10, 20])
+@pytest.mark.parametrize("n", [5, 10, pytest.param(20, marks=pytest.mark.long)])
 def test_running_bond_walls(n: int) -> None:
     full, half = [1.0] * n, [0.5] + [1.0] * (n - 1) + [0.5]
     planar = wall_load_factor([half if course % 2 else full for course in range(n)], 0.65)

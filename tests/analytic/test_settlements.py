@@ -204,6 +204,7 @@ def test_the_reaction_follows_the_units(tmp_path: Path, length: str) -> None:
     assert other == pytest.approx(plain * metres**3, rel=EXACT)
 
 
+@pytest.mark.long
 def test_supports_and_guides_balance_the_loads(tmp_path: Path) -> None:
     """Reactions of the listing: beds, guides and supports that give way hold what acts on the structure."""
     for deck in ("guided_blocks", "spreading_arch"):

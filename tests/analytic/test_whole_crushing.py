@@ -39,6 +39,7 @@ load_cases:
     )
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("strength", "density", "flow_rule"), [(1e5, 2e3, "associative"), (1e12, 1.0, "non_associative")]
 )

@@ -46,6 +46,7 @@ def test_a_faulty_sweep_file_is_told_as_an_object_too(
     assert not sweep.with_suffix(".out").exists()
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("gone", ["closed", "broken"])
 def test_a_sweep_goes_on_where_nobody_reads_what_it_says(
     sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, gone: str

@@ -251,6 +251,7 @@ def counted(piece: dict[Cell, int]) -> dict[tuple[int, int], list[int]]:
     return {pair: sorted(parts) for pair, parts in found.items()}
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("turned", [False, True])
 @settings(max_examples=12)
 @given(st.integers(0, 10**6))

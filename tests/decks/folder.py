@@ -33,16 +33,32 @@ PATHS = tuple(sorted(path for folder in FOLDERS for path in DECKS.glob(f"{folder
 BENCHMARKS = {path.stem: path for path in PATHS if path.parts[-3] == "benchmarks"}
 """decks of closed forms and published cases by their names"""
 LONG = (
+    "benchmarks/closed_forms/acceleration_by_height",
+    "benchmarks/closed_forms/arch_50_voussoirs",
+    "benchmarks/closed_forms/arch_basket",
+    "benchmarks/closed_forms/arch_catenary_thin",
+    "benchmarks/closed_forms/arch_elliptic",
     "benchmarks/closed_forms/beam_under_travelling_load",
+    "benchmarks/closed_forms/dome_24_voussoirs",
+    "benchmarks/closed_forms/dome_of_slices_falls",
     "benchmarks/closed_forms/drum_column",
-    "regressions/bridge_axle_crushing",
-    "regressions/ground_given_twice_crushing",
-    "regressions/nave_crushing",
-    "regressions/shelf",
-    "regressions/shelf_across",
-    "regressions/trapezium_crushing",
-    "regressions/two_footings_crushing",
-    "regressions/vehicle_beside_its_path",
+    "benchmarks/closed_forms/eccentric_compression_convex",
+    "benchmarks/closed_forms/eccentric_compression_spacing",
+    "benchmarks/closed_forms/incline_tilted_gravity",
+    "benchmarks/closed_forms/leaning_block_rough_wall",
+    "benchmarks/closed_forms/leaves_rough",
+    "benchmarks/closed_forms/two_piers",
+    "benchmarks/closed_forms/wall_10x10",
+    "benchmarks/closed_forms/wall_20x20",
+    "benchmarks/published/cocchetti_rizzi_mu_310_falls",
+    "benchmarks/published/cocchetti_rizzi_mu_310_stands",
+    "benchmarks/published/cocchetti_rizzi_mu_350_falls",
+    "benchmarks/published/cocchetti_rizzi_mu_350_stands",
+    "benchmarks/published/ferris_wall_1_slope",
+    "benchmarks/published/ferris_wall_3",
+    "benchmarks/published/ferris_wall_3_associative",
+    "benchmarks/published/ferris_wall_3_slope",
+    "benchmarks/published/ferris_wall_5_associative",
     "structures/arch_bridge",
     "structures/colonnade",
     "structures/dome_on_drum",
@@ -52,17 +68,21 @@ LONG = (
     "structures/spiral_stair",
     "tutorials/bridge_with_parapets",
     "tutorials/buttressed_wall",
+    "tutorials/column_with_entasis",
     "tutorials/corner",
     "tutorials/crossvault",
     "tutorials/crossvault_without_dilatancy",
     "tutorials/gable_wall",
+    "tutorials/half_of_a_front",
     "tutorials/lintels_and_arches",
+    "tutorials/pavilion_vault",
     "tutorials/segmental_domes",
+    "tutorials/spiral_stair_round",
     "tutorials/two_leaf_walls",
     "tutorials/vault_in_rings",
     "tutorials/walls_at_a_corner",
 )  # fmt: skip
-"""take long: run by ``pytest -m long`` only"""
+"""take long, or show once more what another shows: run by ``pytest -m long`` only, as the folder of regressions is"""
 
 
 @dataclass(frozen=True)
@@ -86,10 +106,15 @@ def name_of(path: Path) -> str:
     return path.relative_to(DECKS).with_suffix("").as_posix()
 
 
+def is_long(name: str) -> bool:
+    """Whether only the long tests run the deck of that name."""
+    return name in LONG or name.startswith("regressions/")
+
+
 def as_parameters() -> list[ParameterSet]:
     """Every deck, those that take long with their mark."""
     names = [(path, name_of(path)) for path in PATHS]
-    return [pytest.param(path, id=name, marks=pytest.mark.long if name in LONG else ()) for path, name in names]
+    return [pytest.param(path, id=name, marks=pytest.mark.long if is_long(name) else ()) for path, name in names]
 
 
 every_deck = pytest.mark.parametrize("path", as_parameters())

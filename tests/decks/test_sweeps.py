@@ -85,6 +85,7 @@ def least_standing(rows: Sequence[Row], mu: float) -> float | None:
     return min((number(row, "t") for row in rows if row["mu"] == mu and row["status"] == "solved"), default=None)
 
 
+@pytest.mark.long
 def test_the_arch_stands_on_one_side_of_the_theory() -> None:
     """At each friction the steps next to the curve, and a thick arch."""
     chosen = {0.30: (0.24,), 0.32: (0.185, 0.19, 0.24), 0.38: (0.12, 0.125, 0.24), 0.45: (0.105, 0.11, 0.24)}
@@ -189,6 +190,7 @@ def check_wall(rows: Sequence[Row]) -> dict[tuple[float, float, float], float]:
     }
 
 
+@pytest.mark.long
 def test_a_wider_opening_weakens_the_wall_only_where_its_lintel_ends_badly() -> None:
     points = ((6, 0.4, 1), (6, 0.4, 8), (6, 0.6, 7), (6, 0.4, 9))
     rows = solve_some(

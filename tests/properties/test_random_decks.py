@@ -26,8 +26,6 @@ from tests.properties.random_items import Tree
 from tests.properties.restatements import rotation
 from tests.properties.rewritten import copies_written_out, in_units, moved, shuffled
 
-pytestmark = pytest.mark.long
-
 FEW = (0, 3, 10, 13, 23, 39, 46, 49)
 """one each of solved, without equilibrium, unbounded, convex, a dome on a tilting table, dilatancy and mortar"""
 SEEDS = (*FEW, *range(60, 110))
@@ -75,6 +73,7 @@ def run_deck(path: Path, capsys: pytest.CaptureFixture[str]) -> Run:
     return Run(code, json.loads(streams.out, parse_constant=refuse), streams.err)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_files_and_exit_status_agree(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write_deck(random_deck(seed), tmp_path)
@@ -155,7 +154,13 @@ def compare(first: Run, run: Run, name: str, same: float) -> None:
             assert after == pytest.approx(before, rel=rel, abs=nothing, nan_ok=True), (name, key)
 
 
-@pytest.mark.parametrize("seed", INVARIANT)
+@pytest.mark.parametrize(
+    "seed",
+    [
+        *(pytest.param(seed, marks=pytest.mark.long) for seed in INVARIANT[::2]),
+        *(pytest.param(seed, marks=pytest.mark.trust) for seed in INVARIANT[1::2]),
+    ],
+)
 def test_other_words_have_the_same_answer(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck = associative_deck(seed)
     first = run_deck(write_deck(deck, tmp_path), capsys)
@@ -163,6 +168,7 @@ def test_other_words_have_the_same_answer(seed: int, tmp_path: Path, capsys: pyt
         compare(first, run_deck(write_deck(other, tmp_path, name), capsys), name, SAME)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [1, 3, 5])
 def test_published_walls_in_other_words(number: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Walls of Ferris and Tin-Loi, brick by brick: to 1e-7, in their plane and in space, small and large, anywhere."""

@@ -96,6 +96,7 @@ def test_every_key_of_the_records_is_described_and_the_reverse(folder: Path) -> 
     assert set(known) - seen == set()
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("name", DECKS)
 def test_the_file_holds_the_whole_record(folder: Path, name: str) -> None:
     """``mbla show --json`` says what the run said."""
@@ -103,6 +104,7 @@ def test_the_file_holds_the_whole_record(folder: Path, name: str) -> None:
     assert json.loads(json_line(results_json(read_results_hdf5(folder / f"{name}.h5")))) == told
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("name", DECKS)
 def test_every_dataset_is_described(folder: Path, name: str) -> None:
     fields = {field.path: field for field in STORED}

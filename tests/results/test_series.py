@@ -147,6 +147,7 @@ def test_a_vehicle_stands_where_its_first_axle_is(behind: Any, words: str) -> No
     assert standing_words(tower_results().model, standing_at(1, 9, [7, 0, 3], 9.0, behind)) == words
 
 
+@pytest.mark.long
 def test_a_vehicle_beyond_the_end_of_its_path(tmp_path: Path) -> None:
     """One table of its positions, and everything else of the worst, which is told where the vehicle stands."""
     deck = Path("decks/regressions/vehicle_beside_its_path.yaml")

@@ -88,6 +88,7 @@ def rough_dome() -> CaseResult:
     return case(DOME, WITHOUT, "analysis.accuracy=draft", "analysis.residual=0.01")
 
 
+@pytest.mark.long
 def test_a_draft_without_normality_stops_at_its_residual(rough_dome: CaseResult) -> None:
     """The dome, on which steps of the exact law come no closer than 1e-3 for long; its interior path ends at 0.5425."""
     checks = rough_dome.checks

@@ -76,6 +76,7 @@ def test_a_bracket_rocks_as_its_union(rule: tuple[str, ...]) -> None:
     assert factor_of(BRACKET, *rule) == pytest.approx(weights @ arms / (weights @ heights), rel=1e-6)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("rule", RULES, ids=" ".join)
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)], ids=["planar", "spatial"])
 def test_a_glued_stack_is_one_box(rule: tuple[str, ...], direction: tuple[float, float]) -> None:

@@ -54,6 +54,7 @@ def test_it_ends_as_sharply_as_it_can_where_that_was_asked(text: str, rule: str)
     assert factor(result) == pytest.approx(0.65, rel=1e-8)
 
 
+@pytest.mark.long
 def test_a_peak_is_looked_for_as_the_knob_says() -> None:
     """A clamped plank, which carries more on the way than when it slides."""
     looked, left = (case(PLANK, WITHOUT, f"analysis.peak={word}") for word in ("true", "false"))

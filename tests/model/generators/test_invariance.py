@@ -28,6 +28,7 @@ ITEMS = {
 MOVES = "[{rotate: {axis: [1, 2, 3], angle: 40}}, {translate: [3000, -7000, 500]}]"
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("kind", list(ITEMS))
 @pytest.mark.parametrize(("transform", "scale"), [(MOVES, 1.0), ("{scale: 1000}", 1000.0), ("{scale: 0.001}", 0.001)])
 def test_turned_far_away_and_in_other_units(tmp_path: Path, kind: str, transform: str, scale: float) -> None:

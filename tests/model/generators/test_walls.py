@@ -190,6 +190,7 @@ def joints_and_faces(built: Built, segment: int) -> dict[int, list[float]]:
     return found
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("bond", ["running", "english", "flemish", "header"])
 @pytest.mark.parametrize(
     "name", ["corner", "t", "t off the bond", "cross", "room", "room off the bond", "l-shaped room"]
@@ -217,6 +218,7 @@ def test_units_of_any_shape(tmp_path: Path, unit: list[float]) -> None:
         assert np.ptp(boxes, axis=1)[:, :2].max() <= max(1.5 * unit[0], unit[1]) * (1 + 1e-9)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("bond", ["running", "stack", "english", "flemish", "header"])
 @pytest.mark.parametrize("side", ["front", "back"])
 def test_bonds_that_begin_with_half_a_unit_and_run_through_buttresses(tmp_path: Path, bond: str, side: str) -> None:

@@ -59,6 +59,7 @@ def answer(tmp_path: Path, support: str, push: str, reduce: bool = True) -> tupl
     return solution.mechanics.load_factor, solution.size.dimension
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("support", "push", "dimension"),
     [

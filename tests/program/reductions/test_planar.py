@@ -105,6 +105,7 @@ STRENGTHS = {
 }
 
 
+@pytest.mark.every(5)
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
 @pytest.mark.parametrize("joint", [0.4, 0.3], ids=["under its middle", "beside it"])
 @pytest.mark.parametrize("case", [0, 1])

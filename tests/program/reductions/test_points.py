@@ -99,6 +99,7 @@ def reduced(line: Line) -> Reduced:
     return reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=False)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("n", [2, 4, 7])
 def test_torsion_without_dilatancy_follows_the_trapezoidal_rule(n: int) -> None:
     """Pressed evenly, every point slides with friction on its share: μ W Σ s r. With n → ∞ that is 0.3826 μ W a, from

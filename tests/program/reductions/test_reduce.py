@@ -179,6 +179,7 @@ def applied(line: Line) -> set[str]:
     }
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
 @pytest.mark.parametrize("place", PLACES)
 def test_planar_in_any_place(place: str, flow_rule: str) -> None:

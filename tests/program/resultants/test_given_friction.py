@@ -48,6 +48,7 @@ def allowed(
     return np.concatenate(left)
 
 
+@pytest.mark.every(5)
 @pytest.mark.parametrize("name", OUTLINES)
 @pytest.mark.parametrize(
     "law",

@@ -71,6 +71,7 @@ def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
     assert "run the deck again" in words
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
@@ -133,6 +134,7 @@ def test_reductions_have_known_names(tmp_path: Path) -> None:
     assert "name of a reduction" in refused(path)
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
@@ -209,6 +211,7 @@ def test_a_dataset_elsewhere_or_none_at_all_is_refused(path: Path, image: bytes)
     assert "model/volumes claims 80000000000 bytes" in refused(path)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("name", "array", "words"),
     [

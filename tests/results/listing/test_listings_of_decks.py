@@ -38,6 +38,7 @@ KINDS = {
 """quick decks, one of each kind, and what must be read in their listings"""
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("deck", KINDS)
 def test_a_listing_of_every_kind(deck: str) -> None:
     results = run(DECKS / f"{deck}.yaml").records

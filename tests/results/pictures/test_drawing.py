@@ -91,6 +91,7 @@ def test_without_equilibrium_the_motion_is_told_as_such(tmp_path: Path) -> None:
     assert not {"before it moves", "hinge", "opening", "part 1"} & set(texts)
 
 
+@pytest.mark.every(5)
 @pytest.mark.parametrize(
     ("status", "words"),
     [
@@ -235,6 +236,7 @@ def picture(path: Path, kind: str, results: Results | None = None) -> Any:
         return np.asarray(image)[..., :3] / 255
 
 
+@pytest.mark.long
 @needs_opengl
 def test_pictures_in_space_show_hinge_gap_and_groups(tmp_path: Path) -> None:
     image = picture(tmp_path / "mechanism.png", "mechanism")

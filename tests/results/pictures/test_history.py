@@ -91,6 +91,7 @@ def test_series_shows_what_is_known_of_every_position(
     assert not hidden & found_texts
 
 
+@pytest.mark.long
 def test_a_case_without_a_load_factor_has_none_in_its_diagram(tmp_path: Path) -> None:
     """Its only program found no load factor either: residuals are drawn, no line of an answer."""
     results = tower_results()

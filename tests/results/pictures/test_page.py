@@ -69,7 +69,7 @@ def test_words_of_an_svg_are_text(tmp_path: Path) -> None:
     assert sum(node.tag.endswith("}image") for node in tree.iter()) == 1
 
 
-@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+@pytest.mark.parametrize("suffix", ["png", "svg", pytest.param("pdf", marks=pytest.mark.long)])
 def test_the_same_picture_gives_the_same_file(tmp_path: Path, suffix: str) -> None:
     paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
     for path in paths:

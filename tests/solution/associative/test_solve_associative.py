@@ -36,6 +36,7 @@ def test_sliding_strength_is_the_same_in_every_direction(angle: float) -> None:
     assert load_factor(BLOCK, "parameters.h=0.5", "parameters.mu=0.3", live) == pytest.approx(0.3, rel=1e-7)
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("planar", ["true", "false"])
 @pytest.mark.parametrize(("accuracy", "error"), [("draft", 1e-6), ("standard", 5e-8), ("reference", 5e-9)])
 def test_a_wall_of_twenty_courses(accuracy: str, error: float, planar: str) -> None:
@@ -95,6 +96,7 @@ def test_more_friction_never_lowers_the_factor(mu: float) -> None:
     assert load_factor(WALL, f"parameters.mu={mu}") <= load_factor(WALL, f"parameters.mu={mu + 0.1}") * (1 + 1e-7)
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize(
     ("mu", "limit"), [(310, 0.199653 - 6.2013e-6), (350, 0.152920 - 4.07515e-5), (380, 0.122192 - 5.32489e-5)]
 )

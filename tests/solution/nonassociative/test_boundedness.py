@@ -77,6 +77,7 @@ FREE = {
 }
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(("text", "direction"), LOCKED.values(), ids=LOCKED)
 def test_what_locks_without_dilatancy_too(text: str, direction: str) -> None:
     result = non_associative_bounded(StandingPath.from_dead_load(pushed(text, direction), SETTINGS))

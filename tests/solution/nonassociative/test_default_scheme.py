@@ -241,6 +241,7 @@ def test_nothing_depends_on_clock_or_chance() -> None:
     assert np.array_equal(one.state.forces, two.state.forces)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     "overrides",
     [
@@ -278,6 +279,7 @@ supports:"""
 """A wall of units five times as large, out of reach of the slender one, that collapses later."""
 
 
+@pytest.mark.long
 def test_a_part_ends_where_it_does_alone() -> None:
     """Nothing may follow from parts that cannot interact, such as the unit of the load factor."""
     alone, _, _ = exact(SLENDER, NON_ASSOCIATIVE)

@@ -61,6 +61,7 @@ def test_ranges_of_the_lowest_mechanisms_known(text: str, lower: float, upper: f
     assert ends(program, solved(program)) == pytest.approx((lower, upper), abs=2e-7)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "line",
     [line_of(FERRIS_3), line_of(FERRIS_5)],

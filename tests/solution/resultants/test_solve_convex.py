@@ -39,6 +39,7 @@ def test_eccentric_force_leaves_less_of_the_area(e1: float, e2: float) -> None:
     assert factor(TWIST, f"parameters.e1={e1}", f"parameters.e2={e2}") == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("arm", [0.1, 0.3, 0.5, 1.0, 3.0])
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
 def test_shear_and_torsion_follow_the_safe_curve(arm: float, flow_rule: str) -> None:
@@ -85,6 +86,7 @@ TRIANGLE = ((0, 0), (1, 0), (0.2, 0.9))
 CENTROID = np.array([0.4, 0.3])
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("model", ["concave", "convex"])
 @pytest.mark.parametrize(
     ("e1", "e2", "block"),
@@ -123,6 +125,7 @@ def test_crushing_is_associative_whatever_the_flow_rule() -> None:
     assert factor(text, flow_rule="non_associative") == pytest.approx(factor(text), rel=1e-6)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
 @pytest.mark.parametrize("model", ["concave", "convex"])
 def test_outlines_that_are_not_convex_crush_in_triangles(model: str, flow_rule: str) -> None:

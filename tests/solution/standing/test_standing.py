@@ -32,6 +32,7 @@ def standing(program: Program) -> StandingResult:
     return assess_dead_load(program, SETTINGS, carried=True).standing
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
 def test_standing_is_what_statics_says(structure: Structure) -> None:
     program = line_of(structure.text).program

@@ -25,6 +25,7 @@ def end_of(path: StandingPath) -> float:
     return path.program.scaling.load_factor(path.last.load_factor)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("overrides", "factor"),
     [

@@ -282,6 +282,7 @@ def test_what_crushes_as_a_whole_does_not_at_its_corners(weak: Line) -> None:
 RESULTANTS = "the resultants of the interfaces are not those of the contact forces"
 
 
+@pytest.mark.every(4)
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("at", range(6))
 def test_stored_resultants(at: int, side: float, dry: Line) -> None:

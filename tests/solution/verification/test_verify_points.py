@@ -124,6 +124,7 @@ def test_forces_beyond_the_torsional_strength_are_found() -> None:
     assert not checks.verified
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("deck", ["torque_convex", "eccentric_compression_convex"])
 def test_result_file_is_verified_without_solver(deck: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(DECKS / f"{deck}.yaml"), "-o", str(tmp_path / "out"), "--expected"]) == 0

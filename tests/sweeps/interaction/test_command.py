@@ -50,6 +50,7 @@ def test_files_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert "exists already; --force" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_a_point_over_the_time_limit_is_told(tmp_path: Path) -> None:
     arguments = ["--case", "push", "--directions", "1", "--time-limit", "1e-9", "-q"]
     assert main(["interact", str(written(tmp_path)), *arguments]) == 7

@@ -145,6 +145,7 @@ def test_refusals(
     assert not deck.with_name("block_tradeoff.out").exists()
 
 
+@pytest.mark.long
 def test_without_the_extra_for_pictures_the_rest_is_written(
     deck: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -87,6 +87,7 @@ def test_some_mutants(tmp_path: Path) -> None:
     assert counts["refused"] == len(everything)
 
 
+@pytest.mark.long
 def test_a_mended_file_gives_the_result_of_the_sound_one(tmp_path: Path) -> None:
     chosen = [mutant for mutant in mutants() if mutant.title == "obj: faces turned at random"]
     counts, defects = findings(chosen, tmp_path)

@@ -76,6 +76,7 @@ def test_names_are_different() -> None:
     assert set(FEW) <= {case.name for case in CASES}
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("case", [case for case in CASES if case.name in FEW], ids=lambda case: case.name)
 def test_a_hostile_file_is_refused_at_once(case: Case, running: Commands, tmp_path: Path) -> None:
     assert too_much(case, refused(case, running, tmp_path / "in")) == []
