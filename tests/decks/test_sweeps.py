@@ -98,7 +98,7 @@ def test_the_arch_stands_on_one_side_of_the_theory() -> None:
     check_arch(rows)
 
 
-@pytest.mark.long
+@pytest.mark.trust
 def test_the_whole_map_of_the_arch_has_the_theory_for_its_boundary() -> None:
     finished, rows = whole_sweep("arch_friction_thickness")
     assert finished.exit_code == 0
@@ -244,7 +244,7 @@ def test_walls_of_random_units_lie_below_the_block_of_their_size() -> None:
     assert len({row["load_factor"] for row in rows}) == len({row["seed"] for row in rows}) == 4
 
 
-@pytest.mark.long
+@pytest.mark.trust
 def test_the_whole_sample_of_rubble_walls_and_its_fragility() -> None:
     finished, rows = whole_sweep("rubble_wall")
     assert finished.exit_code == 0

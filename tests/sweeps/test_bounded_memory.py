@@ -1,4 +1,4 @@
-"""Memory over a sweep of 10,000 points of one block, of 2,000 by the long tests: processes of points do not grow."""
+"""Memory over a sweep of 10,000 points of one block, of 1,000 by the long tests: processes of points do not grow."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from tests.trust.watching import POINTS, watched
 
-SOME = 2_000
+SOME = 1_000
 GROWTH = 0.05
 """of the processes of points, whose structures to be shared are bounded in number and size"""
 KILOBYTES = 6.0

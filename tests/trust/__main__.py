@@ -1,4 +1,4 @@
-"""Run the full checks and write the table of counts into README.md beside this file.
+"""Run the full checks, wherever in the tests they are, and write the table of counts into README.md beside this file.
 
 ::
 
@@ -19,7 +19,7 @@ from tests.trust.counts import write
 
 def main() -> int:
     """Exit status of pytest."""
-    status = int(pytest.main(["-m", "trust", "-rs", *(sys.argv[1:] or [str(Path(__file__).parent)])]))
+    status = int(pytest.main(["-m", "trust", "-rs", *(sys.argv[1:] or [str(Path(__file__).parents[1])])]))
     write()
     return status
 

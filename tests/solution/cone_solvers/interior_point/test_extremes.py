@@ -153,7 +153,7 @@ def test_limits_of_iterations_and_time_have_their_own_status() -> None:
     assert "time limit" in late.reason
 
 
-@pytest.mark.long
+@pytest.mark.trust
 def test_twenty_thousand_planar_blocks() -> None:
     """141 by 141 units, 60,000 unknowns, in some 70 iterations: solved, with bounds 5e-7 apart.
 
