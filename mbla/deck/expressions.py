@@ -13,7 +13,7 @@ import ast
 import math
 import operator
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
@@ -124,17 +124,6 @@ class Parameters:
         if name in FUNCTIONS:
             raise _wrong(f"{name} is a function: write {name}(...)")
         raise ExpressionError("unknown-name", unknown(f"parameter {name}", name, [*self._raw, *CONSTANTS], "known"))
-
-    def dependencies(self, names: Iterable[str]) -> set[str]:
-        """Parameters that these depend on, themselves among them; names of no parameter are left out."""
-        found: set[str] = set()
-        waiting = [name for name in names if name in self._raw]
-        while waiting:
-            name = waiting.pop()
-            if name not in found:
-                found.add(name)
-                waiting += self._needs.get(name, [])
-        return found
 
     def failures(self) -> list[tuple[str, Message]]:
         """(name, message) of every parameter whose own expression is at fault."""

@@ -178,7 +178,7 @@ def _rows_of_points(equilibrium_matrix: sp.csr_array, c: int, limits: YieldLimit
     cut_off_d = _selection(d_column[rows.cut_off], np.ones(len(rows.cut_off)), n_d)
     identity_d = sp.eye_array(n_d, format="csr")
 
-    dry_limit = _diagonal(1.0 / beta[rows.dry]) @ velocity[c * rows.dry]
+    dry_limit = sp.diags_array(1.0 / beta[rows.dry], format="csr") @ velocity[c * rows.dry]
     dry = _shear_rows(dry_limit, velocity, rows.dry, c)
     none = sp.csr_array((n_p, velocity.shape[1]))
     shear = _shear_rows(none, velocity, rows.frictional, c)
@@ -203,10 +203,6 @@ def _shear_rows(limit: sp.csr_array, velocity: sp.csr_array, points: IntArray, c
     parts = [limit, *tangential] if components == 3 else [limit - tangential[0], limit + tangential[0]]
     stacked = sp.csr_array(sp.vstack(parts))
     return stacked[np.arange(components * len(points)).reshape(components, -1).T.ravel()]
-
-
-def _diagonal(values: FloatArray) -> sp.csr_array:
-    return sp.csr_array(sp.diags_array(values, format="csr"))
 
 
 def _selection(columns: IntArray, values: FloatArray, n_columns: int) -> sp.csr_array:

@@ -188,23 +188,19 @@ def _content(deck: Deck, results: Results, folder: Path) -> Content:
     model = build_model(deck)
     contacts = contacts_of(deck, model)
     model = _with_loads_found(held_model(model, contacts), results.model)
+    threads = {name: words for name, words in results.settings.items() if name == "threads"}  # no deck says them
     built = replace(
         results,
         model=model,
         contacts=contacts,
         notices=notices_of(deck, model, contacts),
-        settings=settings_in_words(deck, solver_settings(deck.analysis)) | _threads(results),
+        settings=settings_in_words(deck, solver_settings(deck.analysis)) | threads,
     )
     if deck.content.expected and any(notice.identifier == UNEXPECTED for notice in results.notices):
         built = as_expected(built, deck)
     stopped = () if results.complete else results.notices[-1:]  # what stopped a run is not the deck's to say
     notices = _placed_as(results.notices, (*built.notices, *stopped), folder)
     return content_of(replace(built, cases=(), notices=notices, exit_code=results.exit_code))
-
-
-def _threads(results: Results) -> dict[str, str]:
-    """Of a run, besides its settings: no deck says them."""
-    return {name: words for name, words in results.settings.items() if name == "threads"}
 
 
 def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path) -> tuple[Notice, ...]:

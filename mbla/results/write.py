@@ -11,7 +11,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from mbla.deck.content import OutputSection
 from mbla.errors import DeckError, FileError, MblaError, Notice, UsageError
@@ -71,13 +70,6 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
     out.write_text(f"{out.stem}.json", json_line(results_json(results)) + "\n")
     return results
-
-
-def write_outputs(results: Results, folder: Path, stem: str, force: bool, output: OutputSection) -> tuple[str, ...]:
-    """Write every file of a run to a folder; the names written. Raises as ``write_results`` and ``OutputFolder`` do."""
-    with OutputFolder(folder, stem, force) as out:
-        write_results(results, out, output)
-    return out.names
 
 
 def _write_pictures(results: Results, cases: Sequence[CaseResult], out: OutputFolder) -> None:

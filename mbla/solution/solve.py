@@ -192,7 +192,6 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         peak=stage.mechanics(first, result.peak, rule),
         scheme=analysis.scheme if rule == "non_associative" else "",
         remarks=(*sequence.remarks, *words, *remarks),
-        spread=_in_load_factors(stage.parts[first], sequence.spread),
         path=sequence.path,
     )
 
@@ -210,11 +209,6 @@ def _tolerance_requested(results: Sequence[PartResult]) -> float | None:
     requested = [result.tolerance_requested for result in open_parts if result.status is Status.APPROXIMATE]
     known = [value for value in requested if value is not None]
     return max(known) if known and len(known) == len(open_parts) else None
-
-
-def _in_load_factors(program: Program, spread: tuple[float, float] | None) -> tuple[float, float] | None:
-    live = program.scaling.live
-    return None if spread is None else (spread[0] * live, spread[1] * live)
 
 
 def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[Message]]:

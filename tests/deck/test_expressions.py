@@ -158,12 +158,6 @@ def test_any_text_gives_a_finite_number_or_an_expression_error(text: str) -> Non
     assert math.isfinite(result)
 
 
-def test_parameters_depend_on_others() -> None:
-    parameters = Parameters({"a": "=2*b", "b": "=c+1", "c": 3, "d": "=a", "x": "=y", "y": "=x"})
-    assert parameters.dependencies(["a", "nothing"]) == {"a", "b", "c"}
-    assert parameters.dependencies(["x"]) == {"x", "y"}
-
-
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

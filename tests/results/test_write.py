@@ -8,7 +8,8 @@ from mbla.results.files import OutputFolder
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.listing import listing
 from mbla.results.results import Results
-from mbla.results.write import write_outputs, write_results
+from mbla.results.write import write_results
+from tests.results.outputs import write_outputs
 from tests.results.synthetic import same, tower_results
 
 CASE_FILES = {"blocks.vtu", "contacts.vtu", "interfaces.vtu", "frame_000.vtu", "frame_001.vtu", "frame_002.vtu"}

@@ -27,8 +27,7 @@ from mbla.program.static import PointMotion, StaticForm, fixed_mechanism_form
 from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.nonassociative.point_motion import point_motion
+from mbla.solution.nonassociative.law_state import LawState, point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 

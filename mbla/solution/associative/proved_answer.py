@@ -173,7 +173,7 @@ def _once(
     before: ProvedAnswer | None = None,
 ) -> ProvedAnswer:
     """One run of a solver, and what of its solution can be proved; ``before`` where it takes no further step."""
-    solution = solved_once(run, form, solver, "associative", unit)
+    solution = solved_once(run, solver, "associative", unit)
     if before is not None and not solution.iterations:
         return before
     if unit != 1.0:
@@ -225,14 +225,7 @@ def proved_certificate(run: AssociativeRun, form: AssociativeForm, solution: Con
     return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
 
 
-def solved_once(
-    run: AssociativeRun,
-    form: AssociativeForm,
-    solver: ConeSolver,
-    kind: str,
-    unit: float,
-    enough: float = 0.0,
-) -> ConeSolution:
+def solved_once(run: AssociativeRun, solver: ConeSolver, kind: str, unit: float, enough: float = 0.0) -> ConeSolution:
     """Solve the loaded program once and record it; ``unit`` times the objective is the load factor of the program."""
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
     solution = solver.solve_once(number, to_load_factor, enough)

@@ -164,7 +164,7 @@ def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettin
     reverse, carried = None, False
     for enough in (ENOUGH, 0.0):
         if reverse is None or not (carried or reverse.status is Status.TIME_LIMIT):
-            reverse = solved_once(run, form, solver, "reverse", -1.0, enough)
+            reverse = solved_once(run, solver, "reverse", -1.0, enough)
             carried = _carried(run, form, reverse)
     assert reverse is not None
     return reverse, carried

@@ -113,14 +113,24 @@ class Alternation:
     def states_from(self, velocities: FloatArray | None, tilts: Iterable[float] = repeat(0.0)) -> Iterator[LawState]:
         """The same from velocities, (n_rows,); none from None."""
         for tilt in tilts:
-            found = None if velocities is None else self.forces_for(velocities, tilt)
-            if velocities is None or found is None:
+            found = None if velocities is None else self.pair(velocities, tilt)
+            if found is None:
                 return
-            forces, load_factor = found
-            before = velocities
-            velocities = self.motion_for(forces[:, 0])
-            motions = (before,) if velocities is None else (before, velocities)
-            yield min((self.state(forces, u, load_factor) for u in motions), key=lambda state: state.residual)
+            state, velocities = found
+            yield state
+
+    def pair(self, velocities: FloatArray, tilt: float) -> tuple[LawState, FloatArray | None] | None:
+        """The state of the forces for velocities, (n_rows,), and the velocities for these forces, if there are any.
+
+        None without forces.
+        """
+        found = self.forces_for(velocities, tilt)
+        if found is None:
+            return None
+        forces, load_factor = found
+        after = self.motion_for(forces[:, 0])
+        motions = (velocities,) if after is None else (velocities, after)
+        return min((self.state(forces, u, load_factor) for u in motions), key=lambda state: state.residual), after
 
     def state(self, forces: FloatArray, velocities: FloatArray, load_factor: float) -> LawState:
         """The state of forces, (n_points, components), and velocities, (n_rows,), with its residual."""

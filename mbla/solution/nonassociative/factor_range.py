@@ -22,8 +22,7 @@ from mbla.program.program import Program
 from mbla.program.static import StaticForm, fixed_mechanism_form
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
-from mbla.solution.nonassociative.law_state import LawState, law_state
-from mbla.solution.nonassociative.point_motion import point_motion
+from mbla.solution.nonassociative.law_state import LawState, law_state, point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import EXACT_RESIDUAL

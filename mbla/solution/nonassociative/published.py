@@ -76,10 +76,10 @@ def solve_published(
         solver.update(cost=form.cost_for(_fictitious(limits, slope, normal)))
         solution = solver.solve(number, live)
         if solution.status not in WITH_VALUE:
-            return _broken_off(program, best, solution, records)
+            return _broken_off(best, solution, records)
         factors.append(solution.objective)
         change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12)
-        records.append(_record(number, solution, program.scaling.load_factor(factors[-1]), change))
+        records.append(solution.record(number, "published", program.scaling.load_factor(factors[-1]), change))
         forces, velocities = form.contact_forces(solution.z), form.velocities(solution.x)
         normal = weight * forces[:, 0] + (1 - weight) * normal
         recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
@@ -127,15 +127,9 @@ def _states(
     return states
 
 
-def _record(number: int, solution: ConeSolution, load_factor: float, change: float) -> ProgramRecord:
-    return solution.record(number, "published", load_factor, change)
-
-
-def _broken_off(
-    program: Program, best: LawState | None, solution: ConeSolution, records: list[ProgramRecord]
-) -> SequenceResult:
+def _broken_off(best: LawState | None, solution: ConeSolution, records: list[ProgramRecord]) -> SequenceResult:
     number = len(records) + 1
-    records.append(_record(number, solution, np.nan, np.nan))
+    records.append(solution.record(number, "published", np.nan, np.nan))
     if solution.status not in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         return broken_off(solution, records, best)
     what = "carry the dead load" if solution.status is Status.NO_EQUILIBRIUM else "give way to the live load"

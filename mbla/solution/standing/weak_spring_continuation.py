@@ -129,8 +129,10 @@ def weaken_springs(
     last = before = _State(1.0, np.zeros(len(program.dead_load)), np.nan, -1)
     for ratio in SHEAR_STIFFNESSES:
         problem, start = replace(basis, shear_stiffness=ratio), last
-        if before is not last and not newtons_method(problem, last.kappa, last.displacements)[0]:
-            start = before  # the one before the last leap (house: 1 s, by dashpots from the last one 6)
+        if before is not last:
+            near, u = newtons_method(problem, last.kappa, last.displacements)
+            # else the one before the last leap (house: 1 s, by dashpots from the last one 6)
+            start = replace(last, displacements=u) if near else before
         outcome, state, earlier = _weaken(problem, blocks, start.kappa, start.displacements)
         forces = joints_at(problem, 0.0, state.displacements).state.forces
         found.append(replace(outcome, forces=forces, displacements=state.displacements))

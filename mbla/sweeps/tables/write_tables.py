@@ -45,7 +45,8 @@ def sweep_hdf5(record: Mapping[str, Any], table: SweepTable) -> bytes:
     coordinates = " ".join(arrays) if not any(" " in name for name in arrays) else ""
     for column, values in zip(table.columns, table.values, strict=True):
         if column.role not in OF_DESIGN:
-            arrays[_name(column.name)] = _along_all(table, column, values, coordinates)
+            name = column.name.replace("/", "_")  # a stroke would make a group of what is before it
+            arrays[name] = _along_all(table, column, values, coordinates)
     attributes: dict[str, str | int] = {
         "filetype": FILETYPE,
         "version": VERSION,
@@ -55,11 +56,6 @@ def sweep_hdf5(record: Mapping[str, Any], table: SweepTable) -> bytes:
         "complete": int(counts(table)["unfinished"] == 0),
     }
     return write_labelled_hdf5(LabelledFile(attributes, scales, arrays))
-
-
-def _name(column: str) -> str:
-    """The name of its dataset: a stroke would make a group of what is before it."""
-    return column.replace("/", "_")
 
 
 def _scale(table: SweepTable, axis: int) -> Labelled:

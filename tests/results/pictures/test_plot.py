@@ -17,8 +17,8 @@ from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.page import CASES
 from mbla.results.pictures.plot import pictures_of, plot_case, plot_results
 from mbla.results.results import Results
-from mbla.results.write import write_outputs
 from tests.results.opengl import needs_opengl
+from tests.results.outputs import write_outputs
 from tests.results.synthetic import standing_at, tower_results
 
 IN_SPACE = PictureOptions(kinds=("mechanism",), view=VIEWS["iso"])

@@ -18,8 +18,8 @@ from matplotlib import image
 from mbla.deck.content import OutputSection
 from mbla.results.record.scene import FIGURES
 from mbla.results.results import Results
-from mbla.results.write import write_outputs
 from mbla.solution.solution import Status
+from tests.results.outputs import write_outputs
 from tests.results.synthetic import tower_results
 
 

@@ -12,9 +12,10 @@ import pytest
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import default_scheme
-from mbla.solution.nonassociative.default_scheme import MISSED, NEEDLESS, _Scheme, solve_by_default, state_near
+from mbla.solution.nonassociative.default_scheme import MISSED, _Scheme, solve_by_default, state_near
 from mbla.solution.nonassociative.factor_range import factor_range, unbalanced
 from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.search import NEEDLESS
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.standing import standing
@@ -395,6 +396,18 @@ def test_programs_without_a_solution_leave_no_state(monkeypatch: pytest.MonkeyPa
     scheme.approach(np.ones(program.n_points))
     assert scheme.answer is None
     assert [record.status for record in scheme.records] == [Status.NUMERICAL_ERROR]
+
+
+def test_a_descent_ends_where_another_one_went_on() -> None:
+    """The second costs one program, the motion by which it is known; whatever follows would be the same again."""
+    program = planar_program(line_of(WALL))
+    scheme = _Scheme(program, np.zeros(program.n_points), SETTINGS, lambda record: None, [])
+    normal = np.full(program.n_points, 1.0 / program.n_points)
+    scheme.descend(normal)
+    first, states = scheme.alternation.programs, len(scheme.found)
+    assert first > 2
+    scheme.descend(normal)
+    assert (scheme.alternation.programs, len(scheme.found)) == (first + 1, states)
 
 
 def test_a_state_near_another_one_is_found_from_it() -> None:

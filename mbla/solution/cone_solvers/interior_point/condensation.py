@@ -26,7 +26,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, Units, boosted, largest_entry
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, boosted, largest_entry
 from mbla.solution.linear_algebra import Factorization, factorization
 from mbla.solution.linear_algebra.block_products import (
     DenseRows,
@@ -248,22 +248,24 @@ class Condensation:
 
 def _batches(data: ConeData, over_all: sp.csr_array) -> tuple[list[_Batch], list[IntArray]]:
     """Batches of points, and the unknowns of each set of points with the same ones."""
-    product, units, n = data.product, Units.of(data.product), over_all.shape[1]
+    product, n = data.product, over_all.shape[1]
+    cones, n_units = product.n_lines + np.arange(product.n_cones), product.n_lines + product.n_cones
+    unit_of_row = np.concatenate([np.arange(product.n_lines), cones, cones, cones])
     over_local = sp.csr_array(data.cone_matrix[:, n:])
     held = sp.coo_array(over_local)
-    unit = units.unit_of_row[held.coords[0]]
-    ends = (unit, units.n_units + held.coords[1])
-    link = sp.coo_array((np.ones(len(unit)), ends), shape=(units.n_units + data.n_local,) * 2)
+    unit = unit_of_row[held.coords[0]]
+    ends = (unit, n_units + held.coords[1])
+    link = sp.coo_array((np.ones(len(unit)), ends), shape=(n_units + data.n_local,) * 2)
     n_points, labels = connected_components(link, directed=False)
     point = labels.astype(np.int64)
     lines = by_group(np.arange(product.n_lines), point[: product.n_lines], n_points)
-    cones = by_group(np.arange(product.n_cones), point[product.n_lines : units.n_units], n_points)
-    local = by_group(n + np.arange(data.n_local), point[units.n_units :], n_points)
-    touched = dense_rows(over_all, point[units.unit_of_row], n_points)
-    shape_of = alike(np.column_stack([*(np.diff(part[1]) for part in (lines, cones, local)), touched.widths]))
+    cone_sets = by_group(np.arange(product.n_cones), point[product.n_lines : n_units], n_points)
+    local = by_group(n + np.arange(data.n_local), point[n_units:], n_points)
+    touched = dense_rows(over_all, point[unit_of_row], n_points)
+    shape_of = alike(np.column_stack([*(np.diff(part[1]) for part in (lines, cone_sets, local)), touched.widths]))
     batches, columns = [], []
     for points, unknowns, size in sets_of_alike(shape_of, touched):
-        members = tuple(taken(part, points) for part in (lines, cones, local))
+        members = tuple(taken(part, points) for part in (lines, cone_sets, local))
         batches.append(_batch(data, touched, points, members, over_local, size))
         columns.append(unknowns)
     return batches, columns

@@ -245,24 +245,3 @@ def cone_data(program: ConeProgram) -> ConeData:
         order=order,
         n_local=program.n_local,
     )
-
-
-@dataclass(frozen=True)
-class Units:
-    """Half-lines and cones, numbered in this order, as sets of rows of the cone matrix.
-
-    unit_of_row : (size,) number of the half-line or cone of each row
-    place_of_row : (size,) component in it
-    """
-
-    unit_of_row: IntArray
-    place_of_row: IntArray
-    n_units: int
-
-    @staticmethod
-    def of(product: ConeProduct) -> Units:
-        """Of a product of cones."""
-        cones = product.n_lines + np.arange(product.n_cones)
-        unit = np.concatenate([np.arange(product.n_lines), cones, cones, cones])
-        place = np.concatenate([np.zeros(product.n_lines), np.repeat([0, 1, 2], product.n_cones)])
-        return Units(unit, place.astype(np.int64), product.n_lines + product.n_cones)

@@ -31,7 +31,7 @@ class Point:
 class Measures:
     """How far an iterate is from the solution; all relative.
 
-    primal_objective, dual_objective : c·x + ½ xᵀQx and −e·y − h·z − ½ xᵀQx
+    primal_objective : c·x + ½ xᵀQx
     infeasible, unbounded : how far it is from proving that, infinite where it says nothing of the kind: 1 over the size
                             that a solution of the program, of its dual, would at least have
     """
@@ -40,7 +40,6 @@ class Measures:
     primal: float
     dual: float
     primal_objective: float
-    dual_objective: float
     infeasible: float
     unbounded: float
 
@@ -85,7 +84,6 @@ def measured(data: ConeData, point: Point) -> Measures:
         primal=max(largest_entry(r_e), largest_entry(r_z)) / limit,
         dual=largest_entry(r_x) / max(1.0, largest_entry(data.cost) + size_z + largest_entry(x)),
         primal_objective=primal_objective,
-        dual_objective=dual_objective,
         infeasible=ray_dual / -offset if offset < 0.0 else np.inf,
         unbounded=ray_primal * max(1.0, largest_entry(data.cost)) / -work if work < 0.0 else np.inf,
     )

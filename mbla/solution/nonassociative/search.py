@@ -1,0 +1,242 @@
+"""States of the joint law by pairs of programs (``alternation``), and from each of them states of lower load factors.
+
+A descent is a sequence of pairs whose tilt falls. Several descents come to the same motions: each goes on from a motion
+with a tilt once, for what follows is known. On a wall of 49 blocks that is 320 iterations for 800, the states the same.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.nonassociative.alternation import Alternation
+from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState
+from mbla.solution.nonassociative.moving_part import moving_part
+from mbla.solution.nonassociative.refine_equilibrium import imbalance
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord
+from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
+
+MOST_PAIRS, PATIENCE, AT_REST, PROGRESS = 12, 4, 2, 0.7
+"""Pairs of programs from one start at most; given up where so many in a row have not brought the residual to this share
+of what it was, and joints that open under force emphasized after the number before it."""
+
+TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
+"""Tilts in turn, and pairs of programs with each. On walls the last is a state of the law; with 0.3 the states were too
+far from it to come back lower."""
+
+MOST_PARTS = 2
+"""Times that the part that moves is solved alone before the whole structure is."""
+
+NOTABLE = 1e-4
+"""Relative fall of the load factor by a round of the search after which another one is made."""
+
+LEAST_WORK, SMALL_WORK = 300, 2e5
+"""Iterations that a search may always make, and iterations times contact points, whichever allows more: a fifth of a
+second on 600 points, two on 5,000. On published walls and those of 10 to 25 courses more led no lower, a third less did
+not reach the same states."""
+
+FEWEST_PAIRS = 4
+"""Pairs of programs for which there must be work left for a descent to begin: cut short it ends off the law."""
+
+SAME_MOTION = 1e-4
+"""Relative difference of two motions of unit live work that are one, and lead on alike."""
+
+NEEDLESS = 1e-6
+"""Load factor, over dead load over live load of the blocks that move, of a mechanism that needs no live load: in space
+a block can turn about the one contact point that carries all its force. That fits the law and says nothing of a
+collapse, unless the associative load factor, which is no less, is as small."""
+
+UNBALANCED = 1e-3
+"""Unbalanced force of a block, over what it carries, with which a state is none: beside blocks of 1e8 times its weight
+the programs do not see a block."""
+
+NEAR_BEST = 10.0
+"""States within so many times the least residual count as fitting, where none fits the law exactly."""
+
+
+@dataclass
+class Search:
+    """States found so far, and what was spent on them: factorisations of the run, iterations of programs.
+
+    most   : associative load factor, infinite where there is none
+    passed : tilts and motions, (n_rows,) each, that descents went on from
+    """
+
+    program: Program
+    slope: FloatArray
+    settings: SolverSettings
+    log: Log
+    records: list[ProgramRecord]
+    most: float = np.inf
+    found: list[LawState] = field(default_factory=list)
+    spent: int = 0
+    limit: float = np.inf
+    passed: list[tuple[float, FloatArray]] = field(default_factory=list)
+    alternation: Alternation = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.alternation = Alternation(self.program, self.slope, self.settings, self.log, self.records)
+
+    @property
+    def wanted(self) -> float:
+        """Residual that was asked for; a sharper one than that of an exact state is left to ``sharpened``."""
+        return max(self.settings.residual, EXACT_RESIDUAL)
+
+    @property
+    def late(self) -> bool:
+        """Whether the time limit has passed."""
+        deadline = self.settings.deadline
+        return self.alternation.late or (deadline is not None and time.monotonic() > deadline)
+
+    @property
+    def work(self) -> int:
+        """Factorisations of the run and iterations of the programs so far."""
+        return self.spent + self.alternation.work
+
+    @property
+    def over(self) -> bool:
+        """Whether the time limit has passed, or the work of a search is done."""
+        return self.late or self.work >= self.limit
+
+    @property
+    def has_work_left(self) -> bool:
+        """Whether another descent of a search may begin."""
+        pair = 2.0 * self.alternation.work / max(self.alternation.programs, 1)
+        return not self.late and self.limit - self.work >= FEWEST_PAIRS * pair
+
+    @property
+    def least_residual(self) -> float:
+        """Of the states found so far."""
+        return min((state.residual for state in self.found), default=np.inf)
+
+    @property
+    def answer(self) -> LawState | None:
+        """The state of the least load factor among those that fit the law, or do so nearly as well as the best.
+
+        The residual is a power, of second order in how far a state is from one of the law, and the load factor is of
+        first: of states that differ in it by less than the root of the residual the sharpest is taken.
+        """
+        if not self.found:
+            return None
+        least = self.least_residual
+        limit = max(self.wanted, min(NEAR_BEST * least, SOLVED_RESIDUAL), least)
+        fitting = [state for state in self.found if state.residual <= limit]
+        lowest = min(fitting, key=lambda state: state.load_factor)
+        same = lowest.load_factor + np.sqrt(lowest.residual) * abs(lowest.load_factor)
+        return min((state for state in fitting if state.load_factor <= same), key=lambda state: state.residual)
+
+    def keep(self, state: LawState) -> None:
+        """Remember a state, unless its mechanism needs no live load or a light block is not in balance."""
+        if not self.program.guided and imbalance(self.program, state) > UNBALANCED:
+            return
+        needless = NEEDLESS * self.program.moved_over_live(state.velocities)
+        if state.load_factor > needless or self.most <= needless or self.program.settles:
+            self.found.append(state)
+
+    def approach(self, normal: FloatArray, velocities: FloatArray | None = None) -> FloatArray:
+        """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces.
+
+        velocities : (n_rows,) of the motion program for these forces, if they are known
+
+        Where little moves they are those of the moving part, and one pair of the whole says whether the rest carries
+        it, and rests.
+        """
+        self.alternation.emphasis[:] = 0.0
+        for _ in range(MOST_PARTS):
+            velocities = self.alternation.motion_for(normal) if velocities is None else velocities
+            part = None if velocities is None else moving_part(self.program, velocities)
+            if part is None:
+                break
+            inner = Alternation(part.program, self.slope[part.points], self.settings, self.log, self.records)
+            states = self._pairs(inner, inner.states(normal[part.points]))
+            self.spent += inner.work
+            if not states:
+                break
+            velocities = part.lifted(min(states, key=lambda state: state.residual).velocities)
+            found = self.alternation.forces_for(velocities, 0.0)
+            if found is None:
+                return normal
+            self.keep(state := self.alternation.state(found[0], velocities, found[1]))
+            normal, velocities = state.forces[:, 0], None
+            if state.residual <= self.wanted or self.over:
+                return normal
+        else:
+            velocities = self.alternation.motion_for(normal)
+        for state in self._pairs(self.alternation, self.alternation.states_from(velocities)):
+            self.keep(state)
+            normal = state.forces[:, 0]
+        return normal
+
+    def _pairs(self, alternation: Alternation, states: Iterator[LawState]) -> list[LawState]:
+        """States of pairs of programs until one fits the law, or they stall."""
+        found: list[LawState] = []
+        for state in states:
+            found.append(state)
+            residuals = [each.residual for each in found]
+            least, before, recent = min(residuals), *(min(residuals[:-n], default=np.inf) for n in (PATIENCE, AT_REST))
+            if state.residual <= self.wanted or least > PROGRESS * before or len(found) >= MOST_PAIRS or self.over:
+                break
+            if least > PROGRESS * recent and self.program.components == 2:  # in space it led nowhere better
+                alternation.emphasize(state)
+        return found
+
+    def descend(self, normal: FloatArray, tilts: Sequence[tuple[float, int]] = TILTS) -> None:
+        """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law.
+
+        Ends where it comes to a motion from which another descent went on: all that follows is known.
+        """
+        self.alternation.emphasis[:] = 0.0
+        velocities, state, own = self.alternation.motion_for(normal), None, len(self.passed)
+        for tilt, pairs in tilts:
+            factor = np.inf
+            for _ in range(pairs):
+                if velocities is None:
+                    break
+                met = self._met(velocities, tilt)
+                if met < own:
+                    return
+                if met == len(self.passed):  # else it rests at the state before
+                    self.passed.append((tilt, velocities))
+                    found = self.alternation.pair(velocities, tilt)
+                    if found is None:
+                        break
+                    state, velocities = found
+                    self.keep(state)
+                    normal = state.forces[:, 0]
+                before, factor = factor, np.inf if state is None else state.load_factor
+                fits = state is not None and state.residual <= self.wanted
+                if self.over or (fits and factor > (1.0 - NOTABLE) * before):
+                    return
+        self.approach(normal, velocities)
+
+    def _met(self, velocities: FloatArray, tilt: float) -> int:
+        """Which of the motions passed these velocities, (n_rows,), are, with the same tilt; their number if none."""
+        near = SAME_MOTION * float(np.linalg.norm(velocities))
+        for number, (other, motion) in enumerate(self.passed):
+            if other == tilt and float(np.linalg.norm(motion - velocities)) <= near:
+                return number
+        return len(self.passed)
+
+    def lower(self, normals: list[FloatArray]) -> None:
+        """Descents from the lowest state as long as they lead lower, then from normal forces, within the work."""
+        always = max(LEAST_WORK, SMALL_WORK / self.program.n_points)
+        self.limit = self.work + max(self.settings.search * self.work, always)
+        if self.answer is not None:  # the lower end of its mechanism first: work may not be left for more
+            self.descend(self.answer.forces[:, 0], TILTS[-1:])
+        here, falls = self.answer, True
+        while here is not None and falls and self.has_work_left:
+            before = here.load_factor
+            self.descend(here.forces[:, 0])
+            here = self.answer
+            size = max(abs(before), NEAR_ZERO * self.program.dead_over_live)  # next to zero it may have either sign
+            falls = here is not None and here.load_factor < before - NOTABLE * size
+        for normal in normals:
+            if self.has_work_left:
+                self.descend(normal)
