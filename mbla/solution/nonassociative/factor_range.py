@@ -86,7 +86,9 @@ def factor_range(
         if before is not None and _are_same(before.cone_program, form.cone_program):
             continue
         solver: ConeSolver | None = None
-        for kind in tuple(search.pending):
+        for kind in [*search.pending]:
+            if kind not in search.pending:
+                break
             cone_program = replace(form.cone_program, cost=SIGNS[kind] * form.cone_program.cost)
             number = first_program + len(search.records)
             if solver is None or solver.settings != settings:  # one that fell back on easier settings keeps these
@@ -131,9 +133,10 @@ class _Search:
         found = solution.status in WITH_VALUE
         status = STATIC_STATUS.get(solution.status, solution.status)
         self._record(kind, status, form, solution, found)
-        if not found:
-            self.missing[kind] = NOT_FOUND.get(status, f"the solver ended without it ({status})")
-            self.pending.remove(kind)
+        if not found:  # where no forces fit, there is no other end either
+            for none in tuple(self.pending) if status is Status.NO_EQUILIBRIUM else (kind,):
+                self.missing[none] = NOT_FOUND.get(status, f"the solver ended without it ({status})")
+                self.pending.remove(none)
             return
         factor = form.load_factor(solution.x)
         end = law_state(self.program, self.slope, form.forces(solution.x), self.state.velocities, factor)
