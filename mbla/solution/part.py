@@ -50,8 +50,9 @@ SUSPECT = 0.85
 """Share of the associative load factor below which the load path is followed. Of 470 clamped and wedged planks the 58
 with a peak lay below, of walls and rooms without one few do."""
 
-LOWER = 1e-6
-"""Share of the load factor by which the least for its mechanism must lie below it to take its place."""
+LOWER = 1e-9
+"""Share of the load factor by which the least for its mechanism must lie below it to take its place; pairs of programs
+ended as much as 4e-8 above it."""
 
 SAME = 1e-3
 """Share of the associative load factor within which another one is next to it."""
