@@ -1,6 +1,5 @@
 """The ``mbla`` command, also as ``python -m mbla``."""
 
-import gc
 import sys
 
 from mbla.process.signals import Terminated, hear_termination, held_signals
@@ -14,9 +13,7 @@ def command() -> int:
             from mbla import cli
     except (KeyboardInterrupt, Terminated) as error:
         return cli.failed(error, {}, as_json=cli.wants_json(sys.argv[1:]))
-    status = cli.main()
-    gc.freeze()  # what the command leaves ends with the process: a last search for garbage takes a tenth of a second
-    return status
+    return cli.main()
 
 
 if __name__ == "__main__":

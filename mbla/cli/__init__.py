@@ -17,7 +17,7 @@ from mbla.cli import decks, export, reference, show, study_commands, sweep_comma
 from mbla.cli.terminal import drop_output, prepare_streams
 from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
-from mbla.process.limits import limit_threads, refuse_too_low_limits, start_lightly
+from mbla.process.limits import limit_threads, refuse_too_low_limits, without_plugins
 from mbla.results.failures import ENDINGS
 
 COMMANDS = (
@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else list(arguments)
     as_json, options = wants_json(given), argparse.Namespace()
     try:
-        start_lightly()
+        without_plugins()
         prepare_streams(json_lines=as_json)
         options = build_parser().parse_args(given)
         limit_threads(getattr(options, "threads", 1))

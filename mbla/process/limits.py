@@ -14,7 +14,6 @@ pages of files, do not count, as they do with RLIMIT_AS.
 from __future__ import annotations
 
 import contextlib
-import gc
 import os
 import sys
 from collections.abc import Iterator
@@ -31,13 +30,8 @@ def limit_threads(number: int) -> None:
         os.environ.setdefault(variable, str(number))
 
 
-OBJECTS_BETWEEN_COLLECTIONS = 20_000
-"""A command makes few cycles: with Python's 700 it looks for them some 200 times while modules load."""
-
-
-def start_lightly() -> None:
-    """Spare a short command a twentieth of its time: searches for garbage, and for plugins of the deck's validator."""
-    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+def without_plugins() -> None:
+    """No plugins of the deck's validator: looking for them reads what every installed package says of itself."""
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 

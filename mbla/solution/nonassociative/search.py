@@ -143,10 +143,10 @@ class Search:
     def approach(self, normal: FloatArray, velocities: FloatArray | None = None) -> FloatArray:
         """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces.
 
-        velocities : (n_rows,) of the motion program for these forces, if they are known
-
         Where little moves they are those of the moving part, and one pair of the whole says whether the rest carries
         it, and rests.
+
+        velocities : (n_rows,) of the motion program for these forces, if they are known
         """
         self.alternation.emphasis[:] = 0.0
         for _ in range(MOST_PARTS):
@@ -210,9 +210,9 @@ class Search:
                     state, velocities = found
                     self.keep(state)
                     normal = state.forces[:, 0]
-                before, factor = factor, np.inf if state is None else state.load_factor
-                fits = state is not None and state.residual <= self.wanted
-                if self.over or (fits and factor > (1.0 - NOTABLE) * before):
+                assert state is not None  # this descent came to it
+                before, factor = factor, state.load_factor
+                if self.over or (state.residual <= self.wanted and factor > (1.0 - NOTABLE) * before):
                     return
         self.approach(normal, velocities)
 
