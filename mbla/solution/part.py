@@ -24,6 +24,7 @@ from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, locks_at_dilatancy, non_associative_bounded
 from mbla.solution.nonassociative.refine_equilibrium import misfit, sharpened
 from mbla.solution.nonassociative.schemes import solve_nonassociative
+from mbla.solution.nonassociative.search import is_needless
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, StandingResult, Status
 from mbla.solution.standing.standing import (
@@ -72,6 +73,10 @@ NO_RANGE = Message(
     "range-not-computed",
     "the admissible load factors for this mechanism are not computed: it violates the joint law, residual {:.2g}; "
     "they mean something up to 1e-4",
+)
+NEEDS_NOTHING = (
+    "lower end of the range: none is given, as this mechanism needs no live load where all force of a joint lies at "
+    "the point about which it twists"
 )
 RANGE_BROKE_DOWN = Message(
     "range-not-computed", "the range of the load factor is not known: a system of equations broke down ({})"
@@ -286,6 +291,9 @@ def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartR
         found = factor_range(result.program, state, settings, log, len(result.programs) + 1, slope)
     except np.linalg.LinAlgError as error:
         return result.with_remark(RANGE_BROKE_DOWN.format(str(error).lower()))
+    above = result.associative.state
+    if found.lower is not None and is_needless(result.program, found.lower, above.load_factor if above else np.inf):
+        found = replace(found, lower=None, reason=Message("range-not-found", NEEDS_NOTHING))
     lowers = looks_lower(result.program, settings)
     result = _at_lower_end(result, found.lower, slope) if lowers else result
     return replace(result, range=found) if settings.range else replace(result, more=(*result.more, *found.programs))

@@ -10,13 +10,15 @@ import numpy as np
 import pytest
 
 from mbla.errors import Message
+from mbla.program.program import Program
 from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative import schemes
+from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, NOT_REACHED, solve_nonassociative
-from mbla.solution.part import PartResult, solve_part
+from mbla.solution.part import NEEDS_NOTHING, PartResult, solve_part
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, line_of_file
@@ -122,6 +124,19 @@ def test_a_small_structure_falls_where_it_turns_over_the_edge_of_a_kerb(override
     assert result.status is Status.SOLVED
     assert result.state is not None
     assert line.program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.9 / 0.47, rel=1e-5)
+
+
+def test_no_lower_end_is_given_for_a_mechanism_that_needs_no_live_load(monkeypatch: pytest.MonkeyPatch) -> None:
+    def at_nothing(program: Program, state: LawState, *_: object) -> FactorRange:
+        return FactorRange(replace(state, load_factor=0.0), replace(state, load_factor=0.9), ())
+
+    monkeypatch.setattr(part, "factor_range", at_nothing)
+    result = result_of(BLOCK, "analysis.flow_rule=non_associative")
+    assert result.range is not None
+    assert result.range.lower is None
+    assert result.range.reason == Message("range-not-found", NEEDS_NOTHING)
+    assert result.state is not None
+    assert result.state.load_factor > 0.0
 
 
 @pytest.mark.parametrize("change", ["settles", "published"])

@@ -31,6 +31,11 @@ TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
 """Tilts in turn, and pairs of programs with each. On walls the last is a state of the law; with 0.3 the states were too
 far from it to come back lower."""
 
+WIDE, COMES_BACK = ((0.5, 3), *TILTS), 2e-3
+"""In space a search begins with a larger tilt, and anew without it where that violates the law by more than the second:
+a room went from 0.249 to 0.178 at once, where smaller tilts ended at 0.214 after three descents; vaults, at 1e-2 and
+more, did not come back to the law."""
+
 MOST_PARTS = 2
 """Times that the part that moves is solved alone before the whole structure is."""
 
@@ -59,6 +64,12 @@ the programs do not see a block."""
 
 NEAR_BEST = 10.0
 """States within so many times the least residual count as fitting, where none fits the law exactly."""
+
+
+def is_needless(program: Program, state: LawState, most: float) -> bool:
+    """Whether the mechanism of a state needs no live load, though the associative load factor ``most`` is greater."""
+    needless = NEEDLESS * program.moved_over_live(state.velocities)
+    return state.load_factor <= needless < most and not program.settles
 
 
 @dataclass
@@ -136,8 +147,7 @@ class Search:
         """Remember a state, unless its mechanism needs no live load or a light block is not in balance."""
         if not self.program.guided and imbalance(self.program, state) > UNBALANCED:
             return
-        needless = NEEDLESS * self.program.moved_over_live(state.velocities)
-        if state.load_factor > needless or self.most <= needless or self.program.settles:
+        if not is_needless(self.program, state, self.most):
             self.found.append(state)
 
     def approach(self, normal: FloatArray, velocities: FloatArray | None = None) -> FloatArray:
@@ -193,7 +203,8 @@ class Search:
         Ends where it comes to a motion from which another descent went on: all that follows is known.
         """
         self.alternation.emphasis[:] = 0.0
-        velocities, state, own = self.alternation.motion_for(normal), None, len(self.passed)
+        first = velocities = self.alternation.motion_for(normal)
+        state, own = None, len(self.passed)
         for tilt, pairs in tilts:
             factor = np.inf
             for _ in range(pairs):
@@ -212,6 +223,9 @@ class Search:
                     normal = state.forces[:, 0]
                 assert state is not None  # this descent came to it
                 before, factor = factor, state.load_factor
+                if state.residual > COMES_BACK and tilt > TILTS[0][0]:
+                    velocities = first
+                    break
                 if self.over or (state.residual <= self.wanted and factor > (1.0 - NOTABLE) * before):
                     return
         self.approach(normal, velocities)
@@ -228,15 +242,16 @@ class Search:
         """Descents from the lowest state as long as they lead lower, then from normal forces, within the work."""
         always = max(LEAST_WORK, SMALL_WORK / self.program.n_points)
         self.limit = self.work + max(self.settings.search * self.work, always)
-        if self.answer is not None:  # the lower end of its mechanism first: work may not be left for more
+        planar = self.program.components == 2
+        if self.answer is not None and planar:  # the lower end of its mechanism first: work may not be left for more
             self.descend(self.answer.forces[:, 0], TILTS[-1:])
         here, falls = self.answer, True
         while here is not None and falls and self.has_work_left:
             before = here.load_factor
-            self.descend(here.forces[:, 0])
+            self.descend(here.forces[:, 0], TILTS if planar else WIDE)
             here = self.answer
             size = max(abs(before), NEAR_ZERO * self.program.dead_over_live)  # next to zero it may have either sign
             falls = here is not None and here.load_factor < before - NOTABLE * size
         for normal in normals:
             if self.has_work_left:
-                self.descend(normal)
+                self.descend(normal, TILTS if planar else WIDE)

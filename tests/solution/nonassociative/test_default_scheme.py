@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,11 +21,12 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.standing import standing
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
-from tests.line import BLOCK, HEAD, WALL, line_of, load_factor, verified
+from tests.line import BLOCK, HEAD, WALL, line_of, line_of_file, load_factor, solution_of, verified
 from tests.solution.failing_solver import said
 from tests.solution.nonassociative.structures import FERRIS_3, LEAST, SETTINGS, sequence_of, solved
 from tests.solution.planar import planar_program
 
+TWO_LEAVES = Path(__file__).parents[3] / "decks" / "tutorials" / "two_leaf_walls.yaml"
 NON_ASSOCIATIVE = "analysis.flow_rule=non_associative"
 
 
@@ -223,6 +225,13 @@ def test_more_search_never_ends_higher(text: str) -> None:
     assert factors == sorted(factors, reverse=True)
     assert len(factors) == 3
     assert [result.first for result in results] == pytest.approx(3 * [factors[0]], rel=1e-6)
+
+
+def test_in_space_a_search_begins_far_from_the_law() -> None:
+    """Smaller tilts alone end at 0.2833 of g, where more stretchers slide along the through-stones."""
+    mechanics = solution_of(line_of_file(TWO_LEAVES, "analysis.search=1", case=1)).mechanics
+    assert mechanics is not None
+    assert mechanics.load_factor <= 0.27668
 
 
 def test_without_a_search_no_programs_are_made_for_one() -> None:
