@@ -24,7 +24,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import leaves_nothing, stopped, write_results
 from mbla.solution.settings import SolverSettings, solver_settings
-from mbla.solution.solution import IterationRecord
+from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.solve import solve
 from mbla.solution.tilt import Answer
 from mbla.solution.trials import trials_of
@@ -140,4 +140,10 @@ def solve_case(
     answer = trials.answer
     status = verified_status(answer.solution, answer.checks)
     status_file.remark(f"{load_case.name}: {status}")
-    return CaseResult(answer.load_case, answer.solution, answer.checks, status)
+    solution = answer.solution
+    if load_case.pushover is not None:
+        from mbla.solution.pushover import pushed  # late: few load cases are
+
+        solved = status is Status.SOLVED
+        solution = pushed(moving, contacts, deck.contacts, load_case, solution, settings, log, solved)
+    return CaseResult(answer.load_case, solution, answer.checks, status)

@@ -147,6 +147,23 @@ class Settlement:
 
 
 @dataclass(frozen=True)
+class Pushing:
+    """A pushover: how far and by which steps the control point is pushed.
+
+    step, until : m, of the control point; ``until`` inf: until the load factor is nothing
+    steps       : at most
+    blocks      : (m,) whose common centroid is the control point; none: of what moves at first
+    direction   : (3,) unit, in which its displacement counts; nan: along the live load on these blocks
+    """
+
+    step: float
+    until: float
+    steps: int
+    blocks: IntArray
+    direction: FloatArray
+
+
+@dataclass(frozen=True)
 class LoadCase:
     """Loads of one case on every block, about its centroid.
 
@@ -154,6 +171,7 @@ class LoadCase:
     dead_words, live_words : the loads in words, for the listing
     settlement : support that gives way, None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
+    pushover : what follows limit analysis, None for nothing
     """
 
     name: str
@@ -164,6 +182,7 @@ class LoadCase:
     settlement: Settlement | None = None
     travel: TravelPosition | None = None
     tilt: Tilt | None = None
+    pushover: Pushing | None = None
 
     @property
     def deck_name(self) -> str:

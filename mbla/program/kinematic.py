@@ -103,11 +103,7 @@ class KinematicForm:
 
         weight : (n_points,) of the normal forces, 0 or more: a joint may close by so much before it counts as closed
         """
-        rows, dry = self.rows, weight[self.rows.dry] / self.limits.friction[self.rows.dry]
-        width = self.program.components
-        shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
-        shear[: len(dry), : 1 if width == 3 else width] = dry[:, None]
-        return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel()])
+        return _rhs(self.program, self.limits, self.rows, weight, live_power)
 
 
 def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = True) -> KinematicForm:
@@ -121,12 +117,22 @@ def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = 
     cone_program = ConeProgram(
         cost=_cost(program, limits, rows),
         matrix=matrix,
-        rhs=np.concatenate([[1.0], np.zeros(matrix.shape[0] - 1)]),
+        rhs=_rhs(program, limits, rows, np.zeros(program.n_points), 1.0),
         n_half_lines=len(rows.cut_off) + len(rows.crushing) + (2 * n_shear if planar else 0),
         n_cones=0 if planar else n_shear,
         n_local=len(rows.frictional) + len(rows.crushing),
     )
     return KinematicForm(program, limits, rows, cone_program)
+
+
+def _rhs(program: Program, limits: YieldLimits, rows: PointRows, weight: FloatArray, live_power: float) -> FloatArray:
+    """``KinematicForm.rhs_for``; gaps of the program are weights too."""
+    if program.gaps is not None:
+        weight = weight + program.gaps
+    dry, width = weight[rows.dry] / limits.friction[rows.dry], program.components
+    shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
+    shear[: len(dry), : 1 if width == 3 else width] = dry[:, None]
+    return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel()])
 
 
 def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:

@@ -48,6 +48,8 @@ REMARKS_THAT_WARN = frozenset(
         "path-not-seen",
         "peak-not-seen",
         "peak-not-examined",
+        "pushover-not-done",
+        "pushover-rough",
         "range-not-found",
         "force-range-not-found",
         "tilt-between-not-proved",

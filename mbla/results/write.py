@@ -23,7 +23,7 @@ from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
 from mbla.results.tables.formats import table_csv
-from mbla.results.tables.tables import SERIES, tables_of
+from mbla.results.tables.tables import CURVE, SERIES, tables_of
 from mbla.results.vtu.mesh_files import write_mesh_files
 
 
@@ -63,6 +63,8 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
         _write_pictures(results, shown.cases, out)
     if series_of(results.cases):
         out.write_text(f"{out.stem}_positions.csv", table_csv(tables_of(results, (SERIES.name,))[SERIES.name]))
+    if any(case.solution.curve for case in results.cases):
+        out.write_text(f"{out.stem}_curve.csv", table_csv(tables_of(results, (CURVE.name,))[CURVE.name]))
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     seconds = {"write": time.perf_counter() - begin, "write/failure": described - begin}
     results = replace(results, time=results.time | seconds, files=tuple(files))

@@ -116,6 +116,29 @@ class PathPoint:
 
 
 @dataclass(frozen=True)
+class CurveRow:
+    """One step of a pushover.
+
+    step         : from 0, limit analysis of the structure as built
+    displacement : of the control point, m
+    load_factor  : that holds the structure there
+    residual     : of the joint law; of a first step that of its load case, 0 here
+    overlap      : m, the greatest of blocks
+    live_work, friction, potential : J since the first step: work of the live load, dissipated in sliding, gained by
+                   the dead load
+    """
+
+    step: int
+    displacement: float
+    load_factor: float
+    residual: float
+    overlap: float
+    live_work: float
+    friction: float
+    potential: float
+
+
+@dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
 
@@ -169,6 +192,8 @@ class Solution:
                   carried
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the load path that was followed
+    curve       : steps of the pushover, the structure as built first; empty where none was asked for
+    curve_end   : in words why it ends
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -197,6 +222,8 @@ class Solution:
     lock: FloatArray | None = None
     force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
+    curve: tuple[CurveRow, ...] = ()
+    curve_end: str = ""
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"

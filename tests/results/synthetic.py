@@ -14,12 +14,13 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.guides import Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
+    CurveRow,
     IterationRecord,
     Mechanics,
     ModelSize,
@@ -268,6 +269,8 @@ def full_solution(solution: Solution) -> Solution:
         lock=np.arange(24.0).reshape(8, 3),
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
+        curve=(CurveRow(0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0), CurveRow(1, 0.02, 0.4, 1e-9, 1e-8, 0.9, 0.1, 0.8)),
+        curve_end="the steps asked for are done",
         size=ModelSize(2, 1, 3, 2, 4, 4),
         reductions=(STEP,),
         solver="mbla",
@@ -284,8 +287,10 @@ def standing_at(number: int, count: int, point: Any, distance: float, behind: An
 def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
+    pushover = Pushing(0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]))
     not_run = replace(
         model.load_cases[2],
+        pushover=pushover,
         travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
     )

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Annotated
 
 from pydantic import Field
 
-from mbla.deck.quantities import Direction
+from mbla.deck.quantities import Direction, Integer, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.sections.selectors import Selector
@@ -26,6 +27,28 @@ class SettlementSection(Section):
     turn: Turn | None = Field(None, description="or the line about which they turn")
 
 
+class ControlSection(Section):
+    """Whose displacement a pushover counts."""
+
+    on: Selector | None = Field(
+        None, description="the blocks whose common centroid is followed; those that move at first unless given"
+    )
+    direction: Direction | None = Field(
+        None, description="the way in which its displacement counts; that of the live load on what moves unless given"
+    )
+
+
+class PushoverSection(Section):
+    """How far the structure is pushed after its first crack, and by which steps."""
+
+    step: PositiveLength = Field(description="displacement of the control point in a step")
+    until: PositiveLength | None = Field(
+        None, description="displacement at which to end; the one at which the load factor is nothing unless given"
+    )
+    steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
+    control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
+
+
 @exactly_one_of("live", "settlement")
 class LoadCaseSection(Section):
     """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
@@ -41,6 +64,11 @@ class LoadCaseSection(Section):
         "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
         "from that of the structure at rest on, over the weight of the free blocks",
     )
+    pushover: PushoverSection | None = Field(
+        None,
+        description="after limit analysis: the load factor as the structure moves by finite displacements, step by "
+        "step; loads keep their direction",
+    )
 
 
 @rule(LoadCaseSection)
@@ -49,6 +77,10 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     for number, load in enumerate(case.dead or []):
         for kind in given(load, LIVE_ONLY):
             yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
+    if case.pushover is not None and case.live is None:
+        yield Finding(
+            "pushover-not-possible", "goes with live loads: a support that gives way is not followed", "pushover"
+        )
     special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
     for number, kind in special[1:]:
         words = f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"

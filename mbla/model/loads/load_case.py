@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.section import given
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
+from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import with_gravity
@@ -18,8 +19,9 @@ from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
 from mbla.model.loads.tilt import tilt_loads
 from mbla.model.loads.travel import case_name, travel_loads
-from mbla.model.model import LoadCase, TravelPosition
+from mbla.model.model import LoadCase, Pushing, TravelPosition
 from mbla.model.selectors import select_blocks
+from mbla.model.solids.plane import unit
 from mbla.model.wording import named, vector
 
 CANCELLED = 1e-12
@@ -72,18 +74,49 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         if load.travel is not None:  # a rule of the deck: at most one does
             positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
     sound = len(site.roster.faults) == before
+    pushed = None if section.pushover is None else _pushing(name, section, site)
     cases = []
     for position, applied in positions:
         own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
-        case = LoadCase(name, dead.total, own.total, dead.words, own.words, tilt=tilt)
+        case = LoadCase(name, dead.total, own.total, dead.words, own.words, tilt=tilt, pushover=pushed)
         if position is not None:
             case = replace(case, name=case_name(position), travel=position)
         cases.append(case)
     if sound and dead.complete:
         _judge_size((*path, "dead") if section.dead is not None else path, dead, site)
     return tuple(cases)
+
+
+PUSHED = ("gravity", "acceleration", "force")
+"""kinds of loads of which it is known how they act on blocks that have moved: through the centroid, all the same"""
+
+
+def _pushing(name: str, section: LoadCaseSection, site: LoadSite) -> Pushing | None:
+    """What a pushover is to do; None, and a fault, where a load does not act through the centroids of blocks."""
+    path: KeyPath = ("load_cases", name)
+    asked = section.pushover
+    assert asked is not None  # else there is none
+    named_loads = [*entries_of(section.dead or [], (*path, "dead"), site.named)]
+    named_loads += entries_of(section.live or [], (*path, "live"), site.named)
+    for entry in named_loads:
+        kind = kind_of(entry.load)
+        if kind not in PUSHED or entry.load.at is not None or entry.load.pattern is not None:
+            words = (
+                f"a pushover takes {listed(PUSHED, 'and')} through the centroids of blocks: they keep their direction"
+            )
+            site.refuse(Finding("pushover-not-possible", words, *entry.path, kind))
+    if site.blocks.added_masses.any():
+        words = "a pushover does not know yet how masses that blocks carry along move with them"
+        site.refuse(Finding("pushover-not-possible", words, *path, "pushover"))
+    blocks: IntArray | None = np.zeros(0, dtype=np.int64)
+    if asked.control.on is not None:
+        blocks = select_blocks(asked.control.on, (*path, "pushover", "control", "on"), site.roster)
+    given_direction = asked.control.direction
+    direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
+    until = np.inf if asked.until is None else asked.until
+    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction)
 
 
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:

@@ -18,6 +18,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,
     ContactMode,
+    CurveRow,
     Mechanics,
     ModelSize,
     Solution,
@@ -52,6 +53,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "size": _size(get),
         "reductions": _reductions(get),
         **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
+        "curve": _records(CurveRow, get, "curve") if "curve/step" in get else (),
     }
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
-from mbla.model.model import Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.model.model import Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.program.reductions import ProgramSize
 from mbla.results.collapse.collapse import collapse_of
@@ -22,6 +22,7 @@ from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
     Checks,
+    CurveRow,
     IterationRecord,
     Mechanics,
     ModelSize,
@@ -37,6 +38,7 @@ RECORD_NAMES = {
     "travel/points": "travel/load_points",
     "travel/blocks": "travel/carrying_blocks",
     "tilt/axis": "tilt/turning_axis",
+    "pushover/direction": "pushover/control_direction",
 }
 """fields of a load case that have other names in the file: netCDF takes a dataset of the name of a dimension for the
 coordinate of that"""
@@ -183,7 +185,7 @@ def _contacts(contacts: Contacts) -> Content:
 
 def _loads(load_case: LoadCase) -> Content:
     content = _held(load_case, LoadCase, "cases/*")
-    for name, kind in (("travel", TravelPosition), ("tilt", Tilt), ("settlement", Settlement)):
+    for name, kind in (("travel", TravelPosition), ("tilt", Tilt), ("settlement", Settlement), ("pushover", Pushing)):
         part = getattr(load_case, name)
         if part is not None:
             content |= _below(name, {field: getattr(part, field) for field in kind.__dataclass_fields__})
@@ -210,6 +212,10 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     }
     for group, kind in HISTORY.items():
         content |= _columns(group, kind, getattr(solution, group))
+    if solution.curve:
+        content |= _columns("curve", CurveRow, solution.curve)
+    else:
+        del content["curve_end"]
     settlement = case.load_case.settlement
     if settlement is not None and solution.mechanics is not None:
         content["reaction"] = settlement.reaction(solution.mechanics.load_factor)

@@ -17,7 +17,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.guides import NO_GUIDES, Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
@@ -196,6 +196,7 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         settlement=settlement,
         travel=TravelPosition(**travel) if travel else None,
         tilt=Tilt(**tilt) if tilt else None,
+        pushover=Pushing(**pushed) if (pushed := _part(get, "pushover/")) else None,
     )
 
 

@@ -153,6 +153,8 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "size": as_json(solution.size),
         "reductions": as_json(solution.reductions),
         "path": as_json(solution.path),
+        "curve": as_json(solution.curve),
+        "curve_end": solution.curve_end,
         "mechanism": None
         if mechanics is None
         else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension_of((case,))),

@@ -82,6 +82,8 @@ PROGRAMS = _list_table("programs", "each program that was solved for a load case
 ITERATIONS = _list_table("iterations", "each iteration of each program")
 PATH = _list_table("path", "each step of the load path that was followed")
 
+CURVE = _list_table("curve", "each step of a pushover")
+
 
 def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
     """Of supports, then of guides, in the order of the listing."""
@@ -130,7 +132,7 @@ NOTICES = TableKind(
 
 TABLES: dict[str, TableKind] = {
     kind.name: kind
-    for kind in (CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, PROGRAMS, ITERATIONS, PATH, SERIES, NOTICES)
+    for kind in (CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, PROGRAMS, ITERATIONS, PATH, CURVE, SERIES, NOTICES)
 }
 
 

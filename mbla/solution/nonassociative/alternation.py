@@ -170,7 +170,7 @@ class Alternation:
 
     def _opening(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Speeds of sliding and of opening beyond dilatancy, (n_points,) each."""
-        v = (self.program.equilibrium_matrix.T @ velocities).reshape(-1, self.program.components)
+        v = self.program.contact_velocities(velocities)
         sliding = np.linalg.norm(v[:, 1:], axis=1)
         return sliding, np.maximum(v[:, 0] - self.slope * sliding, 0.0)
 

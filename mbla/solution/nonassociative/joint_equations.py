@@ -134,7 +134,7 @@ class Missing:
 def residuals(step: JointEquations, now: Iterate) -> Missing:
     """What an iterate leaves of the equations, all products counted as missing."""
     program, forces = step.program, step.forces(now)
-    v = step.stiffness.velocities(now.u)
+    v = program.from_touch(step.stiffness.velocities(now.u))
     balance = program.equilibrium_matrix @ forces.ravel() + program.dead_load + now.factor * program.live_load
     elastic = step.rho * (forces - step.anchor)
     limit = step.limit(now.normal)

@@ -157,7 +157,7 @@ def _unexplained(
     power of the balance, with a floor where load factor and friction are next to nothing.
     """
     limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    v = program.contact_velocities(velocities)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     strength = limits.friction * forces[:, 0] + limits.cohesion
     surplus = v[:, 0] - slope * sliding

@@ -1,0 +1,250 @@
+"""Contacts of blocks that have moved: where faces are near each other, with the gap of every contact point.
+
+Faces of moved blocks are no longer parallel, and a joint that opens about an edge stays a contact at that edge. Two
+facets face each other where their normals are opposite within ``FACING``; their outlines are projected along the normal
+of the contact, and every corner of what they share is a contact point with its own gap, the distance of the two planes
+there with its sign. The normal is that of the larger facet, on which the smaller one stands, and the mean of both where
+they are of one size. A point outside of what they share would hold a block that nothing holds.
+
+With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds, all gaps being zero:
+facets that share an edge there, at an angle, are no contact then nor later.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.joints import joints_of_interfaces
+from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
+from mbla.contacts.outlines.overlay import Overlays, concatenate, frames_from_normals, gap_at, local_maps
+from mbla.contacts.outlines.points import interface_points
+from mbla.contacts.outlines.polygons import Polygons, connected_parts, intersect, map_polygons, widths
+from mbla.contacts.report import both_fixed
+from mbla.deck.sections.contacts import ContactsSection
+from mbla.model.model import Model
+from mbla.model.pose import Pose, moved_model
+from mbla.model.solids.plane import meeting_boxes
+
+FACING = float(np.cos(np.radians(50.0)))
+"""Cosine of the angle from opposite up to which facets of moved blocks are in contact: blocks that turn by more against
+each other have fallen."""
+
+REACH = 0.05
+"""Gap, over block size, beyond which facets are not in contact: a step moves blocks by less (:data:`LARGEST_MOTION` of
+:mod:`mbla.solution.pushover`)."""
+
+NARROW = 1e-6
+"""Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
+
+SAME_AREA = 1e-6
+"""Relative difference of the areas of two facets that are of one size."""
+
+
+@dataclass(frozen=True)
+class MovedContacts:
+    """Contacts, and the gap of each contact point, (n_points,) m: negative where rounding or a step let blocks overlap.
+
+    faces : (n_interfaces, 2) facets, numbered as the blocks have them; −1 for ground
+    """
+
+    contacts: Contacts
+    gaps: FloatArray
+    faces: IntArray
+
+
+class MovedSearch:
+    """Finds the contacts of a model anew wherever its blocks have moved to.
+
+    The outlines of facets, which do not change, are made once.
+    """
+
+    def __init__(self, model: Model, contacts: Contacts, section: ContactsSection) -> None:
+        self.model, self.contacts, self.section = model, contacts, section
+        self.facets = build_facets(model.blocks)
+        self._areas = shapely.area(self.facets.polygons)
+        corners = shapely.get_coordinates(self.facets.polygons, return_index=True)
+        self._corners, self._facet_of_corner = corners
+        self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
+        self._edges = np.zeros(0, dtype=np.int64)
+        overlays, parts = self._near(model, self.facets)
+        apart = (_extreme_gaps(overlays, parts)[1] > section.tolerance) | (widths(parts) < section.tolerance)
+        self._edges = np.unique(self._pair(overlays)[apart])
+
+    def at(self, pose: Pose) -> MovedContacts:
+        """Contacts of the model with its blocks there."""
+        model = moved_model(self.model, pose)
+        facets = self._facets(pose)
+        overlays, parts = self._near(model, facets)
+        order = np.lexsort((overlays.facets[:, 1], overlays.facets[:, 0], overlays.bodies[:, 1], overlays.bodies[:, 0]))
+        overlays, parts = overlays.take(order), parts[order]
+        laws, _ = joints_of_interfaces(self.model, self.section, *self._as_built(overlays, parts, pose))
+        closed = ~laws.open
+        overlays, parts = overlays.take(closed), parts[closed]
+        joints = laws.in_use(np.flatnonzero(closed))
+        corners = needed_corners(parts, NARROW)
+        areas, centroids = areas_and_centroids(corners)
+        found, _ = interface_points(corners, centroids, overlays.sizes, self.section.points)
+        of_point, size = found.polygon, overlays.sizes
+
+        def in_space(rows: IntArray, places: FloatArray) -> FloatArray:
+            offsets = np.einsum("ka,kai->ki", places, overlays.frames[rows, 1:])
+            return np.asarray(overlays.origins[rows] + size[rows, None] * offsets)
+
+        gaps = gap_at(overlays, of_point, found.points) * size[of_point]
+        contacts = Contacts(
+            bodies=overlays.bodies,
+            normals=overlays.frames[:, 0],
+            areas=areas * size**2,
+            centroids=in_space(np.arange(len(size)), centroids),
+            gaps=np.zeros(len(size)),
+            joints=joints[0],
+            joint_names=joints[1],
+            point_start=starts(np.bincount(of_point, minlength=len(size)).astype(np.int64)),
+            outline=found.outline,
+            points=in_space(of_point, found.points),
+            frames=overlays.frames[of_point],
+            point_areas=found.areas * size[of_point] ** 2,
+            report=self.contacts.report,
+        )
+        return MovedContacts(contacts, gaps, overlays.facets)
+
+    def _near(self, model: Model, facets: Facets) -> tuple[Overlays, Polygons]:
+        """Common surfaces within reach."""
+        overlays, shapes = self._between(model, facets)
+        parts, row = connected_parts(shapes)
+        overlays = overlays.take(row)
+        near = (widths(parts) > NARROW) & (_extreme_gaps(overlays, parts)[0] < REACH)
+        near &= ~both_fixed(model, overlays.bodies) & ~np.isin(self._pair(overlays), self._edges)
+        return overlays.take(near), parts[near]
+
+    def _pair(self, overlays: Overlays) -> IntArray:
+        """A number for each pair of facets, (n,); ground planes, which have none, go by their bodies."""
+        first = np.where(overlays.facets[:, 0] < 0, len(self.facets) + overlays.bodies[:, 0], overlays.facets[:, 0])
+        return np.asarray(first * len(self.facets) + overlays.facets[:, 1])
+
+    def _facets(self, pose: Pose) -> Facets:
+        """The facets there."""
+        built, blocks = self.facets, self.model.blocks
+        turn = pose.rotation[built.blocks]
+        arms = built.origins - blocks.centroids[built.blocks]
+        origins = (blocks.centroids + pose.shift)[built.blocks] + np.einsum("fij,fj->fi", turn, arms)
+        frames = np.einsum("fij,faj->fai", turn, built.frames)
+        row = self._facet_of_corner
+        corners = origins[row] + np.einsum("ka,kai->ki", self._corners, frames[row, 1:])
+        return replace(
+            built,
+            origins=origins,
+            frames=frames,
+            lower=np.minimum.reduceat(corners, self._first),
+            upper=np.maximum.reduceat(corners, self._first),
+        )
+
+    def _between(self, model: Model, facets: Facets) -> tuple[Overlays, Polygons]:
+        """Facets that face each other within reach, and what they share, along the normal of the contact."""
+        sizes = model.blocks.sizes[facets.blocks]
+        margin = (REACH / 2 * sizes)[:, None]
+        a, b = meeting_boxes(facets.lower - margin, facets.upper + margin, facets.lower - margin, facets.upper + margin)
+        facing = (facets.blocks[a] < facets.blocks[b]) & self._face_each_other(facets.normals[a], facets.normals[b])
+        a, b = a[facing], b[facing]
+        larger = self._areas[a] - self._areas[b]
+        same = np.abs(larger) <= SAME_AREA * self._areas[b]
+        host = np.where(same, 0.0, np.sign(larger))
+        near = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
+        between = _overlays(
+            np.column_stack([facets.blocks[a], facets.blocks[b]]),
+            np.column_stack([a, b]),
+            (facets.origins[a], facets.normals[a]),
+            (facets.origins[b], facets.normals[b]),
+            (host, near, np.minimum(sizes[a], sizes[b])),
+        )
+        shapes = [
+            intersect(_outlines(between, facets, 0), _outlines(between, facets, 1), facets.convex[a] & facets.convex[b])
+        ]
+        overlays = [between]
+        for index, ground in enumerate(model.grounds):
+            corner = np.where(ground.normal > 0, facets.lower, facets.upper)
+            reach = (corner - ground.point) @ ground.normal
+            normals = np.broadcast_to(ground.normal, (len(facets), 3))
+            chosen = (reach < REACH * sizes) & self._face_each_other(normals, facets.normals)
+            if ground.blocks is not None:
+                chosen &= np.isin(facets.blocks, ground.blocks)
+            rows = np.flatnonzero(chosen)
+            on_ground = _overlays(
+                np.column_stack([np.full(len(rows), len(model.blocks) + index), facets.blocks[rows]]),
+                np.column_stack([np.full(len(rows), -1), rows]),
+                (np.broadcast_to(ground.point, (len(rows), 3)), normals[rows]),
+                (facets.origins[rows], facets.normals[rows]),
+                (np.ones(len(rows)), facets.origins[rows], sizes[rows]),
+            )
+            overlays.append(on_ground)
+            shapes.append(_outlines(on_ground, facets, 1))
+        return concatenate(overlays), np.concatenate(shapes)
+
+    @staticmethod
+    def _face_each_other(first: FloatArray, second: FloatArray) -> BoolArray:
+        return np.asarray(np.einsum("ki,ki->k", first, second) < -FACING)
+
+    def _as_built(self, overlays: Overlays, parts: Polygons, pose: Pose) -> tuple[Overlays, FloatArray]:
+        """Overlays and centroids with body b where it was built: joint laws go by orientation and place there."""
+        block = overlays.bodies[:, 1]
+        middle = shapely.get_coordinates(shapely.centroid(parts))
+        centroids = overlays.origins + overlays.sizes[:, None] * np.einsum("ka,kai->ki", middle, overlays.frames[:, 1:])
+        back, blocks = pose.rotation[block], self.model.blocks
+        arms = np.einsum("kij,ki->kj", back, centroids - (blocks.centroids + pose.shift)[block])
+        frames = np.einsum("kij,kai->kaj", back, overlays.frames)
+        return replace(overlays, frames=frames), blocks.centroids[block] + arms
+
+
+def _overlays(
+    bodies: IntArray,
+    facets: IntArray,
+    a: tuple[FloatArray, FloatArray],
+    b: tuple[FloatArray, FloatArray],
+    host: tuple[FloatArray, FloatArray, FloatArray],
+) -> Overlays:
+    """Overlays of planes, each given by points and outward normals.
+
+    host : 1 where the normal is that of a, −1 where it is that of b, 0 for the mean; points near the surface; sizes
+    """
+    which, near, sizes = host
+    mean = a[1] - b[1]
+    mean = mean / np.linalg.norm(mean, axis=1)[:, None]
+    normals = np.where((which > 0)[:, None], a[1], np.where((which < 0)[:, None], -b[1], mean))
+    frames = frames_from_normals(normals)
+    heights, slopes = [], []
+    for points, outward in (a, b):
+        along = np.einsum("kai,ki->ka", frames, outward)
+        distance = np.einsum("ki,ki->k", points - near, outward) / sizes
+        heights.append(distance / along[:, 0])
+        slopes.append(-along[:, 1:] / along[:, :1])
+    at = (1.0 + which) / 2 * heights[0] + (1.0 - which) / 2 * heights[1]
+    return Overlays(
+        bodies=bodies,
+        facets=facets,
+        origins=near + (at * sizes)[:, None] * frames[:, 0],
+        frames=frames,
+        sizes=sizes,
+        gaps=np.column_stack([heights[1] - heights[0], slopes[1] - slopes[0]]),
+    )
+
+
+def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
+    """Outlines of the facets of body a (side 0) or b (side 1) in local coordinates."""
+    facet = overlays.facets[:, side]
+    matrices, offsets = local_maps(overlays, facets.origins[facet], facets.frames[facet])
+    return map_polygons(facets.polygons[facet], matrices, offsets)
+
+
+def _extreme_gaps(overlays: Overlays, parts: Polygons) -> tuple[FloatArray, FloatArray]:
+    """Least gap over each part, and the greatest distance whatever its sign, (n,) each, over block size."""
+    points, row = shapely.get_coordinates(parts, return_index=True)
+    if not len(row):
+        return np.zeros(0), np.zeros(0)
+    gaps, first = gap_at(overlays, row, points), np.flatnonzero(np.diff(row, prepend=-1))
+    return np.minimum.reduceat(gaps, first), np.maximum.reduceat(np.abs(gaps), first)

@@ -1,0 +1,76 @@
+"""Poses of blocks in a finite displacement: where each block has moved to, and the model there.
+
+Vertices always follow from the pose and the model as it was built, so that blocks stay rigid however many steps are
+made. A step moves each block by the screw of its twist (v, ω) about its centroid, which keeps a resting axis where it
+is: a block that rocks about an edge turns about it exactly, whatever the step::
+
+    R ← exp([ω]×) R          shift ← shift + J(ω) v,     J = 1 + (1 − cos θ)/θ² [ω]× + (θ − sin θ)/θ³ [ω]×²
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.model.model import Model
+from mbla.model.solids.blocks import Blocks
+
+SMALL_ANGLE = 1e-4
+"""rad, below which the factors of the screw are their series: the next terms are 1e-18 of the first"""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where every block is.
+
+    shift    : (n_blocks, 3) m, displacement of the centroid
+    rotation : (n_blocks, 3, 3), about the centroid
+    """
+
+    shift: FloatArray
+    rotation: FloatArray
+
+    @staticmethod
+    def at_rest(n_blocks: int) -> Pose:
+        """As built."""
+        return Pose(np.zeros((n_blocks, 3)), np.broadcast_to(np.eye(3), (n_blocks, 3, 3)).copy())
+
+    def after(self, twists: FloatArray) -> Pose:
+        """After twists about the centroids, velocity and rotation vector times the time they act, (n_blocks, 6)."""
+        moved, turned = twists[:, :3], twists[:, 3:]
+        angle = np.linalg.norm(turned, axis=1)
+        small = angle < SMALL_ANGLE
+        safe = np.where(small, 1.0, angle)
+        first = np.where(small, 0.5 - angle**2 / 24, (1.0 - np.cos(safe)) / safe**2)
+        second = np.where(small, 1.0 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+        across = np.cross(turned, moved)
+        screw = moved + first[:, None] * across + second[:, None] * np.cross(turned, across)
+        turn = Rotation.from_rotvec(turned).as_matrix()
+        return Pose(self.shift + screw, turn @ self.rotation)
+
+    def moved(self, blocks: Blocks) -> Blocks:
+        """The blocks there; those are given as built."""
+        of_vertex, of_face = row_of_item(blocks.vertex_start), blocks.block_of_face
+        arms = blocks.vertices - blocks.centroids[of_vertex]
+        centroids = blocks.centroids + self.shift
+        mass_arms = blocks.added_mass_points - blocks.centroids
+        return replace(
+            blocks,
+            vertices=centroids[of_vertex] + np.einsum("vij,vj->vi", self.rotation[of_vertex], arms),
+            face_normals=np.einsum("fij,fj->fi", self.rotation[of_face], blocks.face_normals),
+            centroids=centroids,
+            added_mass_points=centroids + np.einsum("bij,bj->bi", self.rotation, mass_arms),
+        )
+
+    def displacements(self, blocks: Blocks, owners: IntArray, points: FloatArray) -> FloatArray:
+        """Of points (n, 3) as built of the blocks ``owners``, (n,): (n, 3)."""
+        arms = points - blocks.centroids[owners]
+        return np.asarray(self.shift[owners] + np.einsum("nij,nj->ni", self.rotation[owners], arms) - arms)
+
+
+def moved_model(model: Model, pose: Pose) -> Model:
+    """The model with its blocks where a pose puts them."""
+    return replace(model, blocks=pose.moved(model.blocks), interfaces=None)

@@ -1,0 +1,120 @@
+"""Pushover against closed forms and published curves, on whole load cases of decks."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.contacts.findings import contacts_of
+from mbla.contacts.glue import held_model, solids_of
+from mbla.deck import read_deck
+from mbla.model import build_model
+from mbla.program.build import build_program
+from mbla.results.listing.figures import energy_missing, zero_displacement
+from mbla.solution.pushover import FALLEN, REACHED, STEPS_DONE, pushed
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import CurveRow, Solution
+from mbla.solution.solve import solve
+from tests.line import BLOCK
+
+DECKS = Path(__file__).parents[2] / "decks"
+ROCKING = DECKS / "tutorials" / "rocking_block.yaml"
+ARCH = DECKS / "tutorials" / "arch.yaml"
+WALL_1 = DECKS / "benchmarks" / "published" / "ferris_wall_1.yaml"
+
+
+def pushover_of(path: Path, *overrides: str) -> Solution:
+    """The first load case of a deck with its capacity curve."""
+    deck = read_deck(path, overrides)
+    model = build_model(deck)
+    contacts = contacts_of(deck, model)
+    model, case, settings = held_model(model, contacts), model.load_cases[0], solver_settings(deck.analysis)
+    solution = solve(build_program(solids_of(model, contacts), case, deck.analysis), settings)
+    return pushed(model, contacts, deck.contacts, case, solution, settings, lambda record: None, solved=True)
+
+
+def columns(curve: tuple[CurveRow, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements and load factors."""
+    return np.array([row.displacement for row in curve]), np.array([row.load_factor for row in curve])
+
+
+def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
+    """tan(alpha - theta), its centroid moved by R (sin alpha - sin(alpha - theta)); nothing at half the thickness."""
+    solution = pushover_of(ROCKING)
+    alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+    moved, factors = columns(solution.curve)
+    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-8)
+    assert zero_displacement(solution.curve) == pytest.approx(0.1, rel=1e-5)
+    assert solution.curve_end == FALLEN
+    assert abs(energy_missing(solution.curve)) < 1e-3
+
+
+@pytest.mark.parametrize("units", ["{length: mm}", "{length: m, force: kN}"])
+def test_the_curve_does_not_know_units(units: str, tmp_path: Path) -> None:
+    text, factor = ROCKING.read_text(encoding="utf-8"), 1000.0 if "mm" in units else 1.0
+    text = text.replace("mbla: 1\n", f"mbla: 1\nunits: {units}\n")
+    text = text.replace("{b: 0.2, h: 1}", f"{{b: {0.2 * factor}, h: {factor}}}")
+    text = text.replace('"=b", 0.5', f'"=b", {0.5 * factor}').replace("step: 0.005", f"step: {0.005 * factor}")
+    if factor != 1.0:
+        text = text.replace("density: 2000", "density: 2.e-9")
+    (path := tmp_path / "deck.yaml").write_text(text, encoding="utf-8")
+    own, other = columns(pushover_of(ROCKING).curve), columns(pushover_of(path).curve)
+    assert other[0] / factor == pytest.approx(own[0], rel=1e-7)
+    assert other[1] == pytest.approx(own[1], abs=1e-8)
+
+
+def test_a_sliding_block_keeps_its_load_factor_and_does_not_lift() -> None:
+    block = ("joints.dry.friction=0.3", "parameters.b=1", "parameters.h=0.4")
+    push = "load_cases.push={live: [{acceleration: [1, 0.4, 0]}], pushover: {step: 0.02, until: 0.5}}"
+    solution = pushover_of(ROCKING, *block, push)
+    moved, factors = columns(solution.curve)
+    assert factors == pytest.approx(0.3 / math.hypot(1.0, 0.4), rel=1e-7)
+    assert moved[-1] == pytest.approx(0.5, abs=0.02)
+    assert solution.curve_end == REACHED
+    last = solution.curve[-1]
+    assert abs(last.potential) < 1e-9 * last.friction
+    assert last.friction == pytest.approx(last.live_work, rel=1e-6)
+
+
+def test_the_published_curve_of_a_wall() -> None:
+    """Two distinct-element codes of 2025 (LMGC90, UDEC): slope to 5 %, ordinates to 10 %."""
+    push = "load_cases.push_x.pushover={step: 0.005, until: 0.2, control: {on: {group: wall, index: 32}}}"
+    solution = pushover_of(WALL_1, "contacts.points={rounding: 0.02}", push)
+    at = np.array([0.06, 0.08, 0.10, 0.12, 0.14, 0.16, 0.18, 0.20])
+    lmgc90 = np.array([0.531, 0.505, 0.480, 0.455, 0.430, 0.402, 0.374, 0.345])
+    udec = np.array([0.540, 0.514, 0.488, 0.464, 0.440, 0.412, 0.385, 0.357])
+    factors = np.interp(at, *columns(solution.curve))
+    assert factors == pytest.approx((lmgc90 + udec) / 2, rel=0.1)
+    slopes = [np.polyfit(at, values, 1)[0] for values in (factors, (lmgc90 + udec) / 2)]
+    assert slopes[0] == pytest.approx(slopes[1], rel=0.05)
+    assert max(row.overlap for row in solution.curve) < 1e-3
+    assert abs(energy_missing(solution.curve)) < 0.01
+
+
+def test_the_published_curve_of_an_arch() -> None:
+    """Arch of 17 voussoirs that do not slide, radii 3.75 and 4.25 m, by the middle voussoir."""
+    arch = ("parameters.span=7.5", "parameters.t=0.5", "parameters.mu=10", "blocks.0.arch.voussoirs=17")
+    control = "{on: {group: arch, index: 8}, direction: [1, 0, 0]}"
+    push = f"load_cases.along.pushover={{step: 0.001, until: 0.021, control: {control}}}"
+    moved, factors = columns(pushover_of(ARCH, *arch, push).curve)
+    assert factors[0] == pytest.approx(0.069111, abs=1e-6)
+    published = [0.06547, 0.06006, 0.05114, 0.03366]
+    assert np.interp([0.002, 0.005, 0.010, 0.020], moved, factors) == pytest.approx(published, rel=1e-3)
+
+
+def test_steps_are_counted() -> None:
+    solution = pushover_of(ROCKING, "load_cases.push.pushover.steps=3")
+    assert [row.step for row in solution.curve] == [0, 1, 2, 3]
+    assert solution.curve_end == STEPS_DONE
+
+
+def test_what_cannot_be_followed_is_said(tmp_path: Path) -> None:
+    (path := tmp_path / "deck.yaml").write_text(BLOCK, encoding="utf-8")
+    push = "load_cases.push.pushover={step: 0.1}"
+    solution = pushover_of(path, push, "joints.dry.compressive_strength=1.e+6")
+    assert not solution.curve
+    assert solution.remarks[-1].identifier == "pushover-not-done"
+    assert "joints can crush" in solution.remarks[-1].words
