@@ -27,7 +27,7 @@ def add_plot(commands: Any) -> None:
     command.add_argument(
         "--kind",
         metavar="KIND",
-        help="model, mechanism, forces, history, several with commas, or all "
+        help="model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
         "(default: the first three; the mechanism where -o names a file)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
 
 SMALL_ANGLE = 1e-4
@@ -69,6 +69,21 @@ class Pose:
         """Of points (n, 3) as built of the blocks ``owners``, (n,): (n, 3)."""
         arms = points - blocks.centroids[owners]
         return np.asarray(self.shift[owners] + np.einsum("nij,nj->ni", self.rotation[owners], arms) - arms)
+
+
+def moved_case(case: LoadCase, pose: Pose) -> LoadCase:
+    """The load case on blocks there: forces keep their direction and their points move along, couples stay."""
+    assert case.pushover is not None  # else its levers are not known
+    loads = (case.dead_load, case.pushover.dead_levers), (case.live_load, case.pushover.live_levers)
+    dead, live = (_turned(load, levers, pose) for load, levers in loads)
+    return replace(case, dead_load=dead, live_load=live)
+
+
+def _turned(load: FloatArray, levers: FloatArray, pose: Pose) -> FloatArray:
+    built = levers.reshape(-1, 3, 3)
+    change = pose.rotation @ built - built
+    moments = np.stack([change[:, j, k] - change[:, k, j] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
+    return np.hstack([load[:, :3], load[:, 3:] + moments])
 
 
 def moved_model(model: Model, pose: Pose) -> Model:

@@ -230,6 +230,19 @@ def angle_of(case: CaseResult) -> float:
     return math.degrees(math.atan(found.load_factor)) if tilt.tangent else tilt.angle
 
 
+def ultimate_displacement(case: CaseResult) -> float:
+    """Displacement of the control point at which a pushover leaves no load factor, on the line between two steps.
+
+    nan where it did not come so far, or where there is none.
+    """
+    curve = case.solution.curve
+    if len(curve) < 2 or curve[-1].load_factor > 0.0:
+        return math.nan
+    before, last = curve[-2:]
+    share = before.load_factor / (before.load_factor - last.load_factor)
+    return before.displacement + share * (last.displacement - before.displacement)
+
+
 def angle_at(tilt: Tilt, load_factor: float) -> float:
     """Angle in degrees that a load factor stands for; nan where it stands for none."""
     if tilt.tangent:

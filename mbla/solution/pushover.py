@@ -32,7 +32,7 @@ from mbla.contacts.moved import MovedContacts, MovedSearch
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.model.pose import Pose, moved_model
+from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.program.assemble import assemble, yield_limits
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
@@ -120,7 +120,7 @@ class CurvePoint:
     mechanism    : (n_blocks, 6) for a live power of 1
     residual     : of the joint law
     penetration  : m, the greatest overlap of blocks
-    dissipation  : power of friction for a live power of 1
+    dissipation, dead_power : power of friction and of the dead load for a live power of 1
     work         : live work of the step that led here
     """
 
@@ -130,6 +130,7 @@ class CurvePoint:
     residual: float
     penetration: float
     dissipation: float
+    dead_power: float
     pose: Pose
     work: float = 0.0
 
@@ -181,7 +182,8 @@ class Pushover:
         laws, v = yield_limits(self.model, self.contacts), first.contact_velocities
         strength = laws.friction * first.contact_forces[:, 0] + laws.cohesion
         friction = float(strength @ np.linalg.norm(v[:, 1:], axis=1))
-        point = CurvePoint(0.0, first.load_factor, first.mechanism, 0.0, 0.0, friction, pose)
+        powers = friction, float(np.vdot(self.case.dead_load, first.mechanism))
+        point = CurvePoint(0.0, first.load_factor, first.mechanism, 0.0, 0.0, *powers, pose)
         while True:
             yield point
             work = self.work_of(point, control)
@@ -209,7 +211,8 @@ class Pushover:
         self, pose: Pose, found: MovedContacts, work: float, normals: _Normals
     ) -> tuple[CurvePoint, _Normals] | None:
         model, contacts = moved_model(self.model, pose), found.contacts
-        program = assemble(model, contacts, self.case, own=False)
+        case = moved_case(self.case, pose)
+        program = assemble(model, contacts, case, own=False)
         scaling = program.scaling
         program = replace(program, gaps=found.gaps / work * scaling.force * scaling.units / scaling.live)
         switches = ReductionSwitches(True, False, False)
@@ -222,10 +225,9 @@ class Pushover:
         part, state = min(known, key=lambda each: each[1].load_factor)
         mechanics = mechanics_of(part, state)
         penetration = max(-float(found.gaps.min(initial=0.0)), 0.0)
-        friction = self._dissipation(part, state)
-        point = CurvePoint(
-            np.nan, mechanics.load_factor, mechanics.mechanism, state.residual, penetration, friction, pose
-        )
+        powers = self._dissipation(part, state), float(np.vdot(case.dead_load, mechanics.mechanism))
+        motion = mechanics.load_factor, mechanics.mechanism, state.residual, penetration
+        point = CurvePoint(np.nan, *motion, *powers, pose)
         return point, _Normals.of(contacts, mechanics.contact_forces)
 
     def _state(self, part: Program, normals: FloatArray) -> LawState | None:
@@ -327,12 +329,12 @@ def capacity_curve(
     search = MovedSearch(model, contacts, section)
     pushover = Pushover(model, contacts, search, case, settings, log, asked.step)
     rows: list[CurveRow] = []
-    work, friction, before, end = 0.0, 0.0, None, STUCK
+    work, friction, gained, before, end = 0.0, 0.0, 0.0, None, STUCK
     for number, point in enumerate(pushover.points(first, Control.of(model, case, first.mechanism))):
         if before is not None:
             work += 0.5 * (before.load_factor + point.load_factor) * point.work
             friction += 0.5 * (before.dissipation + point.dissipation) * point.work
-        gained = -float(np.einsum("ni,ni->", case.dead_load[:, :3], point.pose.shift))
+            gained -= 0.5 * (before.dead_power + point.dead_power) * point.work
         factor, residual, overlap = point.load_factor, point.residual, point.penetration
         rows.append(CurveRow(number, point.displacement, factor, residual, overlap, work, friction, gained))
         before = point

@@ -287,7 +287,7 @@ def standing_at(number: int, count: int, point: Any, distance: float, behind: An
 def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
-    pushover = Pushing(0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]))
+    pushover = Pushing(0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]), *np.arange(54.0).reshape(2, 3, 9))
     not_run = replace(
         model.load_cases[2],
         pushover=pushover,

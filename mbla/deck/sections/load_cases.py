@@ -77,10 +77,8 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     for number, load in enumerate(case.dead or []):
         for kind in given(load, LIVE_ONLY):
             yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
-    if case.pushover is not None and case.live is None:
-        yield Finding(
-            "pushover-not-possible", "goes with live loads: a support that gives way is not followed", "pushover"
-        )
+    if case.pushover is not None:
+        yield from _not_pushed(case)
     special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
     for number, kind in special[1:]:
         words = f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"
@@ -90,3 +88,13 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
         yield Finding(
             "load-misplaced", "cannot go with tilt, whose answer is an angle: make it a dead load", "live", other
         )
+
+
+def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
+    if case.live is None:
+        words = "goes with live loads: a support that gives way is not followed"
+        yield Finding("pushover-not-possible", words, "pushover")
+    for number, load in enumerate(case.live or []):
+        for kind in given(load, LIVE_ONLY):
+            words = "cannot go with pushover, whose loads keep their direction and their place"
+            yield Finding("pushover-not-possible", words, "live", number, kind)

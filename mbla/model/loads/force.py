@@ -11,7 +11,7 @@ from mbla.arrays import IntArray
 from mbla.deck.sections.loads import Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, wrenches_of
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite, without_levers, wrenches_of
 from mbla.model.solids.blocks import distance_outside
 from mbla.model.wording import vector
 
@@ -43,7 +43,7 @@ def moment_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSi
     if block is None:
         return None
     words = f"moment {vector(load.moment)} {site.units.force} {site.units.length} on {site.blocks.name(block)}"
-    return AppliedLoad(np.array([block]), np.array([[0.0, 0.0, 0.0, *load.moment]]), words)
+    return AppliedLoad(np.array([block]), without_levers(np.array([[0.0, 0.0, 0.0, *load.moment]])), words)
 
 
 def _one_block(what: str, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> int | None:

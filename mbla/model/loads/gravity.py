@@ -63,7 +63,7 @@ def with_gravity(dead: Iterable[Entry], path: KeyPath, units: Units) -> list[Ent
 def mass_forces(
     blocks: IntArray, acceleration: FloatArray, site: LoadSite, pattern: PatternFactors | None = None
 ) -> FloatArray:
-    """F = m a about the centroids of the blocks; ``acceleration`` (3,) in length per s2; the result (n, 6).
+    """F = m a about the centroids of the blocks; ``acceleration`` (3,) in length per s2; the result (n, 15).
 
     An added mass acts where it is, and so brings a moment. With a ``pattern`` the masses count with its factors, which
     are not the same all over a block: its own mass brings a moment, too.
@@ -78,7 +78,8 @@ def mass_forces(
         carried = added * pattern.at_mass
         mass, first_moments = own * pattern.means + carried, own[:, None] * pattern.levers + carried[:, None] * arms
     force = acceleration * unit
-    return np.hstack([mass[:, None] * force, np.cross(first_moments, force)])
+    levers = (first_moments[:, :, None] * force).reshape(-1, 9)
+    return np.hstack([mass[:, None] * force, np.cross(first_moments, force), levers])
 
 
 def acceleration_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:

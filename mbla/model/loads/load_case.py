@@ -11,12 +11,11 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.section import given
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
-from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
-from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of
+from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of, without_levers
 from mbla.model.loads.tilt import tilt_loads
 from mbla.model.loads.travel import case_name, travel_loads
 from mbla.model.model import LoadCase, Pushing, TravelPosition
@@ -32,7 +31,7 @@ COMPUTABLE = (1e-100, 1e100)
 
 @dataclass(frozen=True)
 class _Sum:
-    """Loads added up: ``total`` (n_blocks, 6), ``gross`` (n_blocks, 6) without signs, and each in words.
+    """Loads added up: ``total`` (n_blocks, 15), ``gross`` (n_blocks, 15) without signs, and each in words.
 
     complete : none of them left a fault
     """
@@ -68,19 +67,21 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
-        tilt = tilt_loads(table, dead_loads, dead.total, path, site)
-        live = live.plus(AppliedLoad(np.arange(len(site.blocks)), tilt.across, f"tilt about {vector(table.axis)}"))
+        tilt = tilt_loads(table, dead_loads, dead.total[:, :6], path, site)
+        words = f"tilt about {vector(table.axis)}"
+        live = live.plus(AppliedLoad(np.arange(len(site.blocks)), without_levers(tilt.across), words))
     for number, load in enumerate(section.live or []):
         if load.travel is not None:  # a rule of the deck: at most one does
             positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
     sound = len(site.roster.faults) == before
-    pushed = None if section.pushover is None else _pushing(name, section, site)
     cases = []
     for position, applied in positions:
         own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
-        case = LoadCase(name, dead.total, own.total, dead.words, own.words, tilt=tilt, pushover=pushed)
+        pushed = None if section.pushover is None else _pushing(name, section, dead.total, own.total, site)
+        loads = dead.total[:, :6], own.total[:, :6]
+        case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed)
         if position is not None:
             case = replace(case, name=case_name(position), travel=position)
         cases.append(case)
@@ -89,34 +90,18 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     return tuple(cases)
 
 
-PUSHED = ("gravity", "acceleration", "force")
-"""kinds of loads of which it is known how they act on blocks that have moved: through the centroid, all the same"""
-
-
-def _pushing(name: str, section: LoadCaseSection, site: LoadSite) -> Pushing | None:
-    """What a pushover is to do; None, and a fault, where a load does not act through the centroids of blocks."""
-    path: KeyPath = ("load_cases", name)
+def _pushing(name: str, section: LoadCaseSection, dead: FloatArray, live: FloatArray, site: LoadSite) -> Pushing | None:
+    """What a pushover is to do, with the levers of dead and live load; None, and a fault, where no blocks are found."""
     asked = section.pushover
     assert asked is not None  # else there is none
-    named_loads = [*entries_of(section.dead or [], (*path, "dead"), site.named)]
-    named_loads += entries_of(section.live or [], (*path, "live"), site.named)
-    for entry in named_loads:
-        kind = kind_of(entry.load)
-        if kind not in PUSHED or entry.load.at is not None or entry.load.pattern is not None:
-            words = (
-                f"a pushover takes {listed(PUSHED, 'and')} through the centroids of blocks: they keep their direction"
-            )
-            site.refuse(Finding("pushover-not-possible", words, *entry.path, kind))
-    if site.blocks.added_masses.any():
-        words = "a pushover does not know yet how masses that blocks carry along move with them"
-        site.refuse(Finding("pushover-not-possible", words, *path, "pushover"))
     blocks: IntArray | None = np.zeros(0, dtype=np.int64)
     if asked.control.on is not None:
-        blocks = select_blocks(asked.control.on, (*path, "pushover", "control", "on"), site.roster)
+        path: KeyPath = ("load_cases", name, "pushover", "control", "on")
+        blocks = select_blocks(asked.control.on, path, site.roster)
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
-    until = np.inf if asked.until is None else asked.until
-    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction)
+    until, levers = np.inf if asked.until is None else asked.until, [each[:, 6:] for each in (dead, live)]
+    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, *levers)
 
 
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
@@ -124,7 +109,7 @@ def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site:
     free = ~site.fixed
     if not free.any() or site.roster.partial or _judge_size((*path, "live"), live, site):
         return
-    if np.abs(live.total[free]).max() > CANCELLED * live.gross[free].max():
+    if np.abs(live.total[free, :6]).max() > CANCELLED * live.gross[free, :6].max():
         return
     words = "the live loads cancel each other: they have no effect"
     if travelling is not None and site.fixed[travelling.blocks].all():
@@ -134,7 +119,7 @@ def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site:
 
 def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
     """Whether loads on blocks that move are so small or so large that their squares leave the range of numbers."""
-    largest = float(loads.gross[~site.fixed].max(initial=0.0))
+    largest = float(loads.gross[~site.fixed, :6].max(initial=0.0))
     least, most = COMPUTABLE
     if site.roster.partial or largest == 0.0 or least <= largest <= most:
         return False
@@ -145,7 +130,7 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 
 
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
-    nothing = np.zeros((len(site.fixed), 6))
+    nothing = np.zeros((len(site.fixed), 15))
     sums = [entry for entry in entries if not given(entry.load, LIVE_ONLY)]
     return _Sum(nothing, nothing).plus(*(_apply(entry, site, live) for entry in sums))
 

@@ -62,7 +62,8 @@ class AppliedLoad:
     """One load on the blocks that it acts on.
 
     blocks   : (n,) ascending, each once
-    wrenches : (n, 6) force and moment about the centroid of each block, in the deck's units
+    wrenches : (n, 15) force and moment about the centroid of each block, in the deck's units, and the lever a F of all
+               forces that are not couples, arms from the centroid by rows: how the moment changes as the block turns
     words    : the load in words, for the listing
     """
 
@@ -76,12 +77,19 @@ LoadKind: TypeAlias = Callable[[Load, IntArray | None, KeyPath, LoadSite], Appli
 
 
 def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -> FloatArray:
-    """Forces at points as forces and moments about centroids, (p - x) x F; all (n, 3), the result (n, 6)."""
-    return np.hstack([forces, np.cross(points - centroids, forces)])
+    """Forces at points as forces, moments about centroids, (p - x) x F, and levers; all (n, 3), the result (n, 15)."""
+    arms = points - centroids
+    levers = arms[:, :, None] * forces[:, None, :]
+    return np.hstack([forces, np.cross(arms, forces), levers.reshape(-1, 9)])
+
+
+def without_levers(wrenches: FloatArray) -> FloatArray:
+    """Of forces at the centroids and couples, (n, 6): (n, 15)."""
+    return np.hstack([wrenches, np.zeros((len(wrenches), 9))])
 
 
 def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Blocks, each once, ascending, and the sums of the wrenches on them, from (n,) and (n, 6)."""
+    """Blocks, each once, ascending, and the sums of the wrenches on them, from (n,) and (n, 15)."""
     unique, row = np.unique(blocks, return_inverse=True)
     return unique, summed(row, wrenches, len(unique))
 

@@ -23,7 +23,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.deck.sections.loads import Load, PressureLoad
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, meeting_boxes, plane_axes, signed_areas, unit
@@ -41,7 +41,7 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
         _refuse("no face of these blocks lies so: look at normal, within and box", here, site)
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free")
-    forces, moments, areas = _integrals(parts, pressure, faces, site.blocks)
+    wrenches, areas = _integrals(parts, pressure, faces, site.blocks)
     if not areas.any():
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
         if (parts.covered < parts.areas).any():
@@ -55,7 +55,7 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
         site.warn("pressure-on-part-of-face", f"{words}: {covered}; it acts on the free parts")
     loaded = areas > 0
     owner = site.blocks.block_of_face[faces[loaded]]
-    return AppliedLoad(*sum_on_blocks(owner, np.hstack([forces, moments])[loaded]), words)
+    return AppliedLoad(*sum_on_blocks(owner, wrenches[loaded]), words)
 
 
 def _selected_faces(pressure: PressureLoad, chosen: IntArray, blocks: Blocks) -> IntArray:
@@ -72,8 +72,8 @@ def _selected_faces(pressure: PressureLoad, chosen: IntArray, blocks: Blocks) ->
 
 def _integrals(
     parts: FaceParts, pressure: PressureLoad, faces: IntArray, blocks: Blocks
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Force and moment on each face, (n_faces, 3), and its loaded area, (n_faces,)."""
+) -> tuple[FloatArray, FloatArray]:
+    """Force, moment and levers on each face, (n_faces, 15), and its loaded area, (n_faces,)."""
     loops = parts.loops
     if pressure.level is not None:
         loops = cut(loops, pressure.level - loops[..., 2])
@@ -82,13 +82,14 @@ def _integrals(
     normals = blocks.face_normals[faces][parts.faces]
     areas = np.einsum("nkj,nj->nk", np.cross(b - a, c - a), normals) / 2
     centroids = blocks.centroids[blocks.block_of_face[faces]][parts.faces]
-    force, moment = np.zeros((len(faces), 3)), np.zeros((len(faces), 3))
+    wrenches = np.zeros((len(faces), 15))
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
         push = -(_pressure(pressure, middle) * areas / 3)[..., None] * normals[:, None]
-        np.add.at(force, parts.faces, push.sum(axis=1))
-        np.add.at(moment, parts.faces, np.cross(middle - centroids[:, None], push).sum(axis=1))
+        around = np.broadcast_to(centroids[:, None], middle.shape)
+        own = wrenches_of(*(values.reshape(-1, 3) for values in (push, middle, around)))
+        np.add.at(wrenches, parts.faces, own.reshape(*middle.shape[:2], 15).sum(axis=1))
     loaded = np.bincount(parts.faces, areas.sum(axis=1), len(faces))
-    return force, moment, np.where(loaded > 1e-9 * parts.areas, loaded, 0.0)
+    return wrenches, np.where(loaded > 1e-9 * parts.areas, loaded, 0.0)
 
 
 def _pressure(pressure: PressureLoad, points: FloatArray) -> FloatArray:

@@ -41,7 +41,7 @@ def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
         return None
     centroids = site.blocks.centroids[rows]
     wrenches = wrenches_of(forces, centroids if points is None else points, centroids)
-    wrenches[:, 3:] += moments
+    wrenches[:, 3:6] += moments
     acted_on, total = sum_on_blocks(rows, wrenches)
     words = f"{counted(len(rows), 'row')} of {load.table}: forces on {counted(len(acted_on), 'block')}"
     return AppliedLoad(acted_on, total, words)

@@ -39,8 +39,8 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
             others = True
     level = gravity - (gravity @ axis) * axis
     everywhere = np.arange(len(site.blocks))
-    turning = mass_forces(everywhere, level, site)
-    across = mass_forces(everywhere, -np.cross(axis, gravity), site)
+    turning = mass_forces(everywhere, level, site)[:, :6]
+    across = mass_forces(everywhere, -np.cross(axis, gravity), site)[:, :6]
     size = max(np.abs(gravity).max(), np.finfo(np.float64).tiny)  # so that squares do not overflow
     if np.linalg.norm(level / size) <= ALONG * np.linalg.norm(gravity / size):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"

@@ -28,6 +28,7 @@ from mbla.results.outcome import (
     locked_in,
     range_of,
     result_of,
+    ultimate_displacement,
 )
 from mbla.results.results import CaseResult
 from mbla.solution.solution import CurveRow, Mechanics, ModelSize, Solution, Status
@@ -245,21 +246,12 @@ def curve_words(model: Model, case: CaseResult) -> str:
     says = f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {unit}; "
     last = curve[-1]
     if last.load_factor <= 0.0:
-        says += f"nothing at {number(zero_displacement(curve))} {unit}"
+        says += f"nothing at {number(ultimate_displacement(case))} {unit}"
     else:
         says += f"{load_factor_words(model, case.load_case, last.load_factor)} at {number(last.displacement)} {unit}"
         says += f", where {case.solution.curve_end}"
     worst = max(row.residual for row in curve)
     return f"{says}. Not verified: the joint law is met to {worst:.1g} in every step."
-
-
-def zero_displacement(curve: Sequence[CurveRow]) -> float:
-    """Displacement at which the load factor is nothing, on the line between the last two steps."""
-    if len(curve) < 2:
-        return curve[-1].displacement
-    before, last = curve[-2:]
-    share = before.load_factor / (before.load_factor - last.load_factor)
-    return before.displacement + share * (last.displacement - before.displacement)
 
 
 def curve_lines(model: Model, case: CaseResult) -> list[str]:

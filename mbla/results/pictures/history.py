@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
+from mbla.results.listing.figures import curve_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
@@ -119,6 +120,23 @@ def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
     count.set_ylabel("contact points", fontsize=page.small, color=INK)
     handles = [*axes.get_lines(), *count.get_lines()]
     axes.legend(handles=handles, fontsize=page.small, frameon=False, loc="lower right")
+
+
+def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
+    """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
+    curve, words = scene.case.solution.curve, scene.words_of("curve")[:2]
+    words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
+    mark = "NOT VERIFIED: no other code has recomputed this curve" if curve else ""
+    with open_diagrams(path, options, words, mark) as sheet:
+        page, axes = sheet.page, sheet.frames(1)[0, 0]
+        if not curve:
+            axes.set_axis_off()
+            return
+        dress(page, axes, f"displacement of the control point [{scene.model.units.length}]", "load factor")
+        moved, factors = [row.displacement for row in curve], [row.load_factor for row in curve]
+        axes.plot(moved, factors, color=BLUE, marker=".", linewidth=1.8 * page.scale, markersize=5 * page.scale)
+        axes.set_xlim(left=min(0.0, *moved) if len(moved) > 1 else 0.0)
+        axes.set_ylim(bottom=min(0.0, *factors) if len(factors) > 1 else 0.0)
 
 
 def draw_series(path: Path, scene: Scene, series: Series, options: PictureOptions) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from mbla.errors import UsageError
 
-KINDS = ("model", "mechanism", "forces", "history")
+KINDS = ("model", "mechanism", "forces", "history", "curve")
 """kinds of pictures, in the order in which they are made"""
 USUAL_KINDS = ("model", "mechanism", "forces")
 """those made unless others are asked for"""

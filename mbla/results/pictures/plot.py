@@ -10,7 +10,7 @@ from pathlib import Path
 from mbla.errors import UsageError
 from mbla.results.pictures import drawing
 from mbla.results.pictures.animation import format_of_film, write_animation
-from mbla.results.pictures.history import draw_history, draw_series
+from mbla.results.pictures.history import draw_curve, draw_history, draw_series
 from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.scene import Scene, scene_of
@@ -22,7 +22,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     """Pictures of a result; the paths written.
 
     ``STEM_model.png``, and for each load case ``STEM_CASE.png`` (mechanism), ``STEM_CASE_forces.png`` and
-    ``STEM_CASE_history.png``; ``STEM_SERIES_history.png`` for the positions of a travelling load. With
+    ``STEM_CASE_history.png``, of a pushover ``STEM_CASE_curve.png``; ``STEM_SERIES_history.png`` for the positions of a
+    travelling load. With
     ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
 
     target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
@@ -61,7 +62,8 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
     pictures = [PictureFile("_model", of(cases[0], "model"))] if "model" in options.kinds else []
     names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
-        for kind in (kind for kind in options.kinds if kind != "model"):
+        drawn = {"model"} if case.solution.curve or len(options.kinds) == 1 else {"model", "curve"}
+        for kind in (kind for kind in options.kinds if kind not in drawn):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(PictureFile(name, of(case, kind)))
     if "history" in options.kinds:
@@ -116,8 +118,8 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
 
     Raises as ``plot_case`` does.
     """
-    if kind == "history":
-        draw_history(path, scene, options)
+    if kind in ("history", "curve"):
+        (draw_history if kind == "history" else draw_curve)(path, scene, options)
         return
     drawing.draw_picture(path, scene, kind, options)
 

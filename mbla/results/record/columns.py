@@ -18,7 +18,15 @@ from mbla.results.collapse.interface_modes import InterfaceMode, relative_motion
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.rigid_parts import moving_blocks, moving_share
 from mbla.results.collapse.thrust import point_friction_use
-from mbla.results.outcome import angle_bounds, angle_of, factor_unique, least_and_greatest, range_of, result_of
+from mbla.results.outcome import (
+    angle_bounds,
+    angle_of,
+    factor_unique,
+    least_and_greatest,
+    range_of,
+    result_of,
+    ultimate_displacement,
+)
 from mbla.results.record.quantity import STORED_BY_PATH, Quantity, quantity_of, rows_of
 from mbla.results.record.scene import FIGURES, Scene, Values, as_text
 from mbla.results.results import CaseResult
@@ -146,6 +154,7 @@ FOUND: dict[str, Callable[[Scene, str], Any]] = {
     "range": _of_case(range_of),
     "angle": _of_case(angle_of),
     "angle_bounds": _of_case(lambda case: None if case.load_case.tilt is None else angle_bounds(case)),
+    "ultimate_displacement": _of_case(ultimate_displacement),
     "reaction_force": _of_case(lambda case: _reaction(case, turns=False)),
     "reaction_moment": _of_case(lambda case: _reaction(case, turns=True)),
     "figures": lambda scene, _: FIGURES.index(scene.figures),

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mbla.results.pictures.history import _keep_to_the_middle, draw_history, draw_series
+from mbla.results.pictures.history import _keep_to_the_middle, draw_curve, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
@@ -101,3 +101,15 @@ def test_a_case_without_a_load_factor_has_none_in_its_diagram(tmp_path: Path) ->
     shown = history(tmp_path, results, replace(case, status=Status.NOT_VERIFIED))
     assert {"gap", "primal residual", "dual residual", "iteration"} <= set(shown)
     assert not any(text.startswith(("load factor 0", "not a result")) for text in shown)
+
+
+@pytest.mark.parametrize("pushed", [True, False])
+def test_a_curve_says_that_it_is_not_verified(tmp_path: Path, pushed: bool) -> None:
+    results = full_results()
+    case = results.cases[0 if pushed else 1]
+    path = tmp_path / "curve.svg"
+    draw_curve(path, scene_of(results, case, PictureOptions(), "curve"), PictureOptions())
+    shown = " ".join(texts(path))
+    assert ("NOT VERIFIED: no other code has recomputed this curve" in shown) is pushed
+    assert ("the load case has no pushover" in shown) is not pushed
+    assert ("displacement of the control point [m]" in shown) is pushed

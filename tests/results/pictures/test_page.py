@@ -121,7 +121,7 @@ def test_options_as_texts(parse: Any, text: str, value: object) -> None:
 @pytest.mark.parametrize(
     ("parse", "text", "told"),
     [
-        (parse_kinds, "model,force", "model, mechanism, forces, history, or all"),
+        (parse_kinds, "model,force", "model, mechanism, forces, history, curve, or all"),
         (parse_kinds, "", "model, mechanism"),
         (parse_view, "bottom", "front, back"),
         (parse_view, "10,100", "AZIMUTH,ELEVATION"),
