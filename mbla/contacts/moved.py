@@ -22,7 +22,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.overlay import Overlays, concatenate, frames_from_normals, gap_at, local_maps
+from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.outlines.points import interface_points
 from mbla.contacts.outlines.polygons import Polygons, connected_parts, intersect, map_polygons, widths
 from mbla.contacts.report import both_fixed
@@ -156,12 +156,14 @@ class MovedSearch:
         same = np.abs(larger) <= SAME_AREA * self._areas[b]
         host = np.where(same, 0.0, np.sign(larger))
         near = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
-        between = _overlays(
+        between = build_overlays(
             np.column_stack([facets.blocks[a], facets.blocks[b]]),
             np.column_stack([a, b]),
-            (facets.origins[a], facets.normals[a]),
-            (facets.origins[b], facets.normals[b]),
-            (host, near, np.minimum(sizes[a], sizes[b])),
+            Planes(facets.origins[a], facets.normals[a]),
+            Planes(facets.origins[b], facets.normals[b]),
+            near,
+            np.minimum(sizes[a], sizes[b]),
+            host,
         )
         shapes = [
             intersect(_outlines(between, facets, 0), _outlines(between, facets, 1), facets.convex[a] & facets.convex[b])
@@ -175,12 +177,14 @@ class MovedSearch:
             if ground.blocks is not None:
                 chosen &= np.isin(facets.blocks, ground.blocks)
             rows = np.flatnonzero(chosen)
-            on_ground = _overlays(
+            on_ground = build_overlays(
                 np.column_stack([np.full(len(rows), len(model.blocks) + index), facets.blocks[rows]]),
                 np.column_stack([np.full(len(rows), -1), rows]),
-                (np.broadcast_to(ground.point, (len(rows), 3)), normals[rows]),
-                (facets.origins[rows], facets.normals[rows]),
-                (np.ones(len(rows)), facets.origins[rows], sizes[rows]),
+                Planes(np.broadcast_to(ground.point, (len(rows), 3)), normals[rows]),
+                Planes(facets.origins[rows], facets.normals[rows]),
+                facets.origins[rows],
+                sizes[rows],
+                1.0,
             )
             overlays.append(on_ground)
             shapes.append(_outlines(on_ground, facets, 1))
@@ -199,39 +203,6 @@ class MovedSearch:
         arms = np.einsum("kij,ki->kj", back, centroids - (blocks.centroids + pose.shift)[block])
         frames = np.einsum("kij,kai->kaj", back, overlays.frames)
         return replace(overlays, frames=frames), blocks.centroids[block] + arms
-
-
-def _overlays(
-    bodies: IntArray,
-    facets: IntArray,
-    a: tuple[FloatArray, FloatArray],
-    b: tuple[FloatArray, FloatArray],
-    host: tuple[FloatArray, FloatArray, FloatArray],
-) -> Overlays:
-    """Overlays of planes, each given by points and outward normals.
-
-    host : 1 where the normal is that of a, −1 where it is that of b, 0 for the mean; points near the surface; sizes
-    """
-    which, near, sizes = host
-    mean = a[1] - b[1]
-    mean = mean / np.linalg.norm(mean, axis=1)[:, None]
-    normals = np.where((which > 0)[:, None], a[1], np.where((which < 0)[:, None], -b[1], mean))
-    frames = frames_from_normals(normals)
-    heights, slopes = [], []
-    for points, outward in (a, b):
-        along = np.einsum("kai,ki->ka", frames, outward)
-        distance = np.einsum("ki,ki->k", points - near, outward) / sizes
-        heights.append(distance / along[:, 0])
-        slopes.append(-along[:, 1:] / along[:, :1])
-    at = (1.0 + which) / 2 * heights[0] + (1.0 - which) / 2 * heights[1]
-    return Overlays(
-        bodies=bodies,
-        facets=facets,
-        origins=near + (at * sizes)[:, None] * frames[:, 0],
-        frames=frames,
-        sizes=sizes,
-        gaps=np.column_stack([heights[1] - heights[0], slopes[1] - slopes[0]]),
-    )
 
 
 def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:

@@ -102,17 +102,26 @@ class Planes:
 
 
 def build_overlays(
-    bodies: IntArray, facets: IntArray, a: Planes, b: Planes, near: FloatArray, sizes: FloatArray
+    bodies: IntArray,
+    facets: IntArray,
+    a: Planes,
+    b: Planes,
+    near: FloatArray,
+    sizes: FloatArray,
+    host: FloatArray | float = 0.0,
 ) -> Overlays:
     """Overlays of planes a and b.
 
     near  : (n, 3) m  a point near the common surface
     sizes : (n,) m    block size of the pair
+    host  : (n,) 1 where the common plane is that of a, -1 where it is that of b, 0 where it is the mean
     """
-    frames = frames_from_normals(unit(a.normals - b.normals))
+    side = np.reshape(host, (-1, 1))
+    mean = unit(a.normals - b.normals)
+    frames = frames_from_normals(np.where(side > 0.0, a.normals, np.where(side < 0.0, -b.normals, mean)))
     height_a, slope_a = _plane_over(a, near, frames, sizes)
     height_b, slope_b = _plane_over(b, near, frames, sizes)
-    middle = (height_a + height_b) / 2
+    middle = (1.0 + host) / 2 * height_a + (1.0 - host) / 2 * height_b
     return Overlays(
         bodies=bodies,
         facets=facets,
