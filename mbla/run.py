@@ -142,7 +142,7 @@ def solve_case(
     status_file.remark(f"{load_case.name}: {status}")
     solution = answer.solution
     if load_case.pushover is not None:
-        from mbla.solution.pushover import pushed  # late: few load cases are
+        from mbla.solution.pushover.curve import pushed  # late: few load cases are
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, load_case, solution, settings, log, solved)

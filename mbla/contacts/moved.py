@@ -37,7 +37,7 @@ each other have fallen."""
 
 REACH = 0.05
 """Gap, over block size, beyond which facets are not in contact: a step moves blocks by less (:data:`LARGEST_MOTION` of
-:mod:`mbla.solution.pushover`)."""
+:mod:`mbla.solution.pushover.steps`)."""
 
 NARROW = 1e-6
 """Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
@@ -73,14 +73,18 @@ class MovedSearch:
         self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
         self._edges = np.zeros(0, dtype=np.int64)
         overlays, parts = self._near(model, self.facets)
-        apart = (_extreme_gaps(overlays, parts)[1] > section.tolerance) | (widths(parts) < section.tolerance)
+        least, greatest = _extreme_gaps(overlays, parts)
+        apart = ((greatest > section.tolerance) & (least < section.tolerance)) | (widths(parts) < section.tolerance)
         self._edges = np.unique(self._pair(overlays)[apart])
 
-    def at(self, pose: Pose) -> MovedContacts:
-        """Contacts of the model with its blocks there."""
+    def at(self, pose: Pose, fallen: BoolArray | None = None) -> MovedContacts:
+        """Contacts of the model with its blocks there, but those of debris, (n_blocks,)."""
         model = moved_model(self.model, pose)
         facets = self._facets(pose)
         overlays, parts = self._near(model, facets)
+        if fallen is not None and fallen.any():
+            stands = ~np.append(fallen, np.zeros(len(model.grounds), dtype=bool))[overlays.bodies].any(axis=1)
+            overlays, parts = overlays.take(stands), parts[stands]
         order = np.lexsort((overlays.facets[:, 1], overlays.facets[:, 0], overlays.bodies[:, 1], overlays.bodies[:, 0]))
         overlays, parts = overlays.take(order), parts[order]
         laws, _ = joints_of_interfaces(self.model, self.section, *self._as_built(overlays, parts, pose))
@@ -111,6 +115,7 @@ class MovedSearch:
             frames=overlays.frames[of_point],
             point_areas=found.areas * size[of_point] ** 2,
             report=self.contacts.report,
+            solid_of_block=self.contacts.solid_of_block,
         )
         return MovedContacts(contacts, gaps, overlays.facets)
 
@@ -121,6 +126,9 @@ class MovedSearch:
         overlays = overlays.take(row)
         near = (widths(parts) > NARROW) & (_extreme_gaps(overlays, parts)[0] < REACH)
         near &= ~both_fixed(model, overlays.bodies) & ~np.isin(self._pair(overlays), self._edges)
+        if (solid := self.contacts.solid_of_block) is not None:
+            body = np.append(solid, len(solid) + np.arange(len(model.grounds)))[overlays.bodies]
+            near &= body[:, 0] != body[:, 1]
         return overlays.take(near), parts[near]
 
     def _pair(self, overlays: Overlays) -> IntArray:

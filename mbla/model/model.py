@@ -154,6 +154,7 @@ class Pushing:
     steps       : at most
     blocks      : (m,) whose common centroid is the control point; none: of what moves at first
     direction   : (3,) unit, in which its displacement counts; nan: along the live load on these blocks
+    error       : whether steps of twice the size are made as well, for the error of the load factors
     dead_levers, live_levers : (n_blocks, 9) sums of arm times force, arms from the centroid by rows
     """
 
@@ -162,6 +163,7 @@ class Pushing:
     steps: int
     blocks: IntArray
     direction: FloatArray
+    error: bool
     dead_levers: FloatArray
     live_levers: FloatArray
 

@@ -87,5 +87,8 @@ def _turned(load: FloatArray, levers: FloatArray, pose: Pose) -> FloatArray:
 
 
 def moved_model(model: Model, pose: Pose) -> Model:
-    """The model with its blocks where a pose puts them."""
-    return replace(model, blocks=pose.moved(model.blocks), interfaces=None)
+    """The model with its blocks where a pose puts them; the guides of a support that gives way go along with it."""
+    guides, turn = model.guides, pose.rotation[model.guides.blocks]
+    velocities = np.einsum("mij,mjk->mik", turn, guides.motions[:, :3])
+    motions = np.concatenate([velocities, guides.motions[:, 3:]], axis=1)
+    return replace(model, blocks=pose.moved(model.blocks), interfaces=None, guides=replace(guides, motions=motions))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Message
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
@@ -117,25 +117,58 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class CurveRow:
-    """One step of a pushover.
+    """One step of a pushover, as code that did not solve it finds it from its forces and mechanism.
 
     step         : from 0, limit analysis of the structure as built
     displacement : of the control point, m
     load_factor  : that holds the structure there
-    residual     : of the joint law; of a first step that of its load case, 0 here
+    reaction     : of a support that gives way, N; nan without one
+    error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
+    residual     : of the joint law, the greatest measure of the verification
     overlap      : m, the greatest of blocks
     live_work, friction, potential : J since the first step: work of the live load, dissipated in sliding, gained by
                    the dead load
+    new_mechanism : whether it moves in another way than the step before
+    debris       : blocks that have fallen without the rest
     """
 
     step: int
     displacement: float
     load_factor: float
+    reaction: float
+    error: float
     residual: float
     overlap: float
     live_work: float
     friction: float
     potential: float
+    new_mechanism: bool
+    debris: int
+
+
+@dataclass(frozen=True)
+class PushedSteps:
+    """What the rows of a pushover follow from: its loads, mechanisms and forces, step by step, limit analysis first.
+
+    work         : (n_steps,) live work of the step that led there
+    load_factors : (n_steps,)
+    mechanisms   : (n_steps, n_blocks, 6) for a live power of 1
+    fallen       : (n_steps, n_blocks) blocks that are debris
+    point_start  : (n_steps + 1,) contact points of step k are rows point_start[k]:point_start[k + 1] of
+    forces       : (n, 3) N, T1, T2 [N] at the contact points of the moved blocks
+    errors       : (n_steps,) estimated error of the load factor, nan where it is not known
+    """
+
+    work: FloatArray
+    load_factors: FloatArray
+    mechanisms: FloatArray
+    fallen: BoolArray
+    point_start: IntArray
+    forces: FloatArray
+    errors: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.work)
 
 
 @dataclass(frozen=True)
@@ -194,6 +227,7 @@ class Solution:
     path        : states of the load path that was followed
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : in words why it ends
+    pushed      : forces and mechanisms of its steps
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -224,6 +258,7 @@ class Solution:
     path: tuple[PathPoint, ...] = ()
     curve: tuple[CurveRow, ...] = ()
     curve_end: str = ""
+    pushed: PushedSteps | None = field(default=None, compare=False)
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"

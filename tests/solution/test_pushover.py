@@ -14,7 +14,7 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
 from mbla.results.listing.figures import energy_missing
-from mbla.solution.pushover import FALLEN, REACHED, STEPS_DONE, pushed
+from mbla.solution.pushover.curve import FALLEN, REACHED, STEPS_DONE, pushed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import CurveRow, Solution
 from mbla.solution.solve import solve

@@ -46,6 +46,9 @@ class PushoverSection(Section):
         None, description="displacement at which to end; the one at which the load factor is nothing unless given"
     )
     steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
+    error: bool = Field(
+        False, description="make steps of twice the size as well, whose difference is the error of the load factors"
+    )
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
 
 

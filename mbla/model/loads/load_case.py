@@ -101,7 +101,7 @@ def _pushing(name: str, section: LoadCaseSection, dead: FloatArray, live: FloatA
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
     until, levers = np.inf if asked.until is None else asked.until, [each[:, 6:] for each in (dead, live)]
-    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, *levers)
+    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, asked.error, *levers)
 
 
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:

@@ -1,0 +1,229 @@
+"""The capacity curve of a load case: made by steps, and found again from their forces and mechanisms alone.
+
+Poses follow from the mechanisms, contacts from the poses, and with these every row is judged as a load case at rest is
+(:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ of
+the step that led there. No matrix of the program stage is used for it and no solver called.
+
+The curve ends where the load factor is nothing, at the displacement asked for, or where no forces or no motion are
+found. The error of a load factor is its difference from the curve of steps twice as long, which the whole of it is of
+first order in the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, starts
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
+from mbla.contacts.moved import MovedSearch
+from mbla.deck.sections.contacts import ContactsSection
+from mbla.errors import Message
+from mbla.model.model import LoadCase, Model
+from mbla.model.pose import Pose
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.pushover.control import Control
+from mbla.solution.pushover.steps import Pushover, Step, moved_solids
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import CurveRow, Mechanics, PushedSteps, Solution
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.verification.case import Case, InterfaceTerms
+from mbla.solution.verification.residuals import residuals_of
+
+FALLEN, REACHED = "the load factor is nothing", "the displacement asked for is reached"
+STEPS_DONE, STUCK = "the steps asked for are done", "no forces or no motion were found for the next step"
+LATE, SETTLED = "the time limit was reached", "nothing carries the structure any more"
+
+ALIKE = 0.9
+"""Cosine between the motions of two steps below which they are two mechanisms."""
+
+
+@dataclass(frozen=True)
+class MovedCase(Case):
+    """A step: contact points come into touch at the end of it, where their gaps are used up.
+
+    gaps : (n_points,) m over the live work of the step that led there
+    """
+
+    gaps: FloatArray
+
+    def velocities(self, mechanism: FloatArray) -> FloatArray:
+        """Velocities at the contact points, opening from where they touch, (n_points, 3)."""
+        v = super().velocities(mechanism)
+        v[:, 0] += self.gaps
+        return v
+
+    def interface_terms(self, mechanics: Mechanics) -> InterfaceTerms:
+        """The work that normal forces do while gaps close."""
+        return InterfaceTerms(dissipated=float(mechanics.contact_forces[:, 0] @ self.gaps))
+
+
+def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: Solution, solved: bool) -> str:
+    """What keeps a pushover from being done, in words; empty where nothing does."""
+    crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
+    settling = 0 if case.settlement is None else len(case.settlement.blocks)
+    against = {
+        "the load case is not solved": not solved or solution.mechanics is None,
+        "blocks are guided": len(model.guides) > settling,
+        "it has planes of symmetry": len(model.mirrors) > 0,
+        "joints can crush": crush,
+        "flow_rule: livesley": solution.flow_rule == "livesley",
+        "contact_model: convex": solution.conditions_on_interfaces,
+    }
+    return ", ".join(words for words, holds in against.items() if holds)
+
+
+def pushed(
+    model: Model,
+    contacts: Contacts,
+    section: ContactsSection,
+    case: LoadCase,
+    solution: Solution,
+    settings: SolverSettings,
+    log: Log,
+    solved: bool,
+) -> Solution:
+    """The solution of a load case with its capacity curve, or with a remark that says why there is none.
+
+    model : as it may move under the load case
+    """
+    against = why_not_pushed(model, contacts, case, solution, solved)
+    if against or solution.mechanics is None or case.pushover is None:
+        remark = Message("pushover-not-done", f"there is no pushover: {against}")
+        return replace(solution, remarks=(*solution.remarks, remark))
+    search = MovedSearch(model, contacts, section)
+    control = Control.of(model, case, solution.mechanics.mechanism)
+    push = Pushover(model, contacts, search, case, control, settings, log, case.pushover.step)
+    steps, end = _followed(push, solution.mechanics)
+    errors = np.full(len(steps), np.nan)
+    if case.pushover.error:
+        longer, _ = _followed(replace(push, step=2.0 * push.step), solution.mechanics)
+        moved, factors = (np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor"))
+        own = np.array([each.displacement for each in steps])
+        errors = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
+    record = _record(steps, errors)
+    curve = curve_of(model, contacts, section, case, solution.mechanics, record, solution.flow_rule)
+    remarks, rough = solution.remarks, [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
+    if rough:
+        worst = max(rough, key=lambda row: row.residual)
+        words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
+        words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
+        remarks = (*remarks, Message("pushover-rough", words))
+    return replace(solution, curve=curve, curve_end=end, pushed=record, remarks=remarks)
+
+
+def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], str]:
+    """Steps up to the end of the curve, and in words why it ends."""
+    asked, settles = push.case.pushover, push.case.settlement is not None
+    assert asked is not None  # else nothing is pushed
+    steps: list[Step] = []
+    for step in push.steps(first):
+        steps.append(step)
+        if step.load_factor <= 0.0 and not settles:
+            return steps, FALLEN
+        if step.displacement >= asked.until * (1.0 - 1e-9):
+            return steps, REACHED
+        if len(steps) > asked.steps:
+            return steps, STEPS_DONE
+    return steps, LATE if push.late else SETTLED if settles else STUCK
+
+
+def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
+    return PushedSteps(
+        work=np.array([step.work for step in steps]),
+        load_factors=np.array([step.load_factor for step in steps]),
+        mechanisms=np.stack([step.mechanism for step in steps]),
+        fallen=np.stack([step.fallen for step in steps]),
+        point_start=starts(np.array([len(step.forces) for step in steps])),
+        forces=np.vstack([step.forces for step in steps]),
+        errors=errors,
+    )
+
+
+def poses_of(steps: PushedSteps) -> Iterator[Pose]:
+    """Where the blocks are at every step, from its mechanisms."""
+    pose = Pose.at_rest(steps.mechanisms.shape[1])
+    yield pose
+    for work, mechanism in zip(steps.work[1:], steps.mechanisms[:-1], strict=True):
+        pose = pose.after(work * mechanism)
+        yield pose
+
+
+def curve_of(
+    model: Model,
+    contacts: Contacts,
+    section: ContactsSection,
+    case: LoadCase,
+    first: Mechanics,
+    steps: PushedSteps,
+    flow_rule: str,
+) -> tuple[CurveRow, ...]:
+    """Rows of the curve from forces and mechanisms; those of step 0 are the given ones of limit analysis.
+
+    model : as it may move under the load case
+
+    Raises ValueError where a step has not as many forces as there are contact points.
+    """
+    search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
+    rows: list[CurveRow] = []
+    work, before = np.zeros(3), np.zeros(3)
+    for number, pose in enumerate(poses_of(steps)):
+        mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
+        overlap, gaps = 0.0, np.zeros(len(first.contact_forces))
+        solids, loads = solids_of(model, contacts), case
+        if number:
+            found = search.at(pose, fallen)
+            solids, loads = moved_solids(model, found, case, pose, fallen)
+            overlap, gaps = max(-float(found.gaps.min(initial=0.0)), 0.0), found.gaps / steps.work[number]
+        else:
+            loads = solids.load_case(case)
+        if len(gaps) != len(mechanics.contact_forces):
+            raise ValueError(f"step {number} of a pushover has forces of other contact points")
+        of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
+        step = MovedCase(solids.model, solids.contacts, loads, gaps)
+        residual = residuals_of(step, of_solids, step.limits.dilatancy_by(flow_rule)).largest
+        powers = _powers(step, of_solids)
+        work = work + 0.5 * (before + powers) * steps.work[number]
+        row = CurveRow(
+            step=number,
+            displacement=control.displacement(model, pose),
+            load_factor=mechanics.load_factor,
+            reaction=np.nan if case.settlement is None else case.settlement.reaction(mechanics.load_factor),
+            error=float(steps.errors[number]),
+            residual=residual,
+            overlap=overlap,
+            live_work=float(work[0]),
+            friction=float(work[1]),
+            potential=float(work[2]),
+            new_mechanism=number > 0 and _alike(model, steps.mechanisms[number - 1], mechanics.mechanism) < ALIKE,
+            debris=int(fallen.sum()),
+        )
+        rows.append(row)
+        before = powers
+    return tuple(rows)
+
+
+def _mechanics_of(steps: PushedSteps, number: int) -> Mechanics:
+    own = slice(int(steps.point_start[number]), int(steps.point_start[number + 1]))
+    forces, none = steps.forces[own], np.zeros(0)
+    return Mechanics(float(steps.load_factors[number]), forces, none, steps.mechanisms[number], none.astype(np.int64))
+
+
+def _powers(step: MovedCase, mechanics: Mechanics) -> FloatArray:
+    """Power of the live load, of friction and against the dead load, (3,)."""
+    v, limits = Case.velocities(step, mechanics.mechanism), step.limits
+    strength = limits.friction * mechanics.contact_forces[:, 0] + limits.cohesion
+    dead, live = step.powers(mechanics.mechanism)
+    return np.array([mechanics.load_factor * live, float(strength @ np.hypot(v[:, 1], v[:, 2])), -dead])
+
+
+def _alike(model: Model, one: FloatArray, other: FloatArray) -> float:
+    """Cosine between two motions, (n_blocks, 6), rotations with half the block size as arm, by volume."""
+    scale = np.sqrt(model.blocks.volumes)[:, None] * np.repeat([[1.0, 1.0]], len(one), axis=0)
+    scale[:, 1] *= model.blocks.sizes / 2
+    first, second = (each * np.repeat(scale, 3, axis=1) for each in (one, other))
+    size = float(np.linalg.norm(first) * np.linalg.norm(second))
+    return float(np.vdot(first, second)) / size if size > 0.0 else 1.0

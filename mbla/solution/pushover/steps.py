@@ -1,0 +1,314 @@
+"""From the first crack to the ground: the load factor as a structure moves, by one step program after another.
+
+A step is limit analysis of the moved geometry with gaps: with the poses of step k, its contacts, their matrix A and the
+gaps g of the contact points, and with the live work D̄ of the step (Portioli 2020, doi:10.1007/s10518-019-00722-0;
+static form and its dual)::
+
+    max λ D̄ − g·N   s.t.  A x + f_D + λ f_L = 0,  x within its yield conditions
+    min −f_D·Δu + dissipation   s.t.  f_L·Δu = D̄,  Δv = AᵀΔu,  Δv_N + g compatible with the joints
+
+At D̄ → 0 and g = 0 that is limit analysis, the first point of the curve. Divided by D̄ it is the program of limit
+analysis with the gaps as weights of the normal forces (``Program.gaps``). Pairs of programs of :mod:`alternation` start
+from the normal forces of the step before. A gap keeps its sign: where a step let blocks overlap, the next pushes them
+apart. A support that gives way (settlement) is the same with its own motion for the live work.
+
+Blocks that nothing carries any more fall without the rest: they stay where they are and are left out (debris).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import Solids, solids_of
+from mbla.contacts.moved import MovedContacts, MovedSearch
+from mbla.model.model import LoadCase, Model
+from mbla.model.pose import Pose, moved_case, moved_model
+from mbla.model.solids.measures import connected_labels
+from mbla.program.assemble import assemble
+from mbla.program.program import Program
+from mbla.program.reductions import reduce_program
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.solution.associative.certificate import steepest_fall
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.linear_algebra.stiffness import stiffness_of
+from mbla.solution.mechanics import mechanics_of, motion_of
+from mbla.solution.nonassociative.alternation import Alternation
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.moving_anchor import run_with_moving_anchor
+from mbla.solution.parts import assemble_parts
+from mbla.solution.pushover.control import Control
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import Mechanics
+
+MOST_PAIRS = 12
+"""Pairs of programs of a step at most: one is usual, two where the mechanism changes."""
+
+FEW_PAIRS, ENOUGH, MOST_RUN = 3, 1e-5, 60
+"""Pairs before an interior-point run from their best state, if they leave more than the residual; factorisations. In
+space there are these pairs alone: joints carry all force at the point about which they twist there, and whatever looks
+further finds other states, lower by a fifth, at the same place."""
+
+WANTED = 1e-7
+"""Residual of the joint law with which a step is done."""
+
+OFF = 0.2
+"""Share by which the control point may miss its step before the step is solved again with another live work."""
+
+LARGEST_MOTION, LARGEST_TURN = 0.02, 0.02
+"""Greatest motion of a block in a step, over its size, and greatest rotation, rad."""
+
+SHORTER = (1.0, 0.5, 0.25, 0.125)
+"""Shares of a step that are tried in turn where no forces are found: so sharply the end of a curve is known."""
+
+TAKEN = 0.5
+"""Weight of falling blocks over that of the control point from which the curve is at its end."""
+
+DRIVEN, FAST = 3.0, 0.1
+"""Power of the dead load over that of the live load in a motion in which blocks drop, and speed of these over the
+greatest. Blocks that drop in two steps on end are debris; in one they may come to rest on others."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A pose with the load factor that holds it there, and the mechanism by which it goes on.
+
+    displacement : of the control point, m
+    mechanism    : (n_blocks, 6) for a live power of 1
+    forces       : (n_points, 3) N of the contacts there
+    fallen       : (n_blocks,) blocks that are debris
+    work         : live work of the step that led here
+    """
+
+    displacement: float
+    load_factor: float
+    mechanism: FloatArray
+    forces: FloatArray
+    pose: Pose
+    fallen: BoolArray
+    work: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Normals:
+    """Normal forces of a step where they act: start for the next.
+
+    bodies, places, values : (n_points, 2), (n_points, 3) m, (n_points,) N
+    """
+
+    bodies: IntArray
+    places: FloatArray
+    values: FloatArray
+
+    @staticmethod
+    def of(contacts: Contacts, forces: FloatArray) -> _Normals:
+        return _Normals(contacts.bodies[contacts.interface_of_point], contacts.points, forces[:, 0])
+
+    def at(self, contacts: Contacts) -> FloatArray:
+        """Those of the nearest points of the same two bodies, (n_points,) N; none where these did not touch."""
+        bodies = contacts.bodies[contacts.interface_of_point]
+        _, pair = np.unique(np.vstack([self.bodies, bodies]), axis=0, return_inverse=True)
+        pair, mine = pair.ravel(), len(self.bodies)
+        size = float(np.ptp(contacts.points, axis=0).max()) or 1.0
+        tree = cKDTree(np.column_stack([self.places / size, 10.0 * pair[:mine]]))
+        distance, nearest = tree.query(np.column_stack([contacts.points / size, 10.0 * pair[mine:]]))
+        return np.asarray(np.where(distance < 5.0, self.values[nearest], 0.0))
+
+
+@dataclass
+class Pushover:
+    """Steps of one load case by the flow rule of the analysis.
+
+    model   : as it may move under the load case
+    control : of its mechanism
+    step    : m, of the control point
+    late    : whether the time limit ended it
+    """
+
+    model: Model
+    contacts: Contacts
+    search: MovedSearch
+    case: LoadCase
+    control: Control
+    settings: SolverSettings
+    log: Log
+    step: float
+    late: bool = False
+
+    def steps(self, first: Mechanics) -> Iterator[Step]:
+        """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
+        still = np.zeros(len(self.model.blocks), dtype=bool)
+        pose, normals = Pose.at_rest(len(still)), _Normals.of(self.contacts, first.contact_forces)
+        step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still)
+        while True:
+            yield step
+            if self.settings.deadline is not None and time.monotonic() > self.settings.deadline:
+                self.late = True
+                return
+            after = self._after(step, normals)
+            if after is None:
+                return
+            step, normals = after
+
+    def _after(self, step: Step, normals: _Normals) -> tuple[Step, _Normals] | None:
+        """The next step and its normal forces; None without any."""
+        work = self.work_of(step)
+        for share in SHORTER:
+            solved = self._with_debris(step, share * work, normals)
+            if solved is None:
+                continue
+            asked = min(self.work_of(solved[0]), self._most_work(step))
+            if share == 1.0 and abs(asked / work - 1.0) > OFF:
+                solved = self._with_debris(step, asked, normals) or solved
+            return solved
+        return None
+
+    def work_of(self, step: Step) -> float:
+        """Live work of the step from there: as far as the control point shall go, and no block goes too far."""
+        speed, most = self.control.speed(self.model, step.pose, step.mechanism), self._most_work(step)
+        return min(self.step / speed, most) if speed > 0.0 else most
+
+    def _most_work(self, step: Step) -> float:
+        """Live work by which no block goes too far."""
+        moved = np.linalg.norm(step.mechanism[:, :3], axis=1) / self.model.blocks.sizes
+        turned = np.linalg.norm(step.mechanism[:, 3:], axis=1)
+        return float(min(LARGEST_MOTION / max(moved.max(), 1e-300), LARGEST_TURN / max(turned.max(), 1e-300)))
+
+    def _with_debris(self, step: Step, work: float, normals: _Normals) -> tuple[Step, _Normals] | None:
+        """The step by a live work from another one, without the blocks that fall meanwhile."""
+        fallen, pose = step.fallen, step.pose.after(work * step.mechanism)
+        while True:
+            found = self.search.at(pose, fallen)
+            hanging = _hanging(self.model, found.contacts) & ~fallen
+            if hanging.any() and not self._ends_it(fallen | hanging):
+                fallen = fallen | hanging
+                continue
+            solids, case = moved_solids(self.model, found, self.case, pose, fallen)
+            solved = self._solved(solids, case, found, work, normals)
+            carried = solved is not None and (solved.load_factor > 0.0 or self.case.settlement is not None)
+            falling = fallen if carried else fallen | self._falling(solids, case)
+            if solved is not None and carried:
+                drops = _drops(self.case, step.load_factor, step.mechanism)
+                falling = fallen | (drops & _drops(self.case, solved.load_factor, solids.block_motions(solved.mechanism)))
+            if not (falling & ~fallen).any() or self._ends_it(falling):
+                break
+            fallen = falling
+        if solved is None:
+            return None
+        moved = self.control.displacement(self.model, pose)
+        there = solids.block_motions(solved.mechanism)
+        forces = solved.contact_forces
+        return Step(moved, solved.load_factor, there, forces, pose, fallen, work), _Normals.of(found.contacts, forces)
+
+    def _ends_it(self, fallen: BoolArray) -> bool:
+        """Whether too much of the control point has fallen to go on."""
+        return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
+
+    def _falling(self, solids: Solids, case: LoadCase) -> BoolArray:
+        """Blocks that the dead load alone brings down there, (n_blocks,)."""
+        program = assemble(solids.model, solids.contacts, case, own=False)
+        falls = np.zeros(len(solids.model.blocks), dtype=bool)
+        for part in reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts:
+            motion = steepest_fall(part, self.settings, self.log)
+            if motion is not None:
+                falls |= np.any(motion_of(part, motion) != 0.0, axis=1)
+        return np.asarray(falls[solids.label])
+
+    def _solved(
+        self, solids: Solids, case: LoadCase, found: MovedContacts, work: float, normals: _Normals
+    ) -> Mechanics | None:
+        """Forces and mechanism there, of the solids."""
+        program = assemble(solids.model, solids.contacts, case, own=False)
+        scaling = program.scaling
+        program = replace(program, gaps=found.gaps / work * scaling.force * scaling.units / scaling.live)
+        parts = reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts
+        near = normals.at(found.contacts)
+        states = [self._state(part, near) if np.any(part.live_load) else None for part in parts]
+        known = [(state.load_factor, row) for row, state in enumerate(states) if state is not None]
+        if len(known) < sum(bool(np.any(part.live_load)) for part in parts) or not known:
+            return None
+        row = min(known)[1]
+        state = states[row]
+        assert state is not None  # it is among those known
+        whole = assemble_parts(parts, row, state, self.settings, self.log, states)
+        return mechanics_of(*(whole or (parts[row], state)))
+
+    def _state(self, part: Program, normals: FloatArray) -> LawState | None:
+        """The state of a part from the normal forces of the step before; from its motion it took half as long again."""
+        slope = self._slope(part)
+        alternation = Alternation(part, slope, self.settings, self.log, [])
+        found: list[LawState] = []
+        start = _reduced(part, normals)
+        for most in (FEW_PAIRS, MOST_PAIRS):
+            for state in islice(alternation.states(start), most):
+                found.append(state)
+                if state.residual < WANTED:
+                    break
+            best = min(found, key=lambda state: state.residual, default=None)
+            if best is None or best.residual < ENOUGH or most == MOST_PAIRS or part.components == 3:
+                break
+            run = run_with_moving_anchor(stiffness_of(part), slope, best.forces, MOST_RUN, WANTED, lambda *each: None)
+            if run.best is not None:
+                found.append(run.best)
+                start = run.best.forces[:, 0]
+        return best
+
+    def _slope(self, part: Program) -> FloatArray:
+        """Tangent of the dilatancy angle, (n_points,)."""
+        return part.limits.dilatancy_by(self.settings.analysis.flow_rule)
+
+
+PLANE_AND_PARTS = ReductionSwitches(True, False, False)
+"""Planes and parts alone: halves and contact points cannot be left out where blocks move on."""
+
+
+def moved_solids(
+    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray
+) -> tuple[Solids, LoadCase]:
+    """The model that the solver sees there, debris fixed, and the loads on it."""
+    there = moved_model(model, pose)
+    solids = solids_of(replace(there, fixed=there.fixed | fallen, load_cases=()), found.contacts)
+    return solids, solids.load_case(moved_case(case, pose))
+
+
+def _drops(case: LoadCase, load_factor: float, mechanism: FloatArray) -> BoolArray:
+    """Blocks that move in a motion, (n_blocks, 6), that the dead load drives and hardly the live load, (n_blocks,)."""
+    speed = np.linalg.norm(mechanism[:, :3], axis=1)
+    driven = float(np.vdot(case.dead_load, mechanism)) > DRIVEN * abs(load_factor)
+    return np.asarray(driven & (speed > FAST * speed.max(initial=0.0)))
+
+
+def _hanging(model: Model, contacts: Contacts) -> BoolArray:
+    """Free blocks that touch no support, directly or through others, (n_blocks,)."""
+    n_blocks = len(model.blocks)
+    held = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
+    held[model.guides.blocks] = True
+    node = np.where(held, len(held), np.arange(len(held)))
+    pairs = [node[contacts.bodies]]
+    if contacts.solid_of_block is not None:
+        first = np.unique(contacts.solid_of_block, return_index=True)[1]
+        pairs.append(np.column_stack([node[:n_blocks], node[first[contacts.solid_of_block]]]))
+    label = connected_labels(np.vstack(pairs), len(held) + 1)
+    return np.asarray(~held[:n_blocks] & (label[:n_blocks] != label[-1]))
+
+
+def _reduced(part: Program, normals: FloatArray) -> FloatArray:
+    """Normal forces of the points of a part, non-dimensional, from those of all points of the model, (n_points,) N."""
+    programs = [part]
+    while (reduction := programs[-1].reduction) is not None:
+        programs.append(reduction.full)
+    full = np.zeros((len(normals), programs[-1].components))
+    full[:, 0] = normals / part.scaling.force
+    values = full.ravel()
+    for program in reversed(programs[:-1]):
+        assert program.reduction is not None
+        forces = program.reduction.forces
+        values = (forces.T @ values) / np.maximum(np.asarray(forces.power(2).sum(axis=0)).ravel(), 1e-300)
+    return np.asarray(values.reshape(-1, part.components)[:, 0])
