@@ -31,9 +31,9 @@ from mbla.model.model import Model
 from mbla.model.pose import Pose, moved_model
 from mbla.model.solids.plane import meeting_boxes
 
-FACING = float(np.cos(np.radians(50.0)))
-"""Cosine of the angle from opposite up to which facets of moved blocks are in contact: blocks that turn by more against
-each other have fallen."""
+FACING, HINGED = (float(np.cos(np.radians(angle))) for angle in (50.0, 85.0))
+"""Cosine of the angle from opposite up to which facets of moved blocks are in contact: corners that come together at a
+larger one have other normals. Facets in contact as built hinge on each other up to the second."""
 
 REACH = 0.05
 """Gap, over block size, beyond which facets are not in contact: a step moves blocks by less (:data:`LARGEST_MOTION` of
@@ -71,11 +71,12 @@ class MovedSearch:
         corners = shapely.get_coordinates(self.facets.polygons, return_index=True)
         self._corners, self._facet_of_corner = corners
         self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
-        self._edges = np.zeros(0, dtype=np.int64)
+        self._edges = self._joined = np.zeros(0, dtype=np.int64)
         overlays, parts = self._near(model, self.facets)
         least, greatest = _extreme_gaps(overlays, parts)
         apart = ((greatest > section.tolerance) & (least < section.tolerance)) | (widths(parts) < section.tolerance)
-        self._edges = np.unique(self._pair(overlays)[apart])
+        pair = self._pair(overlays.bodies, overlays.facets)
+        self._edges, self._joined = np.unique(pair[apart]), np.unique(pair[~apart & (greatest <= section.tolerance)])
 
     def at(self, pose: Pose, fallen: BoolArray | None = None) -> MovedContacts:
         """Contacts of the model with its blocks there, but those of debris, (n_blocks,)."""
@@ -83,7 +84,8 @@ class MovedSearch:
         facets = self._facets(pose)
         overlays, parts = self._near(model, facets)
         if fallen is not None and fallen.any():
-            stands = ~np.append(fallen, np.zeros(len(model.grounds), dtype=bool))[overlays.bodies].any(axis=1)
+            loose = np.append(fallen, np.zeros(len(model.grounds), dtype=bool))
+            stands = np.asarray(~np.any(loose[overlays.bodies], axis=1))
             overlays, parts = overlays.take(stands), parts[stands]
         order = np.lexsort((overlays.facets[:, 1], overlays.facets[:, 0], overlays.bodies[:, 1], overlays.bodies[:, 0]))
         overlays, parts = overlays.take(order), parts[order]
@@ -125,16 +127,18 @@ class MovedSearch:
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
         near = (widths(parts) > NARROW) & (_extreme_gaps(overlays, parts)[0] < REACH)
-        near &= ~both_fixed(model, overlays.bodies) & ~np.isin(self._pair(overlays), self._edges)
+        near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
+            self._pair(overlays.bodies, overlays.facets), self._edges
+        )
         if (solid := self.contacts.solid_of_block) is not None:
             body = np.append(solid, len(solid) + np.arange(len(model.grounds)))[overlays.bodies]
             near &= body[:, 0] != body[:, 1]
         return overlays.take(near), parts[near]
 
-    def _pair(self, overlays: Overlays) -> IntArray:
+    def _pair(self, bodies: IntArray, facets: IntArray) -> IntArray:
         """A number for each pair of facets, (n,); ground planes, which have none, go by their bodies."""
-        first = np.where(overlays.facets[:, 0] < 0, len(self.facets) + overlays.bodies[:, 0], overlays.facets[:, 0])
-        return np.asarray(first * len(self.facets) + overlays.facets[:, 1])
+        first = np.where(facets[:, 0] < 0, len(self.facets) + bodies[:, 0], facets[:, 0])
+        return np.asarray(first * len(self.facets) + facets[:, 1])
 
     def _facets(self, pose: Pose) -> Facets:
         """The facets there."""
@@ -158,7 +162,10 @@ class MovedSearch:
         sizes = model.blocks.sizes[facets.blocks]
         margin = (REACH / 2 * sizes)[:, None]
         a, b = meeting_boxes(facets.lower - margin, facets.upper + margin, facets.lower - margin, facets.upper + margin)
-        facing = (facets.blocks[a] < facets.blocks[b]) & self._face_each_other(facets.normals[a], facets.normals[b])
+        other = facets.blocks[a] < facets.blocks[b]
+        a, b = a[other], b[other]
+        bodies, pairs = np.column_stack([facets.blocks[a], facets.blocks[b]]), np.column_stack([a, b])
+        facing = self._face_each_other(bodies, pairs, facets.normals[a], facets.normals[b])
         a, b = a[facing], b[facing]
         larger = self._areas[a] - self._areas[b]
         same = np.abs(larger) <= SAME_AREA * self._areas[b]
@@ -181,7 +188,10 @@ class MovedSearch:
             corner = np.where(ground.normal > 0, facets.lower, facets.upper)
             reach = (corner - ground.point) @ ground.normal
             normals = np.broadcast_to(ground.normal, (len(facets), 3))
-            chosen = (reach < REACH * sizes) & self._face_each_other(normals, facets.normals)
+            every = np.arange(len(facets))
+            bodies = np.full((len(facets), 1), len(model.blocks) + index)
+            pairs = np.column_stack([np.full(len(facets), -1), every])
+            chosen = (reach < REACH * sizes) & self._face_each_other(bodies, pairs, normals, facets.normals)
             if ground.blocks is not None:
                 chosen &= np.isin(facets.blocks, ground.blocks)
             rows = np.flatnonzero(chosen)
@@ -198,9 +208,12 @@ class MovedSearch:
             shapes.append(_outlines(on_ground, facets, 1))
         return concatenate(overlays), np.concatenate(shapes)
 
-    @staticmethod
-    def _face_each_other(first: FloatArray, second: FloatArray) -> BoolArray:
-        return np.asarray(np.einsum("ki,ki->k", first, second) < -FACING)
+    def _face_each_other(self, bodies: IntArray, pairs: IntArray, first: FloatArray, second: FloatArray) -> BoolArray:
+        """Whether facets, (n, 2), with these normals may be in contact, (n,)."""
+        against = -np.einsum("ki,ki->k", first, second)
+        hinges = (against > HINGED) & (against <= FACING)
+        hinges[hinges] = np.isin(self._pair(bodies[hinges], pairs[hinges]), self._joined)
+        return np.asarray((against > FACING) | hinges)
 
     def _as_built(self, overlays: Overlays, parts: Polygons, pose: Pose) -> tuple[Overlays, FloatArray]:
         """Overlays and centroids with body b where it was built: joint laws go by orientation and place there."""

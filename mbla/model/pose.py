@@ -38,6 +38,11 @@ class Pose:
         """As built."""
         return Pose(np.zeros((n_blocks, 3)), np.broadcast_to(np.eye(3), (n_blocks, 3, 3)).copy())
 
+    @property
+    def rotation_vectors(self) -> FloatArray:
+        """(n_blocks, 3) rad."""
+        return np.asarray(Rotation.from_matrix(self.rotation).as_rotvec())
+
     def after(self, twists: FloatArray) -> Pose:
         """After twists about the centroids, velocity and rotation vector times the time they act, (n_blocks, 6)."""
         moved, turned = twists[:, :3], twists[:, 3:]

@@ -67,7 +67,12 @@ def build_settlement(
     if section.turn is not None:
         size *= _distance_from(section, roster.blocks.centroids[free])
     settlement = Settlement(chosen, motions, section.turn is not None, words, np.nan, size)
-    return with_reference(replace(load_case, settlement=settlement), np.nan)
+    pushover = load_case.pushover
+    if pushover is not None and section.direction is not None:
+        levers = pushover.dead_levers.copy()
+        levers[chosen] = 0.0  # the reaction acts on their centroids
+        pushover = replace(pushover, blocks=chosen, direction=unit(section.direction), dead_levers=levers)
+    return with_reference(replace(load_case, settlement=settlement, pushover=pushover), np.nan)
 
 
 def with_reference(load_case: LoadCase, reference: float) -> LoadCase:

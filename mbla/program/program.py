@@ -85,8 +85,8 @@ class Program:
     allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
     gaps               : (n_points,) by how much each point may close before it touches, over the live work of the step
-                         of a finite displacement (:mod:`mbla.solution.pushover.steps`): v_N + gap takes the place of v_N;
-                         None where all touch
+                         of a finite displacement (:mod:`mbla.solution.pushover.steps`): v_N + gap is in the place of
+                         v_N; None where all touch
     settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
                          structure stands
     """

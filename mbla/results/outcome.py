@@ -16,7 +16,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model, Tilt
 from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
+from mbla.solution.solution import PROVED_STANDING, Checks, CurveEnd, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 from mbla.solution.tilt_circle import angle_above, line_of
 
@@ -233,10 +233,13 @@ def angle_of(case: CaseResult) -> float:
 def ultimate_displacement(case: CaseResult) -> float:
     """Displacement of the control point at which a pushover leaves no load factor, on the line between two steps.
 
-    nan where it did not come so far, or where there is none.
+    That of the last step where it falls on from there under its dead load alone, or nothing carries it any more; nan
+    where the pushover did not come so far, or where there is none.
     """
     curve = case.solution.curve
-    if len(curve) < 2 or curve[-1].load_factor > 0.0:
+    if case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
+        return curve[-1].displacement
+    if len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:
         return math.nan
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)

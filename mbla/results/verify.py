@@ -37,6 +37,7 @@ from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
 from mbla.solution.glued import with_derived
+from mbla.solution.pushover.curve import begun_by, curve_of
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -82,6 +83,9 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, deck, crushable and takes_stress_blocks(deck.analysis))
     solution = with_derived(model, contacts, load_case, solution)
+    if deck is not None and solution.pushed is not None and solution.mechanics is not None:
+        solution = begun_by(solution)
+        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         upright = level_bound(model, contacts, load_case, solution)
         load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
@@ -128,11 +132,13 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     """What the deck asks for and the file neither has nor explains."""
     solution, knobs = case.solution, knobs_of(deck.analysis)
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
-    missing = ["standing"] if knobs.standing and claims and solution.standing is None else []
+    said = {remark.identifier for remark in solution.remarks}
+    pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
+    missing = [] if pushed else ["pushover"]
+    missing += ["standing"] if knobs.standing and claims and solution.standing is None else []
     if solution.mechanics is None or solution.conditions_on_interfaces:
         return [_lacks(what) for what in missing]
-    explained = any(remark.identifier in ("range-not-computed", "range-not-found") for remark in solution.remarks)
-    if knobs.range and not explained and not _by_normality(solution):
+    if knobs.range and not said & {"range-not-computed", "range-not-found"} and not _by_normality(solution):
         missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
     if deck.analysis.force_ranges and solution.force_ranges is None:
         missing.append("ranges of normal forces")

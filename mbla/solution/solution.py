@@ -115,6 +115,19 @@ class PathPoint:
     residual: float
 
 
+class CurveEnd(StrEnum):
+    """Why a pushover ends."""
+
+    NONE = ""
+    NOTHING_LEFT = "the load factor is nothing"
+    FALLS = "it falls on under its dead load alone"
+    NOT_CARRIED = "nothing carries it any more"
+    REACHED = "the displacement asked for is reached"
+    STEPS_DONE = "the steps asked for are done"
+    STUCK = "no forces or no motion were found for the next step"
+    LATE = "the time limit was reached"
+
+
 @dataclass(frozen=True)
 class CurveRow:
     """One step of a pushover, as code that did not solve it finds it from its forces and mechanism.
@@ -226,7 +239,7 @@ class Solution:
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the load path that was followed
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
-    curve_end   : in words why it ends
+    curve_end   : why it ends
     pushed      : forces and mechanisms of its steps
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
@@ -257,7 +270,7 @@ class Solution:
     force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
     curve: tuple[CurveRow, ...] = ()
-    curve_end: str = ""
+    curve_end: CurveEnd = CurveEnd.NONE
     pushed: PushedSteps | None = field(default=None, compare=False)
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None

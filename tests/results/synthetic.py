@@ -20,12 +20,14 @@ from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
     Checks,
+    CurveEnd,
     CurveRow,
     IterationRecord,
     Mechanics,
     ModelSize,
     PathPoint,
     ProgramRecord,
+    PushedSteps,
     Solution,
     Standing,
     StandingResult,
@@ -269,8 +271,20 @@ def full_solution(solution: Solution) -> Solution:
         lock=np.arange(24.0).reshape(8, 3),
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
-        curve=(CurveRow(0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0), CurveRow(1, 0.02, 0.4, 1e-9, 1e-8, 0.9, 0.1, 0.8)),
-        curve_end="the steps asked for are done",
+        curve=(
+            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0),
+            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.8, new_mechanism=True, debris=1),
+        ),
+        curve_end=CurveEnd.STEPS_DONE,
+        pushed=PushedSteps(
+            work=np.array([0.0, 0.01]),
+            load_factors=np.array([0.5, 0.4]),
+            mechanisms=np.stack([mechanics.mechanism, 0.5 * mechanics.mechanism]),
+            fallen=np.array([[False, False, False], [False, False, True]]),
+            point_start=np.array([0, 8, 12]),
+            forces=np.arange(36.0).reshape(12, 3),
+            errors=np.array([0.0, 1e-4]),
+        ),
         size=ModelSize(2, 1, 3, 2, 4, 4),
         reductions=(STEP,),
         solver="mbla",
@@ -287,7 +301,9 @@ def standing_at(number: int, count: int, point: Any, distance: float, behind: An
 def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
-    pushover = Pushing(0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]), *np.arange(54.0).reshape(2, 3, 9))
+    pushover = Pushing(
+        0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]), True, *np.arange(54.0).reshape(2, 3, 9)
+    )
     not_run = replace(
         model.load_cases[2],
         pushover=pushover,

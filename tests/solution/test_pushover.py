@@ -13,10 +13,10 @@ from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
-from mbla.results.listing.figures import energy_missing
-from mbla.solution.pushover.curve import FALLEN, REACHED, STEPS_DONE, pushed
+from mbla.results.listing.pushover import energy_missing
+from mbla.solution.pushover.curve import pushed
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import CurveRow, Solution
+from mbla.solution.solution import CurveEnd, CurveRow, Solution
 from mbla.solution.solve import solve
 from tests.line import BLOCK
 
@@ -47,7 +47,7 @@ def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
     moved, factors = columns(solution.curve)
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-8)
-    assert solution.curve_end == FALLEN
+    assert solution.curve_end is CurveEnd.NOTHING_LEFT
     before, last = solution.curve[-2:]
     ends = [last.load_factor, before.load_factor], [last.displacement, before.displacement]
     assert np.interp(0.0, *ends) == pytest.approx(0.1, rel=1e-5)
@@ -94,7 +94,7 @@ def test_a_sliding_block_keeps_its_load_factor_and_does_not_lift() -> None:
     moved, factors = columns(solution.curve)
     assert factors == pytest.approx(0.3 / math.hypot(1.0, 0.4), rel=1e-7)
     assert moved[-1] == pytest.approx(0.5, abs=0.02)
-    assert solution.curve_end == REACHED
+    assert solution.curve_end is CurveEnd.REACHED
     last = solution.curve[-1]
     assert abs(last.potential) < 1e-9 * last.friction
     assert last.friction == pytest.approx(last.live_work, rel=1e-6)
@@ -129,7 +129,7 @@ def test_the_published_curve_of_an_arch() -> None:
 def test_steps_are_counted() -> None:
     solution = pushover_of(ROCKING, "load_cases.push.pushover.steps=3")
     assert [row.step for row in solution.curve] == [0, 1, 2, 3]
-    assert solution.curve_end == STEPS_DONE
+    assert solution.curve_end is CurveEnd.STEPS_DONE
 
 
 def test_what_cannot_be_followed_is_said(tmp_path: Path) -> None:

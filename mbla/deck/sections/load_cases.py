@@ -15,6 +15,10 @@ from mbla.deck.sections.supports import Turn
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
+STEPS_OF_TWICE_THE_SIZE = (
+    "make steps of twice the size as well: the difference is the error of each load factor, to first order"
+)
+
 
 @exactly_one_of("direction", "turn")
 class SettlementSection(Section):
@@ -25,6 +29,13 @@ class SettlementSection(Section):
         None, description="the way they go: [0, 0, -1] for a support that sinks, horizontal for one that spreads"
     )
     turn: Turn | None = Field(None, description="or the line about which they turn")
+    amount: PositiveLength | None = Field(
+        None,
+        description="how far they go: the reaction is followed as the structure moves with them, until nothing carries "
+        "it any more; with direction. Only the first movement unless given",
+    )
+    step: PositiveLength | None = Field(None, description="displacement in a step; a fiftieth of amount unless given")
+    error: bool = Field(False, description=STEPS_OF_TWICE_THE_SIZE)
 
 
 class ControlSection(Section):
@@ -46,9 +57,7 @@ class PushoverSection(Section):
         None, description="displacement at which to end; the one at which the load factor is nothing unless given"
     )
     steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
-    error: bool = Field(
-        False, description="make steps of twice the size as well, whose difference is the error of the load factors"
-    )
+    error: bool = Field(False, description=STEPS_OF_TWICE_THE_SIZE)
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
 
 
@@ -74,6 +83,16 @@ class LoadCaseSection(Section):
     )
 
 
+@rule(SettlementSection)
+def followed_settlement(settlement: SettlementSection) -> Iterator[Finding]:
+    """What is followed slides, and has an end."""
+    if settlement.amount is not None and settlement.direction is None:
+        yield Finding("settlement-not-followed", "goes with direction: a turn is not followed", "amount")
+    if settlement.amount is None and (settlement.step is not None or settlement.error):
+        key = "error" if settlement.step is None else "step"
+        yield Finding("settlement-not-followed", "goes with amount, how far the support is followed", key)
+
+
 @rule(LoadCaseSection)
 def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     """What tilts or travels is live, and there is one of it."""
@@ -95,7 +114,7 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
 
 def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
     if case.live is None:
-        words = "goes with live loads: a support that gives way is not followed"
+        words = "goes with live loads: a support that gives way is followed by its own amount"
         yield Finding("pushover-not-possible", words, "pushover")
     for number, load in enumerate(case.live or []):
         for kind in given(load, LIVE_ONLY):

@@ -28,6 +28,9 @@ CANCELLED = 1e-12
 COMPUTABLE = (1e-100, 1e100)
 """largest load of a case, in units of force"""
 
+STEPS_OF_SETTLEMENT, MOST_OF_SETTLEMENT = 50, 2000
+"""steps of a settlement unless the deck says how long they are, and at most: each is shorter where blocks move far"""
+
 
 @dataclass(frozen=True)
 class _Sum:
@@ -79,7 +82,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
-        pushed = None if section.pushover is None else _pushing(name, section, dead.total, own.total, site)
+        pushed = _pushing(name, section, dead.total, own.total, site)
         loads = dead.total[:, :6], own.total[:, :6]
         case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed)
         if position is not None:
@@ -91,16 +94,24 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
 
 
 def _pushing(name: str, section: LoadCaseSection, dead: FloatArray, live: FloatArray, site: LoadSite) -> Pushing | None:
-    """What a pushover is to do, with the levers of dead and live load; None, and a fault, where no blocks are found."""
-    asked = section.pushover
-    assert asked is not None  # else there is none
-    blocks: IntArray | None = np.zeros(0, dtype=np.int64)
+    """What is followed beyond the first movement, with the levers of dead and live load; None for nothing.
+
+    None, and a fault, where the blocks of the control point are not found; those of a settlement are not known yet.
+    """
+    asked, settlement, levers = section.pushover, section.settlement, [each[:, 6:] for each in (dead, live)]
+    none = np.zeros(0, dtype=np.int64)
+    blocks: IntArray | None = none
+    if settlement is not None and settlement.amount is not None:
+        step = settlement.amount / STEPS_OF_SETTLEMENT if settlement.step is None else settlement.step
+        return Pushing(step, settlement.amount, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), settlement.error, *levers)
+    if asked is None:
+        return None
     if asked.control.on is not None:
         path: KeyPath = ("load_cases", name, "pushover", "control", "on")
         blocks = select_blocks(asked.control.on, path, site.roster)
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
-    until, levers = np.inf if asked.until is None else asked.until, [each[:, 6:] for each in (dead, live)]
+    until = np.inf if asked.until is None else asked.until
     return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, asked.error, *levers)
 
 

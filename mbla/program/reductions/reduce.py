@@ -62,7 +62,8 @@ def reduce_program(
                   the answer is unique. A half is left out as well about a plane that the deck says to mirror it
     """
     if program.guided and program.reduction is not None:
-        program = program.reduction.full  # guides come last, on what the other reductions leave
+        # guides come last, on what the other reductions leave; they have the same points
+        program = replace(program.reduction.full, gaps=program.gaps)
     scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
     scenes = split_into_parts(scene) if switches.on else [scene]
     steps += _steps_of_parts(scene, scenes, switches)

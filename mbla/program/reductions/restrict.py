@@ -40,7 +40,7 @@ def restricted(
     if gaps is not None:
         every = np.zeros((len(gaps), program.components))
         every[:, 0] = gaps
-        gaps = np.asarray(forces.T @ every.ravel()).reshape(len(limits.friction), -1)[:, 0]
+        gaps = np.asarray(forces.T @ every.ravel()).reshape(-1, components or program.components)[:, 0]
     return Program(
         equilibrium_matrix=_in_unknowns(program.equilibrium_matrix, velocities, forces),
         dead_load=np.asarray(velocities.T @ program.dead_load),

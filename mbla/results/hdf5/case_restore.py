@@ -18,9 +18,11 @@ from mbla.results.results import CaseResult
 from mbla.solution.solution import (
     Checks,
     ContactMode,
+    CurveEnd,
     CurveRow,
     Mechanics,
     ModelSize,
+    PushedSteps,
     Solution,
     Standing,
     StandingResult,
@@ -53,13 +55,32 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "size": _size(get),
         "reductions": _reductions(get),
         **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
-        "curve": _records(CurveRow, get, "curve") if "curve/step" in get else (),
+        "curve_end": CurveEnd(get.get("curve_end", "")),
+        **_pushed(get),
     }
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())
     lower, upper = get["range"].tolist()
     checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
+
+
+def _pushed(get: dict[str, Any]) -> dict[str, Any]:
+    """Rows of a pushover and what they follow from; nothing where there is none."""
+    if "curve/step" not in get:
+        return {}
+    steps = PushedSteps(
+        work=get["pushed/work"],
+        load_factors=get["curve/load_factor"],
+        mechanisms=get["pushed/mechanism"],
+        fallen=get["pushed/fallen"],
+        point_start=get["pushed/point_start"],
+        forces=get["pushed/contact_forces"],
+        errors=get["curve/error"],
+    )
+    if not len(steps) or not len(steps.load_factors) == len(steps) == len(steps.point_start) - 1:
+        raise ValueError("steps of a pushover")
+    return {"curve": _records(CurveRow, get, "curve"), "pushed": steps}
 
 
 def _choices(key: str) -> tuple[str, ...]:

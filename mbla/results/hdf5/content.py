@@ -20,6 +20,7 @@ from mbla.results.outcome import least_and_greatest
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
+from mbla.solution.pushover.curve import poses_of
 from mbla.solution.solution import (
     Checks,
     CurveRow,
@@ -28,6 +29,7 @@ from mbla.solution.solution import (
     ModelSize,
     PathPoint,
     ProgramRecord,
+    PushedSteps,
     ReductionStep,
     Solution,
     StandingResult,
@@ -212,8 +214,8 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     }
     for group, kind in HISTORY.items():
         content |= _columns(group, kind, getattr(solution, group))
-    if solution.curve:
-        content |= _columns("curve", CurveRow, solution.curve)
+    if solution.pushed is not None:
+        content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
     else:
         del content["curve_end"]
     settlement = case.load_case.settlement
@@ -226,6 +228,20 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
             own = _answer(mechanics) | {"residual": residual}
             content |= {f"{group}/{name}".lstrip("/"): value for name, value in own.items()}
     return content | _collapse(model, contacts, case) | _further(solution)
+
+
+def _pushed(steps: PushedSteps) -> Content:
+    """Poses, mechanisms and forces of a pushover."""
+    poses = list(poses_of(steps))
+    return {
+        "shift": np.stack([pose.shift for pose in poses]),
+        "rotation": np.stack([pose.rotation_vectors for pose in poses]),
+        "fallen": steps.fallen,
+        "work": steps.work,
+        "mechanism": steps.mechanisms,
+        "point_start": steps.point_start,
+        "contact_forces": steps.forces,
+    }
 
 
 def _messages(group: str, messages: Sequence[Message]) -> Content:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -28,10 +28,9 @@ from mbla.results.outcome import (
     locked_in,
     range_of,
     result_of,
-    ultimate_displacement,
 )
 from mbla.results.results import CaseResult
-from mbla.solution.solution import CurveRow, Mechanics, ModelSize, Solution, Status
+from mbla.solution.solution import Mechanics, ModelSize, Solution, Status
 from mbla.solution.verification.verify_points import tolerances
 
 
@@ -231,55 +230,3 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
     ]
     head = ["step", "load factor", "points open", "sliding", "residual"]
     return ["", *sentence(says), *long_table(head, rows, len(path))[1:]]
-
-
-# --- The pushover in words ------------------------------------------------------------------------------------------
-
-
-def curve_words(model: Model, case: CaseResult) -> str:
-    """Greatest load factor, where the load factor is nothing, and how well that is known; empty without a pushover."""
-    curve = case.solution.curve
-    if not curve:
-        return ""
-    unit, top = model.units.length, max(curve, key=lambda row: row.load_factor)
-    highest = load_factor_words(model, case.load_case, top.load_factor)
-    says = f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {unit}; "
-    last = curve[-1]
-    if last.load_factor <= 0.0:
-        says += f"nothing at {number(ultimate_displacement(case))} {unit}"
-    else:
-        says += f"{load_factor_words(model, case.load_case, last.load_factor)} at {number(last.displacement)} {unit}"
-        says += f", where {case.solution.curve_end}"
-    worst = max(row.residual for row in curve)
-    return f"{says}. Not verified: the joint law is met to {worst:.1g} in every step."
-
-
-def curve_lines(model: Model, case: CaseResult) -> list[str]:
-    """The capacity curve: a sentence, and a table of steps evenly chosen; nothing without a pushover."""
-    curve, units = case.solution.curve, model.units
-    if not curve:
-        return []
-    shown = [curve[row] for row in np.unique(np.linspace(0, len(curve) - 1, MOST_ROWS).astype(int)).tolist()]
-    rows = [
-        [
-            str(row.step),
-            *(number(value) for value in (row.displacement, row.load_factor)),
-            *(small(value) for value in (row.residual, row.overlap)),
-            *(number(value) for value in (row.live_work, row.friction, row.potential)),
-        ]
-        for row in shown
-    ]
-    head = ["step", f"moved [{units.length}]", "load factor", "residual", f"overlap [{units.length}]"]
-    head += ["live work", "friction", "dead load"]
-    says = [curve_words(model, case)]
-    missing = energy_missing(curve)
-    says.append(f"Live work less friction and what the dead load gained: {missing:.2g} of the live work.")
-    says.append(f"Work and energies in {units.force} {units.length}.")
-    return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
-
-
-def energy_missing(curve: Sequence[CurveRow]) -> float:
-    """Live work that neither friction nor the dead load has taken, over the largest of the three."""
-    last = curve[-1]
-    size = max(abs(last.live_work), last.friction, abs(last.potential), 1e-300)
-    return (last.live_work - last.friction - last.potential) / size

@@ -15,7 +15,7 @@ from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import series_lines, worst_words
-from mbla.results.listing.figures import curve_lines, figures, path_lines, program_lines
+from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
     enough_lines,
     force_range_lines,
@@ -35,6 +35,7 @@ from mbla.results.listing.model_words import (
     settings_lines,
     spaced,
 )
+from mbla.results.listing.pushover import curve_lines
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
-from mbla.results.listing.figures import curve_words
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
+from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of

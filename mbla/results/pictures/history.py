@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
-from mbla.results.listing.figures import curve_words
+from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
@@ -17,6 +17,7 @@ from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, 
 from mbla.results.pictures.scene import Scene
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 LINES = (
     ("gap", "gap", VERMILION, "-", "o"),
@@ -126,17 +127,28 @@ def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
     """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
     curve, words = scene.case.solution.curve, scene.words_of("curve")[:2]
     words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
-    mark = "NOT VERIFIED: no other code has recomputed this curve" if curve else ""
+    sure = np.array([row.residual <= SOLVED_RESIDUAL for row in curve])
+    mark = "" if sure.all() else f"NOT VERIFIED: {int((~sure).sum())} of {len(sure)} steps, hollow"
     with open_diagrams(path, options, words, mark) as sheet:
         page, axes = sheet.page, sheet.frames(1)[0, 0]
         if not curve:
             axes.set_axis_off()
             return
-        dress(page, axes, f"displacement of the control point [{scene.model.units.length}]", "load factor")
-        moved, factors = [row.displacement for row in curve], [row.load_factor for row in curve]
-        axes.plot(moved, factors, color=BLUE, marker=".", linewidth=1.8 * page.scale, markersize=5 * page.scale)
-        axes.set_xlim(left=min(0.0, *moved) if len(moved) > 1 else 0.0)
-        axes.set_ylim(bottom=min(0.0, *factors) if len(factors) > 1 else 0.0)
+        units, settles = scene.model.units, scene.case.load_case.settlement is not None
+        what, of = ("reaction", f" [{units.force}]") if settles else ("load factor", "")
+        dress(
+            page, axes, f"displacement of the {'support' if settles else 'control point'} [{units.length}]", what + of
+        )
+        moved = np.array([row.displacement for row in curve])
+        values = np.array([row.reaction if settles else row.load_factor for row in curve])
+        look = {"color": BLUE, "linestyle": "none", "marker": "o", "markersize": 3.5 * page.scale}
+        axes.plot(moved, values, color=BLUE, linewidth=1.8 * page.scale)
+        axes.plot(moved[sure], values[sure], **look)
+        axes.plot(moved[~sure], values[~sure], markerfacecolor="white", **look)
+        for row in np.flatnonzero([row.new_mechanism for row in curve]).tolist():
+            axes.axvline(moved[row], color=GHOST, linewidth=0.8 * page.scale, zorder=0)
+        axes.set_xlim(left=min(0.0, float(moved.min())))
+        axes.set_ylim(bottom=min(0.0, float(values.min())))
 
 
 def draw_series(path: Path, scene: Scene, series: Series, options: PictureOptions) -> None:

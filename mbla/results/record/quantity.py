@@ -67,7 +67,7 @@ UNVERIFIED = {
     "files": "names of files",
     "words": "reasons and remarks in words",
     "course": "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions",
-    "curve": "load factors of a structure that has moved",
+    "curve": "of a pushover: errors of its load factors, which blocks fall without the rest, why it ends",
     "searches": "tries that did not agree, ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
     "before",

@@ -105,12 +105,17 @@ def misfit(program: Program, state: LawState) -> float:
 
 
 def imbalance(program: Program, state: LawState) -> float:
-    """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block."""
-    while program.halved and program.reduction is not None:
+    """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block.
+
+    Of guided blocks only what does work in the motions that their guides allow counts.
+    """
+    while program.halved and not program.guided and program.reduction is not None:
         state, program = lifted(program, state), program.reduction.full
     left = np.asarray(
         program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + state.load_factor * program.live_load
     )
+    if program.guided and program.reduction is not None:
+        left, program = program.reduction.velocities @ left, program.reduction.full
     rows = 3 if program.components == 2 else 6
     carried = carried_loads(program, state.forces).reshape(-1, rows).max(axis=1)
     scale = np.clip(carried, np.finfo(float).tiny, 1.0)

@@ -4,9 +4,9 @@ Poses follow from the mechanisms, contacts from the poses, and with these every 
 (:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ of
 the step that led there. No matrix of the program stage is used for it and no solver called.
 
-The curve ends where the load factor is nothing, at the displacement asked for, or where no forces or no motion are
-found. The error of a load factor is its difference from the curve of steps twice as long, which the whole of it is of
-first order in the step.
+The curve ends where the load factor is nothing, where the structure falls on without the live load, at the displacement
+asked for, or where no forces or no motion are found. The error of a load factor, which is of first order in the step,
+is its difference from the curve of steps twice as long.
 """
 
 from __future__ import annotations
@@ -28,14 +28,15 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.pushover.control import Control
 from mbla.solution.pushover.steps import Pushover, Step, moved_solids
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import CurveRow, Mechanics, PushedSteps, Solution
+from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.case import Case, InterfaceTerms
 from mbla.solution.verification.residuals import residuals_of
 
-FALLEN, REACHED = "the load factor is nothing", "the displacement asked for is reached"
-STEPS_DONE, STUCK = "the steps asked for are done", "no forces or no motion were found for the next step"
-LATE, SETTLED = "the time limit was reached", "nothing carries the structure any more"
+BY_ITSELF, MOST_DROPPING = 100.0, 50
+"""Power of the dead load over that of the live load in a mechanism by which a structure goes on whatever the live load,
+and steps that it may do so until its blocks come to rest on others: the curve goes on from there, or ends where the
+fall began."""
 
 ALIKE = 0.9
 """Cosine between the motions of two steps below which they are two mechanisms."""
@@ -101,34 +102,45 @@ def pushed(
     errors = np.full(len(steps), np.nan)
     if case.pushover.error:
         longer, _ = _followed(replace(push, step=2.0 * push.step), solution.mechanics)
-        moved, factors = (np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor"))
+        moved, factors = (
+            np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor")
+        )
         own = np.array([each.displacement for each in steps])
         errors = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
-    record = _record(steps, errors)
-    curve = curve_of(model, contacts, section, case, solution.mechanics, record, solution.flow_rule)
+    solution = replace(solution, pushed=_record(steps, errors), curve_end=end)
+    curve = curve_of(model, contacts, section, case, solution)
     remarks, rough = solution.remarks, [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
     if rough:
         worst = max(rough, key=lambda row: row.residual)
         words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
         words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
         remarks = (*remarks, Message("pushover-rough", words))
-    return replace(solution, curve=curve, curve_end=end, pushed=record, remarks=remarks)
+    return replace(solution, curve=curve, remarks=remarks)
 
 
-def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], str]:
-    """Steps up to the end of the curve, and in words why it ends."""
+def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
+    """Steps up to the end of the curve, and why it ends."""
     asked, settles = push.case.pushover, push.case.settlement is not None
     assert asked is not None  # else nothing is pushed
     steps: list[Step] = []
+    dropping = 0
     for step in push.steps(first):
         steps.append(step)
         if step.load_factor <= 0.0 and not settles:
-            return steps, FALLEN
+            return steps, CurveEnd.NOTHING_LEFT
         if step.displacement >= asked.until * (1.0 - 1e-9):
-            return steps, REACHED
+            return steps, CurveEnd.REACHED
         if len(steps) > asked.steps:
-            return steps, STEPS_DONE
-    return steps, LATE if push.late else SETTLED if settles else STUCK
+            return steps, CurveEnd.STEPS_DONE
+        by_itself = float(np.vdot(push.case.dead_load, step.mechanism)) > BY_ITSELF * abs(step.load_factor)
+        dropping = dropping + 1 if by_itself and not settles else 0
+        if dropping > MOST_DROPPING:
+            break
+    if push.late:
+        return steps, CurveEnd.LATE
+    if dropping:
+        return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
+    return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.STUCK
 
 
 def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
@@ -143,6 +155,20 @@ def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
     )
 
 
+def begun_by(solution: Solution) -> Solution:
+    """The solution with the forces and the mechanism of limit analysis for step 0 of its pushover, as they must be."""
+    steps, first = solution.pushed, solution.mechanics
+    if steps is None or first is None or int(steps.point_start[1]) != len(first.contact_forces):
+        return solution
+    factors, mechanisms, forces = steps.load_factors.copy(), steps.mechanisms.copy(), steps.forces.copy()
+    factors[0], mechanisms[0], forces[: len(first.contact_forces)] = (
+        first.load_factor,
+        first.mechanism,
+        first.contact_forces,
+    )
+    return replace(solution, pushed=replace(steps, load_factors=factors, mechanisms=mechanisms, forces=forces))
+
+
 def poses_of(steps: PushedSteps) -> Iterator[Pose]:
     """Where the blocks are at every step, from its mechanisms."""
     pose = Pose.at_rest(steps.mechanisms.shape[1])
@@ -153,39 +179,36 @@ def poses_of(steps: PushedSteps) -> Iterator[Pose]:
 
 
 def curve_of(
-    model: Model,
-    contacts: Contacts,
-    section: ContactsSection,
-    case: LoadCase,
-    first: Mechanics,
-    steps: PushedSteps,
-    flow_rule: str,
+    model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, solution: Solution
 ) -> tuple[CurveRow, ...]:
-    """Rows of the curve from forces and mechanisms; those of step 0 are the given ones of limit analysis.
+    """Rows of the curve from forces and mechanisms of its steps; those of step 0 are the ones of limit analysis.
 
     model : as it may move under the load case
 
-    Raises ValueError where a step has not as many forces as there are contact points.
+    A step whose forces are not those of the contact points of its pose has residuals of nan.
     """
+    first, steps = solution.mechanics, solution.pushed
+    assert first is not None  # else there is no curve
+    assert steps is not None
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
     work, before = np.zeros(3), np.zeros(3)
     for number, pose in enumerate(poses_of(steps)):
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
-        overlap, gaps = 0.0, np.zeros(len(first.contact_forces))
-        solids, loads = solids_of(model, contacts), case
         if number:
             found = search.at(pose, fallen)
             solids, loads = moved_solids(model, found, case, pose, fallen)
-            overlap, gaps = max(-float(found.gaps.min(initial=0.0)), 0.0), found.gaps / steps.work[number]
+            gaps = found.gaps / steps.work[number]
         else:
+            solids, gaps = solids_of(model, contacts), np.zeros(len(first.contact_forces))
             loads = solids.load_case(case)
-        if len(gaps) != len(mechanics.contact_forces):
-            raise ValueError(f"step {number} of a pushover has forces of other contact points")
-        of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
         step = MovedCase(solids.model, solids.contacts, loads, gaps)
-        residual = residuals_of(step, of_solids, step.limits.dilatancy_by(flow_rule)).largest
-        powers = _powers(step, of_solids)
+        overlap = abs(float(gaps.min(initial=0.0))) * float(steps.work[number])
+        residual, powers = np.nan, np.zeros(3)
+        if len(gaps) == len(mechanics.contact_forces):
+            of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
+            dilatancy = step.limits.dilatancy_by(solution.flow_rule)
+            residual, powers = residuals_of(step, of_solids, dilatancy).largest, _powers(step, of_solids)
         work = work + 0.5 * (before + powers) * steps.work[number]
         row = CurveRow(
             step=number,

@@ -69,7 +69,8 @@ SHORTER = (1.0, 0.5, 0.25, 0.125)
 """Shares of a step that are tried in turn where no forces are found: so sharply the end of a curve is known."""
 
 TAKEN = 0.5
-"""Weight of falling blocks over that of the control point from which the curve is at its end."""
+"""Weight of falling blocks over that of the control point, or of what a support that gives way carries, from which the
+curve is at its end."""
 
 DRIVEN, FAST = 3.0, 0.1
 """Power of the dead load over that of the live load in a motion in which blocks drop, and speed of these over the
@@ -196,7 +197,9 @@ class Pushover:
             falling = fallen if carried else fallen | self._falling(solids, case)
             if solved is not None and carried:
                 drops = _drops(self.case, step.load_factor, step.mechanism)
-                falling = fallen | (drops & _drops(self.case, solved.load_factor, solids.block_motions(solved.mechanism)))
+                falling = fallen | (
+                    drops & _drops(self.case, solved.load_factor, solids.block_motions(solved.mechanism))
+                )
             if not (falling & ~fallen).any() or self._ends_it(falling):
                 break
             fallen = falling
@@ -208,8 +211,12 @@ class Pushover:
         return Step(moved, solved.load_factor, there, forces, pose, fallen, work), _Normals.of(found.contacts, forces)
 
     def _ends_it(self, fallen: BoolArray) -> bool:
-        """Whether too much of the control point has fallen to go on."""
-        return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
+        """Whether too much has fallen to go on: of the control point, or of what a support that gives way carried."""
+        if self.case.settlement is None:
+            return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
+        carried = np.where(self.model.fixed, 0.0, self.model.blocks.masses)
+        carried[self.control.blocks] = 0.0
+        return float(carried[fallen].sum()) > TAKEN * float(carried.sum())
 
     def _falling(self, solids: Solids, case: LoadCase) -> BoolArray:
         """Blocks that the dead load alone brings down there, (n_blocks,)."""
@@ -224,7 +231,9 @@ class Pushover:
     def _solved(
         self, solids: Solids, case: LoadCase, found: MovedContacts, work: float, normals: _Normals
     ) -> Mechanics | None:
-        """Forces and mechanism there, of the solids."""
+        """Forces and mechanism there, of the solids; None without any."""
+        if not len(found.gaps):
+            return None
         program = assemble(solids.model, solids.contacts, case, own=False)
         scaling = program.scaling
         program = replace(program, gaps=found.gaps / work * scaling.force * scaling.units / scaling.live)

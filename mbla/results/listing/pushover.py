@@ -1,0 +1,92 @@
+"""A pushover in words, and its table: how far a structure moves, where it ends, and how well that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.model.model import Model
+from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small
+from mbla.results.listing.verdict_words import load_factor_words
+from mbla.results.outcome import ultimate_displacement
+from mbla.results.results import CaseResult
+from mbla.solution.solution import CurveRow
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
+
+
+def curve_words(model: Model, case: CaseResult) -> str:
+    """Greatest load factor, where it ends, and how well that is known; empty without a pushover."""
+    curve, length = case.solution.curve, model.units.length
+    if not curve:
+        return ""
+    last, words = curve[-1], case.solution.curve_end.value
+    if case.load_case.settlement is not None:
+        force = model.units.force
+        says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {number(last.reaction)} {force} where "
+        says += f"the support has moved by {number(last.displacement)} {length}, where {words}"
+    else:
+        top = max(curve, key=lambda row: row.load_factor)
+        highest = load_factor_words(model, case.load_case, top.load_factor)
+        says = (
+            f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
+        )
+        ultimate = ultimate_displacement(case)
+        if last.load_factor <= 0.0:
+            says += f"nothing at {number(ultimate)} {length}"
+        else:
+            says += (
+                f"{load_factor_words(model, case.load_case, last.load_factor)} at {number(last.displacement)} {length}"
+            )
+            says += f", where {words}"
+    errors = [row.error / max(abs(row.load_factor), abs(curve[0].load_factor)) for row in curve]
+    if np.isfinite(errors).any():
+        says += f"; steps of twice the size differ by up to {np.nanmax(errors):.1g} of it"
+    fallen = curve[-1].debris
+    says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
+    return f"{says}. {curve_verdict(case)}"
+
+
+def curve_verdict(case: CaseResult) -> str:
+    """How well the steps of a pushover meet the joint law, as code that did not solve them finds."""
+    residuals = [row.residual for row in case.solution.curve[1:]]
+    rough = sum(not residual <= SOLVED_RESIDUAL for residual in residuals)
+    worst = float(np.max(residuals, initial=0.0))
+    if not rough:
+        return f"Verified: every step meets equilibrium and the joint law to {worst:.1g}."
+    name = "Not verified" if not worst <= APPROXIMATE_RESIDUAL else "Approximate"
+    steps = "step misses" if rough == 1 else "steps miss"
+    return f"{name}: {rough} of {len(residuals)} {steps} equilibrium or the joint law by up to {worst:.1g}."
+
+
+def curve_lines(model: Model, case: CaseResult) -> list[str]:
+    """The capacity curve: a sentence, and a table of steps evenly chosen; nothing without a pushover."""
+    curve, units = case.solution.curve, model.units
+    if not curve:
+        return []
+    settles = case.load_case.settlement is not None
+    shown = [curve[row] for row in np.unique(np.linspace(0, len(curve) - 1, MOST_ROWS).astype(int)).tolist()]
+    rows = [
+        [
+            str(row.step),
+            *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
+            *(small(value) for value in (row.residual, row.overlap)),
+            *(number(value) for value in (row.live_work, row.friction, row.potential)),
+            "new" if row.new_mechanism else "",
+        ]
+        for row in shown
+    ]
+    head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor", "residual"]
+    head += [f"overlap [{units.length}]", "live work", "friction", "dead load", "mechanism"]
+    says = [curve_words(model, case)]
+    missing = energy_missing(curve)
+    says.append(f"Live work less friction and what the dead load gained: {missing:.2g} of the live work.")
+    says.append(f"Work and energies in {units.force} {units.length}.")
+    return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
+
+
+def energy_missing(curve: Sequence[CurveRow]) -> float:
+    """Live work that neither friction nor the dead load has taken, over the largest of the three."""
+    last = curve[-1]
+    size = max(abs(last.live_work), last.friction, abs(last.potential), 1e-300)
+    return (last.live_work - last.friction - last.potential) / size
