@@ -145,5 +145,5 @@ def solve_case(
         from mbla.solution.pushover.curve import pushed  # late: few load cases are
 
         solved = status is Status.SOLVED
-        solution = pushed(moving, contacts, deck.contacts, load_case, solution, settings, log, solved)
+        solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
     return CaseResult(answer.load_case, solution, answer.checks, status)

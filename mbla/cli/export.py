@@ -32,7 +32,9 @@ def add_plot(commands: Any) -> None:
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
     command.add_argument(
-        "--animate", choices=["gif", "mp4"], help="moving pictures of the mechanisms in the place of pictures"
+        "--animate",
+        choices=["gif", "mp4"],
+        help="moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover",
     )
     command.add_argument(
         "--view",

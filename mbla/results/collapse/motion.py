@@ -13,6 +13,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 from mbla.results.results import CaseResult
+from mbla.solution.pushover.curve import poses_of
 
 SHARE_OF_SIZE = 0.1
 """largest displacement over the diagonal of the box around the free blocks"""
@@ -104,13 +105,29 @@ def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: F
     return np.asarray((blocks.centroids + travel)[owners] + turned)
 
 
+def pushed_motions(case: CaseResult) -> list[FloatArray]:
+    """Twist of each block from where it was built to where it is at each step of a pushover, (n_blocks, 6) each."""
+    steps = case.solution.pushed
+    found = []
+    for pose in poses_of(steps) if steps is not None else ():
+        turned = pose.rotation_vectors
+        paths = _paths(turned)[1]
+        found.append(np.hstack([np.linalg.solve(paths, pose.shift[:, :, None])[:, :, 0], turned]))
+    return found
+
+
 def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
 
     With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K² (Rodrigues; scipy's rotations take 60 ms
     to import), V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
     """
-    vectors = motion[:, 3:]
+    rotations, paths = _paths(motion[:, 3:])
+    return rotations, np.einsum("nij,nj->ni", paths, motion[:, :3])
+
+
+def _paths(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """R and V of rotation vectors, (n, 3, 3) each."""
     angles = np.linalg.norm(vectors, axis=1)
     axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
     cross = np.cross(axes[:, None, :], np.eye(3)).transpose(0, 2, 1)
@@ -119,5 +136,4 @@ def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(2 * half / np.pi)
     twice = cross @ cross
     rotations = np.eye(3) + np.sin(2 * half) * cross + 2 * np.sin(half) ** 2 * twice
-    paths = np.eye(3) + lag * cross + (1 - share) * twice
-    return rotations, np.einsum("nij,nj->ni", paths, motion[:, :3])
+    return rotations, np.asarray(np.eye(3) + lag * cross + (1 - share) * twice)

@@ -39,9 +39,13 @@ def curve_words(model: Model, case: CaseResult) -> str:
                 f"{load_factor_words(model, case.load_case, last.load_factor)} at {number(last.displacement)} {length}"
             )
             says += f", where {words}"
-    errors = [row.error / max(abs(row.load_factor), abs(curve[0].load_factor)) for row in curve]
+    errors = np.array([row.error for row in curve])
     if np.isfinite(errors).any():
-        says += f"; steps of twice the size differ by up to {np.nanmax(errors):.1g} of it"
+        settles = case.load_case.settlement
+        values = [row.load_factor if settles is None else row.reaction / settles.unit for row in curve]
+        says += (
+            f"; steps of twice the size differ by up to {np.nanmax(errors) / np.abs(values).max():.1g} of the greatest"
+        )
     fallen = curve[-1].debris
     says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
     return f"{says}. {curve_verdict(case)}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from mbla.errors import FileError, UsageError
+from mbla.results.collapse.motion import pushed_motions
 from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
@@ -27,6 +28,8 @@ FORMATS = ("gif", "mp4")
 STEPS = 12
 """from rest to the greatest displacement"""
 FRAMES_PER_SECOND = 12
+MOST_FRAMES = 60
+"""of a pushover, steps evenly chosen"""
 LARGEST = {"gif": (800, 500), "mp4": (1280, 800)}
 """pixels of a frame; a GIF keeps every one of them in 256 colours, and is for slides and pages"""
 COLOURS = 128
@@ -42,7 +45,9 @@ def format_of_film(path: Path) -> str:
 
 
 def write_animation(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:
-    """The mechanism of one load case as a GIF or MP4 that repeats; the same result gives the same GIF.
+    """The mechanism of one load case as a GIF or MP4 that repeats, or by the kind ``curve`` the steps of its pushover.
+
+    The same result gives the same GIF.
 
     Frames have the shape of ``options.size`` and at most the pixels of ``LARGEST``.
 
@@ -63,8 +68,15 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
         raise UsageError(
             "no-mechanism", f"load case {case.load_case.name}: there is no mechanism, so there is nothing to animate"
         )
-    forth = list(_frames(widest, options))
-    film = [*forth, *forth[-2:0:-1]]
+    pushed = pushed_motions(case) if "curve" in options.kinds else []
+    if pushed:
+        shown = np.unique(np.linspace(0, len(pushed) - 1, MOST_FRAMES).astype(int)).tolist()
+        scenes = [replace(widest, drawn=pushed[step]) for step in shown]
+        film = list(_frames([widest, *scenes[-1:]], scenes, options))
+        film += film[-1:] * (FRAMES_PER_SECOND // 2)
+    else:
+        forth = list(_frames([widest], (widest.moved_to(share * options.scale) for share in displacements()), options))
+        film = [*forth, *forth[-2:0:-1]]
     image = _gif(film) if kind == "gif" else _mp4(film)
     try:
         path.write_bytes(image)
@@ -85,13 +97,13 @@ def displacements(steps: int = STEPS) -> Any:
     return (1 - np.cos(np.pi * np.arange(steps + 1) / steps)) / 2
 
 
-def _frames(widest: Scene, options: PictureOptions) -> Iterator[Any]:
-    """Images (height, width, 3) of 0 to 255, from rest to the greatest displacement."""
-    drawing = drawing_of(widest, "mechanism")
-    extent = extent_of([widest], drawing)
-    for share in displacements():
+def _frames(widest: Sequence[Scene], scenes: Iterable[Scene], options: PictureOptions) -> Iterator[Any]:
+    """Images (height, width, 3) of 0 to 255 of scenes, none of which goes beyond the widest."""
+    drawing = drawing_of(widest[0], "mechanism")
+    extent = extent_of(widest, drawing)
+    for scene in scenes:
         with open_frames(options) as page:
-            draw_on(page, widest.moved_to(share * options.scale), drawing, "mechanism", extent)
+            draw_on(page, scene, drawing, "mechanism", extent)
             page.figure.canvas.draw()
             yield np.asarray(page.figure.canvas.buffer_rgba())[..., :3].copy()
 

@@ -100,7 +100,8 @@ def _films(results: Results, cases: Sequence[CaseResult], options: PictureOption
         raise UsageError(
             "no-mechanism", f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves"
         )
-    return [PictureFile(f"_{each.load_case.name}", of(each)) for each in moving]
+    pushed = ["_curve" if "curve" in options.kinds and each.solution.curve else "" for each in moving]
+    return [PictureFile(f"_{each.load_case.name}{kind}", of(each)) for each, kind in zip(moving, pushed, strict=True)]
 
 
 def _check_name(target: Path, options: PictureOptions) -> None:

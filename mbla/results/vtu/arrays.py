@@ -16,7 +16,8 @@ Arrays = dict[str, np.typing.NDArray[Any]]
 
 CELLS = {
     "blocks": "blocks as polyhedra, in their order; no two share a point",
-    "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn; STEM_CASE.pvd plays them",
+    "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn, which STEM_CASE.pvd plays; "
+    "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays",
     "contacts": "contact points as vertices",
     "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",
     "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",

@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from mbla.arrays import FloatArray
+from mbla.results.collapse.motion import pushed_motions
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.pictures.camera import axes_of, view_of_case
@@ -30,6 +32,8 @@ from mbla.results.vtu.meshes import (
     thrust_mesh,
 )
 
+MOST_STEPS = 101
+"""of a pushover that have files, evenly chosen"""
 MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
     "blocks": blocks_mesh,
     "contacts": contacts_mesh,
@@ -49,7 +53,8 @@ def write_mesh_files(results: Results, out: OutputFolder, frames: int) -> None:
         scene = scene_of(results, case)
         stem = f"{out.stem}_{case.load_case.name}"
         files = _write_scene(scene, stem, out)
-        _write_animation(scene, stem, out, frames)
+        if _write_animation(scene, stem, out, frames):
+            files["pushed"] = f"{stem}_pushed.pvd"
         if scene.moves:
             files["animation"] = f"{stem}.pvd"
         records[case.load_case.name] = case_record(results, scene, files)
@@ -81,12 +86,26 @@ def _write_scene(scene: Scene, stem: str, out: OutputFolder) -> dict[str, str]:
     return {kind: name for kind, name in names.items() if name}
 
 
-def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) -> None:
+def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) -> bool:
+    """The mechanism as drawn, and the steps of a pushover where they are; whether there are such."""
     times = np.linspace(0.0, 1.0, frames).tolist() if scene.moves else [0.0]
-    files = {f"{stem}_frame_{i:03d}.vtu": time for i, time in enumerate(times)}
-    for name, time in files.items():
-        _write(frame_mesh(scene, time), name, out)
-    out.write_text(f"{stem}.pvd", collection_pvd(files))
+    _write_frames(scene, f"{stem}_frame", stem, {time: time * scene.motion for time in times}, out)
+    pushed = [] if scene.case is None else pushed_motions(scene.case)
+    if pushed:
+        steps = np.unique(np.linspace(0, len(pushed) - 1, MOST_STEPS).astype(int)).tolist()
+        name = f"{stem}_pushed"
+        _write_frames(scene, name, name, {float(step): pushed[step] for step in steps}, out)
+    return bool(pushed)
+
+
+def _write_frames(
+    scene: Scene, name: str, collection: str, motions: Mapping[float, FloatArray], out: OutputFolder
+) -> None:
+    """A file for each motion, (n_blocks, 6) by its time, and the collection that plays them."""
+    files = {f"{name}_{i:03d}.vtu": time for i, time in enumerate(motions)}
+    for file, motion in zip(files, motions.values(), strict=True):
+        _write(frame_mesh(scene, motion), file, out)
+    out.write_text(f"{collection}.pvd", collection_pvd(files))
 
 
 def collection_pvd(files: Mapping[str, float]) -> str:

@@ -56,10 +56,10 @@ def blocks_mesh(scene: Scene) -> Mesh:
     return _of_blocks(blocks, blocks.vertices, {"displacement": scene.displacements}, data)
 
 
-def frame_mesh(scene: Scene, time: float) -> Mesh:
-    """Blocks at a time from 0 (as built) to 1 (the motion as drawn); ``displacement`` is what they have moved."""
+def frame_mesh(scene: Scene, motion: FloatArray) -> Mesh:
+    """Blocks after a motion, (n_blocks, 6); ``displacement`` is what they have moved."""
     blocks = scene.model.blocks
-    vertices = moved_vertices(blocks, time * scene.motion)
+    vertices = moved_vertices(blocks, motion)
     moved = {"displacement": vertices - blocks.vertices}
     return _of_blocks(blocks, vertices, moved, arrays_of(scene, "frames", "cells"))
 

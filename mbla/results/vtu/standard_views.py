@@ -9,7 +9,8 @@ does not give a script its folder, call os.chdir(folder of the results) in the s
 
 Views: structure (blocks by group, supports), mechanism (blocks by the part that they move with, hinges, sliding, ghost
 of the structure), thrust (resultant of each interface, thrust lines by eccentricity), utilisation (shear and torsion
-over what the joint carries of both), loads (dead, live, reactions), animation (the mechanism with finite rotations).
+over what the joint carries of both), loads (dead, live, reactions), animation (the mechanism with finite rotations),
+pushed (the steps of a pushover).
 """
 
 from __future__ import annotations
@@ -221,9 +222,9 @@ def loads(picture: Picture) -> None:
     picture.legend = [f"Arrows, each kind to its own scale; {', '.join(drawn)}."]
 
 
-def animation(picture: Picture) -> None:
+def animation(picture: Picture, file: str = "animation") -> None:
     """The mechanism with finite rotations."""
-    source = picture.keep(simple.PVDReader(FileName=str(picture.folder / picture.case["files"]["animation"])))
+    source = picture.keep(simple.PVDReader(FileName=str(picture.folder / picture.case["files"][file])))
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
@@ -238,6 +239,7 @@ VIEWS: dict[str, tuple[str, Callable[[Picture], None]]] = {
     "utilisation": ("thrust", utilisation),
     "loads": ("loads", loads),
     "animation": ("animation", animation),
+    "pushed": ("pushed", lambda picture: animation(picture, "pushed")),
 }
 """views by name: the file without which there is none, and who draws it"""
 
@@ -264,7 +266,7 @@ def build(case: str, name: str, folder: Path) -> Picture:
 
 def save(picture: Picture, case: str, name: str, folder: Path) -> None:
     """As PNG; an animation as one PNG per frame."""
-    write = simple.SaveAnimation if name == "animation" else simple.SaveScreenshot
+    write = simple.SaveAnimation if name in ("animation", "pushed") else simple.SaveScreenshot
     write(str(folder / f"{RESULT['stem']}_{case}_{name}.png"), picture.view, ImageResolution=SIZE)
 
 

@@ -30,7 +30,7 @@ class Control:
 
     @staticmethod
     def of(model: Model, case: LoadCase, mechanism: FloatArray) -> Control:
-        """The one that a load case asks for, of a settlement its support, else what moves in a mechanism, (n_blocks, 6)."""
+        """What a load case asks for, of a settlement its support, else what moves in a mechanism, (n_blocks, 6)."""
         assert case.pushover is not None  # else nothing is pushed
         asked, control = case.pushover, Control.of_moving(model, case, mechanism)
         if len(asked.blocks):

@@ -76,7 +76,7 @@ def kind_of(path: Path, results: Results) -> str:
     name = path.stem.removeprefix("deck_")
     for case in results.cases:
         name = name.removeprefix(f"{case.load_case.name}_")
-    return "frames" if name.startswith("frame_") else name
+    return "frames" if name.startswith(("frame_", "pushed_")) else name
 
 
 def test_every_kind_of_file_is_described() -> None:

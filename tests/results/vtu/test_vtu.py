@@ -156,9 +156,10 @@ def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
 def test_first_frame_is_as_built_and_last_as_drawn(tmp_path: Path, results: Results) -> None:
     path = tmp_path / "frame.vtu"
     vertices = results.model.blocks.vertices
-    written(path, frame_mesh(scene_of(results, results.cases[0]), 0.0))
+    scene = scene_of(results, results.cases[0])
+    written(path, frame_mesh(scene, np.zeros_like(scene.motion)))
     assert meshio.read(path).points == pytest.approx(vertices)
-    written(path, frame_mesh(scene_of(results, results.cases[0]), 1.0))
+    written(path, frame_mesh(scene, scene.motion))
     mesh = meshio.read(path)
     moved = moved_vertices(results.model.blocks, drawn_motion(results.model, results.cases[0]))
     assert mesh.points == pytest.approx(moved)
