@@ -155,7 +155,9 @@ class Pushing:
     blocks      : (m,) whose common centroid is the control point; none: of what moves at first
     direction   : (3,) unit, in which its displacement counts; nan: along the live load on these blocks
     error       : whether steps of twice the size are made as well, for the error of the load factors
-    dead_levers, live_levers : (n_blocks, 9) sums of arm times force, arms from the centroid by rows
+    dead_levers, live_levers : (n_blocks, 9) sums of arm times force, arms from the centroid by rows, of what keeps its
+                  direction
+    dead_following, live_following : (n_blocks, 6) the part of the loads that turns with its block
     """
 
     step: float
@@ -166,6 +168,8 @@ class Pushing:
     error: bool
     dead_levers: FloatArray
     live_levers: FloatArray
+    dead_following: FloatArray
+    live_following: FloatArray
 
 
 @dataclass(frozen=True)

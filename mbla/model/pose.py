@@ -77,14 +77,17 @@ class Pose:
 
 
 def moved_case(case: LoadCase, pose: Pose) -> LoadCase:
-    """The load case on blocks there: forces keep their direction and their points move along, couples stay."""
-    assert case.pushover is not None  # else its levers are not known
-    loads = (case.dead_load, case.pushover.dead_levers), (case.live_load, case.pushover.live_levers)
-    dead, live = (_turned(load, levers, pose) for load, levers in loads)
+    """The load case on blocks there: points of forces move along; forces and couples turn or keep their direction."""
+    push = case.pushover
+    assert push is not None  # else its levers are not known
+    dead = _turned(case.dead_load, push.dead_levers, push.dead_following, pose)
+    live = _turned(case.live_load, push.live_levers, push.live_following, pose)
     return replace(case, dead_load=dead, live_load=live)
 
 
-def _turned(load: FloatArray, levers: FloatArray, pose: Pose) -> FloatArray:
+def _turned(load: FloatArray, levers: FloatArray, following: FloatArray, pose: Pose) -> FloatArray:
+    parts = following.reshape(-1, 2, 3)
+    load = load + (np.einsum("nij,nkj->nki", pose.rotation, parts) - parts).reshape(-1, 6)
     built = levers.reshape(-1, 3, 3)
     change = pose.rotation @ built - built
     moments = np.stack([change[:, j, k] - change[:, k, j] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)

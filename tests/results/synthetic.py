@@ -302,7 +302,14 @@ def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
     pushover = Pushing(
-        0.02, np.inf, 1, np.array([1]), np.array([1.0, 0.0, 0.0]), True, *np.arange(54.0).reshape(2, 3, 9)
+        0.02,
+        np.inf,
+        1,
+        np.array([1]),
+        np.array([1.0, 0.0, 0.0]),
+        True,
+        *np.arange(54.0).reshape(2, 3, 9),
+        *np.arange(36.0).reshape(2, 3, 6),
     )
     not_run = replace(
         model.load_cases[2],

@@ -73,6 +73,16 @@ def test_forces_act_where_they_act_on_the_block(load: str) -> None:
     assert factors == pytest.approx(sum(arms) / (sum(heights) if load == "mass" else heights[0]), abs=1e-6)
 
 
+def test_a_load_that_follows_turns_with_its_block() -> None:
+    """A force on its top that stays normal to its side has the arm h: F h = W (b/2 cos - h/2 sin)."""
+    force = "{force: [100, 0, 0], on: block, at: [0.1, 0.25, 1.0], follows: true}"
+    solution = pushover_of(ROCKING, f"load_cases.push={{live: [{force}], pushover: {{step: 0.005}}}}")
+    moved, factors = columns(solution.curve)
+    turned = math.atan(0.2) - np.arcsin(np.sin(math.atan(0.2)) - moved / (math.hypot(0.2, 1.0) / 2))
+    weight = 2000 * 0.2 * 0.5 * 9.81
+    assert 100 * factors == pytest.approx(weight * (0.1 * np.cos(turned) - 0.5 * np.sin(turned)), abs=1e-5 * weight)
+
+
 @pytest.mark.parametrize("units", ["{length: mm}", "{length: m, force: kN}"])
 def test_the_curve_does_not_know_units(units: str, tmp_path: Path) -> None:
     text, factor = ROCKING.read_text(encoding="utf-8"), 1000.0 if "mm" in units else 1.0

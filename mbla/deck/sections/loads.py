@@ -29,6 +29,7 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import EXACTLY_ONE, Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
+from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
 PARALLEL = 1e-6
@@ -37,6 +38,8 @@ NEEDS_BLOCK = ("force", "moment")
 """kinds of loads that act on one block, which `on` names"""
 ON_ALL_BLOCKS = {"gravity": "acts on all blocks: use acceleration", "tilt": "turns the whole structure"}
 """kinds that `on` does not apply to, and why"""
+FOLLOWERS = ("force", "moment", "line", "pressure")
+"""kinds that may turn with their block in a pushover"""
 LIVE_ONLY = ("travel", "tilt")
 """kinds that make something else of a load case than a sum of loads"""
 
@@ -212,6 +215,11 @@ class Load(Section):
     )
     pattern: HeightPattern | None = Field(None, description="acceleration: factor by height; 1 everywhere unless given")
     factor: Number = Field(1.0, description="factor on the load")
+    follows: bool = Field(
+        False,
+        description="in a pushover: the load turns with its block, as a pressure does; else it keeps its direction. Of "
+        "force, moment, line and pressure",
+    )
 
 
 @rule(Load)
@@ -231,6 +239,8 @@ def load_keys(load: Load) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "does not apply to a table, whose rows name their blocks", "on")
     if load.pattern is not None and kind != "acceleration":
         yield Finding("key-of-another-choice", "applies to acceleration only", "pattern")
+    if load.follows and kind not in FOLLOWERS:
+        yield Finding("key-of-another-choice", f"applies to {listed(FOLLOWERS)} only", "follows")
     if kind == "tilt" and load.factor != 1.0:
         yield Finding("key-of-another-choice", "does not apply to tilt: gravity turns as it is", "factor")
 

@@ -36,23 +36,26 @@ STEPS_OF_SETTLEMENT, MOST_OF_SETTLEMENT = 50, 2000
 class _Sum:
     """Loads added up: ``total`` (n_blocks, 15), ``gross`` (n_blocks, 15) without signs, and each in words.
 
-    complete : none of them left a fault
+    following : (n_blocks, 6) the part of the total that turns with the blocks
+    complete  : none of them left a fault
     """
 
     total: FloatArray
     gross: FloatArray
+    following: FloatArray
     words: tuple[str, ...] = ()
     complete: bool = True
 
     def plus(self, *loads: AppliedLoad | None) -> _Sum:
         """The same with more loads; None for those that left a fault."""
-        total, gross, words = self.total.copy(), self.gross.copy(), self.words
+        total, gross, following, words = self.total.copy(), self.gross.copy(), self.following.copy(), self.words
         applied = [load for load in loads if load is not None]
         for load in applied:
             total[load.blocks] += load.wrenches
             gross[load.blocks] += np.abs(load.wrenches)
+            following[load.blocks] += load.follows * load.wrenches[:, :6]
             words = (*words, load.words)
-        return _Sum(total, gross, words, self.complete and len(applied) == len(loads))
+        return _Sum(total, gross, following, words, self.complete and len(applied) == len(loads))
 
 
 @np.errstate(over="ignore", invalid="ignore")  # loads beyond what a double holds are refused as such
@@ -82,7 +85,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
-        pushed = _pushing(name, section, dead.total, own.total, site)
+        pushed = _pushing(name, section, dead, own, site)
         loads = dead.total[:, :6], own.total[:, :6]
         case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed)
         if position is not None:
@@ -93,12 +96,13 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     return tuple(cases)
 
 
-def _pushing(name: str, section: LoadCaseSection, dead: FloatArray, live: FloatArray, site: LoadSite) -> Pushing | None:
-    """What is followed beyond the first movement, with the levers of dead and live load; None for nothing.
+def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: LoadSite) -> Pushing | None:
+    """What is followed beyond the first movement, with levers and following parts of the loads; None for nothing.
 
     None, and a fault, where the blocks of the control point are not found; those of a settlement are not known yet.
     """
-    asked, settlement, levers = section.pushover, section.settlement, [each[:, 6:] for each in (dead, live)]
+    asked, settlement = section.pushover, section.settlement
+    levers = (dead.total[:, 6:], live.total[:, 6:], dead.following, live.following)
     none = np.zeros(0, dtype=np.int64)
     blocks: IntArray | None = none
     if settlement is not None and settlement.amount is not None:
@@ -143,7 +147,7 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
     nothing = np.zeros((len(site.fixed), 15))
     sums = [entry for entry in entries if not given(entry.load, LIVE_ONLY)]
-    return _Sum(nothing, nothing).plus(*(_apply(entry, site, live) for entry in sums))
+    return _Sum(nothing, nothing, nothing[:, :6]).plus(*(_apply(entry, site, live) for entry in sums))
 
 
 def kind_of(load: Load) -> str:
@@ -162,6 +166,8 @@ def _apply(entry: Entry, site: LoadSite, live: bool) -> AppliedLoad | None:
     if applied is not None and entry.factor != 1.0:
         words = f"{entry.factor:.6g} times {applied.words}"
         applied = AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
+    if applied is not None and load.follows:
+        applied = replace(applied, wrenches=without_levers(applied.wrenches[:, :6]), follows=True)
     if applied is not None:
         _judge_effect(entry, applied, site, live)
     return applied
