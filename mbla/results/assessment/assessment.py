@@ -1,0 +1,339 @@
+"""What a code says of a load case: every figure on the way with its article, and capacity over demand.
+
+Kinematic blocks are the clusters of the mechanism, stones that move as one: P is the weight of each, δ the velocity of
+its centre of mass along the live load. By single stones a wall that overturns would have e* = 3/4 in place of 1, and an
+activation acceleration a third higher; both are shown. Added masses rest on their blocks and count in P, so that Q = 0.
+Names, units and articles of the figures: ``figures.csv``.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from itertools import pairwise
+
+import numpy as np
+
+from mbla.arrays import FloatArray, summed
+from mbla.contacts.contacts import Contacts
+from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
+from mbla.deck.units import Units
+from mbla.errors import Message
+from mbla.model.model import LoadCase, Model
+from mbla.model.pose import Pose
+from mbla.results.assessment import codes
+from mbla.results.assessment.spectra import (
+    Floor,
+    Spectrum,
+    coefficients,
+    damping_factor,
+    participation,
+    spectrum_of,
+)
+from mbla.results.collapse.collapse import collapse_of, failure_of, kept
+from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
+from mbla.results.results import CaseResult
+from mbla.solution.pushover import ROUGH, Control
+from mbla.solution.solution import CurveRow, Mechanics, Status
+
+OLD = "circolare_617_2009"
+NAMES = {"ntc_2018": "NTC 2018 with Circolare 7/2019", OLD: "Circolare 617/2009"}
+"""of the codes, in words"""
+IN_PLANE = 0.01
+"""motion out of the vertical plane of the live load, over the greatest, from which a mechanism is one in space"""
+LOWER = 1e-3
+"""share by which the least load factor that was found may lie below the one assessed"""
+PARTS = 12
+"""kinematic blocks that are listed one by one"""
+RATIO = "zeta"
+"""symbol of the ratio that decides at a limit state"""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure of an assessment.
+
+    limit_state : SLD, SLV or SLC; empty for all of them
+    unit        : in the deck's; empty for none
+    """
+
+    limit_state: str
+    symbol: str
+    value: float
+    unit: str
+    article: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """Figures in the order in which they follow from each other, and what stands against them.
+
+    code : in words
+    """
+
+    code: str
+    figures: tuple[Figure, ...] = ()
+    remarks: tuple[Message, ...] = ()
+
+    def ratio(self, limit_state: str) -> float:
+        """Capacity over demand at a limit state; nan where there is no verdict."""
+        found = (each.value for each in self.figures if (each.symbol, each.limit_state) == (RATIO, limit_state))
+        return next(found, math.nan)
+
+    @property
+    def ratios(self) -> dict[str, float]:
+        """Those that there are."""
+        found = {name: self.ratio(name) for name in LIMIT_STATES}
+        return {name: ratio for name, ratio in found.items() if not math.isnan(ratio)}
+
+
+@cache
+def _kinds() -> dict[str, dict[str, str]]:
+    text = files("mbla.results.assessment").joinpath("figures.csv").read_text(encoding="utf-8")
+    return {row["symbol"]: row for row in csv.DictReader(text.splitlines())}
+
+
+@dataclass
+class _Rows:
+    """Figures and remarks as they are found."""
+
+    code: str
+    units: Units
+    figures: list[Figure] = field(default_factory=list)
+    remarks: list[Message] = field(default_factory=list)
+
+    def add(self, symbol: str, value: float, *, state: str = "", words: object = "", article: str = "") -> None:
+        """A figure of ``figures.csv``, accelerations in g; ``words`` and ``article`` fill its gaps."""
+        kind = _kinds()[symbol.rstrip("0123456789_") if symbol.startswith(("P_", "delta_")) else symbol]
+        length = self.units.length
+        units = {"acceleration": f"{length}/s2", "length": length, "force": self.units.force}
+        size = self.units.standard_gravity if kind["unit"] == "acceleration" else 1.0
+        said = kind[self.code].format(article), kind["words"].format(words)
+        self.figures.append(Figure(state, symbol, value * size, units.get(kind["unit"], kind["unit"]), *said))
+
+    def doubt(self, words: str) -> None:
+        self.remarks.append(Message("assessment-in-doubt", words))
+
+
+@kept
+def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessment | None:
+    """The assessment that a load case asks for; None where it asks for none."""
+    asked, mechanics = case.load_case.assessment, result_of(case)
+    if asked is None:
+        return None
+    if mechanics is None or case.status is not Status.SOLVED or not mechanics.load_factor > 0.0:
+        words = "there is no assessment: the load case has no verified load factor above 0"
+        return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))
+    rows, mechanism = _Rows(asked.code, model.units), _mechanism_of(model, contacts, case.load_case, mechanics)
+    capacity = _capacity(rows, model, case, mechanism, mechanics.load_factor)
+    _doubts(rows, model, case, mechanism)
+    for state in LIMIT_STATES:
+        section: SpectrumSection | None = getattr(asked.spectra, state)
+        if section is not None:
+            _assess(rows, state, section, case, capacity, mechanism)
+    if not all(math.isfinite(each.value) for each in rows.figures):
+        rows.doubt("a capacity is beyond every ground acceleration up to 10 g, or a table ends before a period needed")
+    return Assessment(NAMES[asked.code], tuple(rows.figures), tuple(rows.remarks))
+
+
+# --- The mechanism in numbers ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Mechanism:
+    """Weights and virtual displacements of a mechanism, the greatest of a cluster 1.
+
+    acceleration   : of the live load, in g
+    weights, delta : (n,) of the clusters that move
+    stones         : the same of single blocks, (m,), (m,)
+    delta_C        : of the control point; nan where it is not counted along the live load
+    in_plane       : parallel to the vertical plane of the live load
+    explained      : share of the motion that the clusters reproduce
+    """
+
+    acceleration: float
+    weights: FloatArray
+    delta: FloatArray
+    stones: tuple[FloatArray, FloatArray]
+    delta_C: float
+    in_plane: bool
+    explained: float
+
+
+def _mechanism_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: Mechanics) -> _Mechanism:
+    motion, blocks = mechanics.mechanism, model.blocks
+    live = case.live_load[:, :3].sum(axis=0) / model.total_weight
+    acceleration = float(np.linalg.norm(live))
+    along = live / acceleration
+    failure = failure_of(model, contacts, collapse_of(model, contacts, case, mechanics), mechanics)
+    to_mass = (blocks.added_masses / blocks.masses)[:, None] * (blocks.added_mass_points - blocks.centroids)
+    speeds = (motion[:, :3] + np.cross(motion[:, 3:], to_mass)) @ along
+    moves, count = failure.clusters > 0, int(failure.clusters.max()) + 1
+    weights = summed(failure.clusters, model.weights, count)[1:]
+    delta = summed(failure.clusters, model.weights * speeds, count)[1:] / weights
+    size = float(np.abs(delta).max())
+    control = (Control.of if case.pushover is not None else Control.of_moving)(model, case, motion)
+    delta_C = control.speed(model, Pose.at_rest(len(blocks)), motion) / size
+    across = np.cross([0.0, 0.0, 1.0], along)
+    off = np.abs(motion[:, :3] @ across) + blocks.sizes * np.linalg.norm(np.cross(motion[:, 3:], across), axis=1)
+    return _Mechanism(
+        acceleration,
+        weights,
+        delta / size,
+        (model.weights[moves], speeds[moves] / size),
+        delta_C if float(control.direction @ along) > 1.0 - 1e-9 and delta_C > 0.0 else math.nan,
+        bool(off.max() <= IN_PLANE * np.linalg.norm(motion[:, :3], axis=1).max()),
+        failure.explained,
+    )
+
+
+def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism) -> None:
+    """What makes the figures less than they seem."""
+    if case.solution.flow_rule == "associative":
+        rows.doubt("the load factor of associative flow is unsafe as alpha_0, for sliding joints lift in it")
+    least, factor = least_and_greatest(model, case)[0], rows.figures[0].value / mechanism.acceleration
+    if least < (1.0 - LOWER) * factor:
+        rows.doubt(f"alpha_0 is of the state shown, the least load factor that was found is {least:.6g}")
+    if not mechanism.in_plane:
+        rows.doubt("the mechanism moves in space, where the code limits itself to those parallel to one vertical plane")
+    if mechanism.explained < 1.0:
+        rows.doubt(f"many parts move, their kinematic blocks reproduce {mechanism.explained:.3g} of the motion")
+
+
+# --- Capacity and limit states --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Capacity:
+    """What the articles need of a mechanism: e*, FC, a_0* in g, and where it is, None on the ground."""
+
+    share: float
+    confidence: float
+    activation: float
+    floor: Floor | None
+
+
+def _capacity(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism, load_factor: float) -> _Capacity:
+    asked = case.load_case.assessment
+    assert asked is not None  # else nothing is assessed
+    crushes = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
+    level = asked.knowledge if crushes else "LC1"
+    confidence = coefficients()["confidence"][level]
+    weights, delta, (of_stones, delta_stones) = mechanism.weights, mechanism.delta, mechanism.stones
+    share, stones = codes.participating_share(weights, delta), codes.participating_share(of_stones, delta_stones)
+    alpha = load_factor * mechanism.acceleration
+    activation = codes.spectral_acceleration(alpha, share, confidence)
+    rows.add("alpha_0", alpha)
+    for number, (weight, moved) in enumerate(zip(weights.tolist(), delta.tolist(), strict=True), 1):
+        if number <= PARTS:
+            rows.add(f"P_{number}", weight, words=number)
+            rows.add(f"delta_{number}", moved)
+    rows.add("Q", 0.0)
+    rows.add("e*", share, words=f"kinematic blocks ({len(weights)})")
+    rows.add("e* stones", stones, words=f"single stones ({len(of_stones)})")
+    rows.add("FC", confidence, words=level if crushes else "LC1, as joints do not crush")
+    rows.add("a_0*", activation)
+    rows.add("a_0* stones", codes.spectral_acceleration(alpha, stones, confidence))
+    floor, up = None, asked.height
+    if up is not None:
+        floor = Floor(up.period, up.damping, participation(up.storeys), up.z / up.top)
+        rows.add("gamma_1", floor.participation)
+        rows.add("psi_1", floor.shape)
+    return _Capacity(share, confidence, activation, floor)
+
+
+def _assess(
+    rows: _Rows, state: str, section: SpectrumSection, case: CaseResult, capacity: _Capacity, mechanism: _Mechanism
+) -> None:
+    """All that is asked at one limit state, the deciding ratio last."""
+    asked, spectrum, floor = case.load_case.assessment, spectrum_of(section), capacity.floor
+    assert asked is not None  # else nothing is assessed
+    q = asked.behaviour_factor
+    _add_spectrum(rows, state, section, spectrum)
+    if asked.code == OLD:
+        demand = codes.demand_617(spectrum, floor)
+        rows.add("a_Z", demand, state=state)
+        rows.add("q", q, state=state)
+        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z, by the load factor alone")
+        return
+    rows.add("a_Z", codes.floor_demand(spectrum, floor), state=state)
+    begins = codes.ground_capacity(lambda a_g: codes.floor_demand(spectrum_of(section, a_g), floor), capacity.activation)
+    rows.add("a_g,0", begins, state=state)
+    borne, how, article = begins, "a_g,0/a_g", "C8.7.1.2.1.5"
+    if state == "SLV":
+        borne, how, article = q * begins, "q a_g,0/a_g, by the load factor alone", "C8.7.1.2.1.7"
+        rows.add("q", q, state=state)
+        rows.add("q a_g,0", borne, state=state)
+    if state in codes.SHARES:
+        against = _why_no_displacement(case, mechanism)
+        if against:
+            rows.doubt(f"{state}: no verdict by displacements: {against}")
+            if state == "SLC":
+                return
+        elif case.load_case.pushover is not None:
+            found = _by_displacement(rows, state, section, case.solution.curve, ultimate_displacement(case), capacity, mechanism)
+            borne, how, article = max(found, begins), "a_g,d/a_g, not less than a_g,0/a_g", "C8.7.1.2.1.8"
+            if math.isnan(found):
+                return
+    rows.add(RATIO, borne / spectrum.a_g, state=state, words=how, article=article)
+
+
+def _add_spectrum(rows: _Rows, state: str, section: SpectrumSection, spectrum: Spectrum) -> None:
+    ntc, table = section.ntc_2018 is not None, section.table is not None
+    article = "NTC 3.2.3.2.1" if ntc else "table" if table else "EN 1998-1, 3.2.2.2"
+    rows.add("a_g", spectrum.a_g, state=state, article=article)
+    for symbol in () if table else ("S", "T_B", "T_C", "T_D"):
+        rows.add(symbol, getattr(spectrum, symbol), state=state, article=article)
+
+
+def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
+    """What keeps the curve from a verdict, in words; empty where nothing does, or where no pushover is asked for."""
+    curve: Sequence[CurveRow] = case.solution.curve
+    if case.load_case.pushover is None:
+        return ""
+    if math.isnan(ultimate_displacement(case)):
+        return "the pushover did not come to where the load factor is nothing"
+    if any(row.residual > ROUGH for row in curve):
+        return f"steps of the pushover violate the joint law by more than {ROUGH:g}"
+    if any(after.displacement <= before.displacement for before, after in pairwise(curve)):
+        return "the control point goes back on its way"
+    return "the control point does not count along the live load" if math.isnan(mechanism.delta_C) else ""
+
+
+def _by_displacement(
+    rows: _Rows,
+    state: str,
+    section: SpectrumSection,
+    curve: Sequence[CurveRow],
+    ultimate: float,
+    capacity: _Capacity,
+    mechanism: _Mechanism,
+) -> float:
+    """The ground acceleration, g, whose demand is the displacement that a limit state allows; nan beyond a table."""
+    scale, g = codes.spectral_displacement(mechanism.weights, mechanism.delta, mechanism.delta_C), rows.units.standard_gravity
+    d_0, damping = scale * ultimate, codes.DAMPING[state]
+    d = codes.SHARES[state] * d_0
+    factor = float(np.interp(d / scale, [row.displacement for row in curve], [row.load_factor for row in curve]))
+    a = codes.spectral_acceleration(factor * mechanism.acceleration, capacity.share, capacity.confidence)
+    T = codes.secant_period(state, d, a * g)
+
+    def demand(spectrum: Spectrum) -> float:
+        return codes.displacement_demand(spectrum, capacity.floor, T, damping) * g
+
+    asked = demand(spectrum_of(section))
+    found = codes.ground_capacity(lambda a_g: demand(spectrum_of(section, a_g)), d)
+    rows.add("d/d_C", scale, state=state)
+    rows.add("d_0", d_0, state=state)
+    rows.add("d", d, state=state, words=codes.SHARES[state])
+    rows.add("a(d)", a, state=state)
+    rows.add("T", T, state=state, article="C8.7.1.10" if state == "SLV" else "C8.7.1.11")
+    rows.add("eta", damping_factor(damping), state=state, words=damping, article="NTC [3.2.4]")
+    rows.add("d demand", asked, state=state)
+    rows.add("ratio d", d / asked, state=state)
+    rows.add("a_g,d", found, state=state)
+    return found
