@@ -146,4 +146,9 @@ def solve_case(
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, load_case, solution, settings, log, solved)
-    return CaseResult(answer.load_case, solution, answer.checks, status)
+    case = CaseResult(answer.load_case, solution, answer.checks, status)
+    if load_case.assessment is not None:
+        from mbla.results.assessment.assessment import with_remarks
+
+        case = with_remarks(moving, contacts, case)
+    return case

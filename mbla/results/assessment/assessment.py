@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 from itertools import pairwise
@@ -37,8 +36,7 @@ from mbla.results.assessment.spectra import (
 from mbla.results.collapse.collapse import collapse_of, failure_of, kept
 from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.pushover import ROUGH, Control
-from mbla.solution.solution import CurveRow, Mechanics, Status
+from mbla.solution.solution import Mechanics, Status
 
 OLD = "circolare_617_2009"
 NAMES = {"ntc_2018": "NTC 2018 with Circolare 7/2019", OLD: "Circolare 617/2009"}
@@ -141,6 +139,13 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     return Assessment(NAMES[asked.code], tuple(rows.figures), tuple(rows.remarks))
 
 
+def with_remarks(model: Model, contacts: Contacts, case: CaseResult) -> CaseResult:
+    """A load case with what stands against its assessment among the remarks on its solution."""
+    found = assessment_of(model, contacts, case)
+    remarks = (*case.solution.remarks, *(() if found is None else found.remarks))
+    return replace(case, solution=replace(case.solution, remarks=remarks))
+
+
 # --- The mechanism in numbers ---------------------------------------------------------------------------------------
 
 
@@ -151,7 +156,7 @@ class _Mechanism:
     acceleration   : of the live load, in g
     weights, delta : (n,) of the clusters that move
     stones         : the same of single blocks, (m,), (m,)
-    delta_C        : of the control point; nan where it is not counted along the live load
+    control        : of the control point; nan where there is none, or where it is not counted along the live load
     in_plane       : parallel to the vertical plane of the live load
     explained      : share of the motion that the clusters reproduce
     """
@@ -160,7 +165,7 @@ class _Mechanism:
     weights: FloatArray
     delta: FloatArray
     stones: tuple[FloatArray, FloatArray]
-    delta_C: float
+    control: float
     in_plane: bool
     explained: float
 
@@ -177,8 +182,6 @@ def _mechanism_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: M
     weights = summed(failure.clusters, model.weights, count)[1:]
     delta = summed(failure.clusters, model.weights * speeds, count)[1:] / weights
     size = float(np.abs(delta).max())
-    control = (Control.of if case.pushover is not None else Control.of_moving)(model, case, motion)
-    delta_C = control.speed(model, Pose.at_rest(len(blocks)), motion) / size
     across = np.cross([0.0, 0.0, 1.0], along)
     off = np.abs(motion[:, :3] @ across) + blocks.sizes * np.linalg.norm(np.cross(motion[:, 3:], across), axis=1)
     return _Mechanism(
@@ -186,10 +189,21 @@ def _mechanism_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: M
         weights,
         delta / size,
         (model.weights[moves], speeds[moves] / size),
-        delta_C if float(control.direction @ along) > 1.0 - 1e-9 and delta_C > 0.0 else math.nan,
+        _control_speed(model, case, motion, along) / size,
         bool(off.max() <= IN_PLANE * np.linalg.norm(motion[:, :3], axis=1).max()),
         failure.explained,
     )
+
+
+def _control_speed(model: Model, case: LoadCase, motion: FloatArray, along: FloatArray) -> float:
+    """Of the control point of a pushover, along the live load; nan where there is none or it counts another way."""
+    if case.pushover is None:
+        return math.nan
+    from mbla.solution.pushover import Control  # late, as few load cases are pushed
+
+    control = Control.of(model, case, motion)
+    speed = control.speed(model, Pose.at_rest(len(model.blocks)), motion)
+    return speed if float(control.direction @ along) > 1.0 - 1e-9 and speed > 0.0 else math.nan
 
 
 def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism) -> None:
@@ -234,8 +248,8 @@ def _capacity(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism
             rows.add(f"P_{number}", weight, words=number)
             rows.add(f"delta_{number}", moved)
     rows.add("Q", 0.0)
-    rows.add("e*", share, words=f"kinematic blocks ({len(weights)})")
-    rows.add("e* stones", stones, words=f"single stones ({len(of_stones)})")
+    rows.add("e*", share, words=f"kinematic blocks, {len(weights)}")
+    rows.add("e* stones", stones, words=f"single stones, {len(of_stones)}")
     rows.add("FC", confidence, words=level if crushes else "LC1, as joints do not crush")
     rows.add("a_0*", activation)
     rows.add("a_0* stones", codes.spectral_acceleration(alpha, stones, confidence))
@@ -259,14 +273,18 @@ def _assess(
         demand = codes.demand_617(spectrum, floor)
         rows.add("a_Z", demand, state=state)
         rows.add("q", q, state=state)
-        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z, by the load factor alone")
+        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z")
         return
     rows.add("a_Z", codes.floor_demand(spectrum, floor), state=state)
-    begins = codes.ground_capacity(lambda a_g: codes.floor_demand(spectrum_of(section, a_g), floor), capacity.activation)
+
+    def asked_of_floor(a_g: float) -> float:
+        return codes.floor_demand(spectrum_of(section, a_g), floor)
+
+    begins = codes.ground_capacity(asked_of_floor, capacity.activation)
     rows.add("a_g,0", begins, state=state)
     borne, how, article = begins, "a_g,0/a_g", "C8.7.1.2.1.5"
     if state == "SLV":
-        borne, how, article = q * begins, "q a_g,0/a_g, by the load factor alone", "C8.7.1.2.1.7"
+        borne, how, article = q * begins, "q a_g,0/a_g", "C8.7.1.2.1.7"
         rows.add("q", q, state=state)
         rows.add("q a_g,0", borne, state=state)
     if state in codes.SHARES:
@@ -276,8 +294,8 @@ def _assess(
             if state == "SLC":
                 return
         elif case.load_case.pushover is not None:
-            found = _by_displacement(rows, state, section, case.solution.curve, ultimate_displacement(case), capacity, mechanism)
-            borne, how, article = max(found, begins), "a_g,d/a_g, not less than a_g,0/a_g", "C8.7.1.2.1.8"
+            found = _by_displacement(rows, state, section, case, capacity, mechanism)
+            borne, how, article = max(found, begins), "a_g,d/a_g or a_g,0/a_g", "C8.7.1.2.1.8"
             if math.isnan(found):
                 return
     rows.add(RATIO, borne / spectrum.a_g, state=state, words=how, article=article)
@@ -285,7 +303,7 @@ def _assess(
 
 def _add_spectrum(rows: _Rows, state: str, section: SpectrumSection, spectrum: Spectrum) -> None:
     ntc, table = section.ntc_2018 is not None, section.table is not None
-    article = "NTC 3.2.3.2.1" if ntc else "table" if table else "EN 1998-1, 3.2.2.2"
+    article = "NTC 3.2.3.2.1" if ntc else "table" if table else "EN 1998-1"
     rows.add("a_g", spectrum.a_g, state=state, article=article)
     for symbol in () if table else ("S", "T_B", "T_C", "T_D"):
         rows.add(symbol, getattr(spectrum, symbol), state=state, article=article)
@@ -293,37 +311,39 @@ def _add_spectrum(rows: _Rows, state: str, section: SpectrumSection, spectrum: S
 
 def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
     """What keeps the curve from a verdict, in words; empty where nothing does, or where no pushover is asked for."""
-    curve: Sequence[CurveRow] = case.solution.curve
     if case.load_case.pushover is None:
         return ""
+    from mbla.solution.pushover import ROUGH  # late, as few load cases are pushed
+
+    curve = case.solution.curve
     if math.isnan(ultimate_displacement(case)):
         return "the pushover did not come to where the load factor is nothing"
     if any(row.residual > ROUGH for row in curve):
         return f"steps of the pushover violate the joint law by more than {ROUGH:g}"
     if any(after.displacement <= before.displacement for before, after in pairwise(curve)):
         return "the control point goes back on its way"
-    return "the control point does not count along the live load" if math.isnan(mechanism.delta_C) else ""
+    return "the control point does not count along the live load" if math.isnan(mechanism.control) else ""
 
 
 def _by_displacement(
     rows: _Rows,
     state: str,
     section: SpectrumSection,
-    curve: Sequence[CurveRow],
-    ultimate: float,
+    case: CaseResult,
     capacity: _Capacity,
     mechanism: _Mechanism,
 ) -> float:
     """The ground acceleration, g, whose demand is the displacement that a limit state allows; nan beyond a table."""
-    scale, g = codes.spectral_displacement(mechanism.weights, mechanism.delta, mechanism.delta_C), rows.units.standard_gravity
-    d_0, damping = scale * ultimate, codes.DAMPING[state]
+    curve, damping, g = case.solution.curve, codes.DAMPING[state], rows.units.standard_gravity
+    scale = codes.spectral_displacement(mechanism.weights, mechanism.delta, mechanism.control)
+    d_0 = scale * ultimate_displacement(case)
     d = codes.SHARES[state] * d_0
     factor = float(np.interp(d / scale, [row.displacement for row in curve], [row.load_factor for row in curve]))
     a = codes.spectral_acceleration(factor * mechanism.acceleration, capacity.share, capacity.confidence)
-    T = codes.secant_period(state, d, a * g)
+    period = codes.secant_period(state, d, a * g)
 
     def demand(spectrum: Spectrum) -> float:
-        return codes.displacement_demand(spectrum, capacity.floor, T, damping) * g
+        return codes.displacement_demand(spectrum, capacity.floor, period, damping) * g
 
     asked = demand(spectrum_of(section))
     found = codes.ground_capacity(lambda a_g: demand(spectrum_of(section, a_g)), d)
@@ -331,7 +351,7 @@ def _by_displacement(
     rows.add("d_0", d_0, state=state)
     rows.add("d", d, state=state, words=codes.SHARES[state])
     rows.add("a(d)", a, state=state)
-    rows.add("T", T, state=state, article="C8.7.1.10" if state == "SLV" else "C8.7.1.11")
+    rows.add("T", period, state=state, article="[C8.7.1.10]" if state == "SLV" else "[C8.7.1.11]")
     rows.add("eta", damping_factor(damping), state=state, words=damping, article="NTC [3.2.4]")
     rows.add("d demand", asked, state=state)
     rows.add("ratio d", d / asked, state=state)

@@ -14,13 +14,13 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
 
 from mbla.arrays import FloatArray
 from mbla.results.assessment.spectra import (
     FLAT_TO,
     Floor,
     Spectrum,
+    damping_factor,
     floor_acceleration,
     ground_acceleration,
     peak_floor_acceleration,
@@ -45,13 +45,16 @@ def participating_share(weights: FloatArray, delta: FloatArray) -> float:
     return float((weights @ delta) ** 2 / (weights.sum() * (weights @ delta**2)))
 
 
-def spectral_displacement(weights: FloatArray, delta: FloatArray, delta_C: float) -> float:
-    """Circolare 7/2019 [C8.7.1.4]: d / d_C = Σ(P+Q)δ² / (δ_C Σ(P+Q)δ), δ_C of the control point."""
-    return float((weights @ delta**2) / (delta_C * (weights @ delta)))
+def spectral_displacement(weights: FloatArray, delta: FloatArray, control: float) -> float:
+    """Circolare 7/2019 [C8.7.1.4]: d / d_C = Σ(P+Q)δ² / (δ_C Σ(P+Q)δ), δ_C that of the control point."""
+    return float((weights @ delta**2) / (control * (weights @ delta)))
 
 
 def spectral_acceleration(alpha: float, share: float, confidence: float) -> float:
-    """Circolare 7/2019 [C8.7.1.3], and [C8.7.1.8] with α_0: a = α g/(e* FC) [g]; 617/2009 C8A.4, a_0* = α_0 ΣP/(M* FC)."""
+    """Circolare 7/2019 [C8.7.1.3], and [C8.7.1.8] with α_0: a = α g/(e* FC) [g].
+
+    The same as a_0* = α_0 ΣP/(M* FC) of 617/2009, C8A.4.
+    """
     return alpha / (share * confidence)
 
 
@@ -75,7 +78,7 @@ def floor_demand(spectrum: Spectrum, floor: Floor | None) -> float:
 def displacement_demand(spectrum: Spectrum, floor: Floor | None, period: float, damping: float) -> float:
     """Circolare 7/2019 [C8.7.1.12]: S_eZ(T, ξ, z) T²/4π², at a height beyond b T_1 not below its value there [g s²].
 
-    On the ground S_De(T); of a table the greatest up to T, as C8.7.1.2.1.8 asks of spectra of a site. nan beyond a table.
+    On the ground S_De(T); of a table the greatest up to T, as C8.7.1.2.1.8 asks of spectra of a site; nan beyond it.
     """
     if floor is not None:
         found = floor_acceleration(spectrum, floor, period, damping) * period**2
@@ -83,9 +86,11 @@ def displacement_demand(spectrum: Spectrum, floor: Floor | None, period: float, 
             peak = floor_acceleration(spectrum, floor, floor.period, damping)
             found = max(found, peak * (FLAT_TO * floor.period) ** 2)
         return found / (4.0 * math.pi**2)
-    periods = np.linspace(0.0, period, 400) if spectrum.table else np.array([period])
-    values = [ground_acceleration(spectrum, each, damping) * each**2 for each in periods.tolist()]
-    return max(values) / (4.0 * math.pi**2) if not math.isnan(values[-1]) else math.nan
+    found = ground_acceleration(spectrum, period, damping) * period**2
+    if spectrum.table and not math.isnan(found):
+        periods, (known, values) = np.linspace(0.0, period, 1000), np.array(spectrum.table).T
+        found = max(found, damping_factor(damping) * float((np.interp(periods, known, values) * periods**2).max()))
+    return found / (4.0 * math.pi**2)
 
 
 def ground_capacity(demand: Callable[[float], float], capacity: float) -> float:
@@ -101,7 +106,12 @@ def ground_capacity(demand: Callable[[float], float], capacity: float) -> float:
     over = next((row for row, each in enumerate(excess) if each >= 0.0), None)
     if over is None:
         return math.inf
-    return steps[0] if over == 0 else float(brentq(lambda a: demand(a) - capacity, steps[over - 1], steps[over]))
+    low: float = steps[max(over - 1, 0)]
+    high: float = steps[over]
+    while high - low > 1e-12 * high:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if demand(middle) >= capacity else (middle, high)
+    return high
 
 
 def demand_617(spectrum: Spectrum, floor: Floor | None) -> float:

@@ -46,21 +46,24 @@ class Spectrum:
     table: tuple[tuple[float, float], ...] = ()
 
 
-def ntc_2018(a_g: float, F_0: float, T_C_star: float, soil: str, topography: str = "T1") -> Spectrum:
-    """NTC 2018, 3.2.3.2.1: S = S_S S_T, T_C = C_C T_C*, T_B = T_C/3, T_D = 4 a_g/g + 1.6.
+def ntc_2018(a_g: float, plateau: float, period: float, soil: str, topography: str = "T1") -> Spectrum:
+    """NTC 2018, 3.2.3.2.1, from a_g [g], F_0, T_C* [s]: S = S_S S_T, T_C = C_C T_C*, T_B = T_C/3, T_D = 4 a_g/g + 1.6.
 
-    a_g [g], T_C_star [s]
+    Raises KeyError for categories that Tables 3.2.IV and 3.2.V do not have.
     """
     row, site = coefficients()["soil"][soil], coefficients()["topography"][topography]
-    S_S = min(max(row["start"] - row["slope"] * F_0 * a_g, row["least"]), row["greatest"])
-    T_C = row["factor"] * T_C_star ** (1.0 + row["exponent"])
-    return Spectrum(a_g, S_S * site, F_0, T_C / 3.0, T_C, 4.0 * a_g + 1.6)
+    of_soil = min(max(row["start"] - row["slope"] * plateau * a_g, row["least"]), row["greatest"])
+    corner = row["factor"] * period ** (1.0 + row["exponent"])
+    return Spectrum(a_g, of_soil * site, plateau, corner / 3.0, corner, 4.0 * a_g + 1.6)
 
 
 def en_1998(a_g: float, kind: int, soil: str) -> Spectrum:
-    """EN 1998-1:2004, 3.2.2.2 with Tables 3.2 and 3.3, types 1 and 2; plateau 2.5."""
-    S, T_B, T_C, T_D = coefficients()["en_1998"][str(kind)][soil]
-    return Spectrum(a_g, S, 2.5, T_B, T_C, T_D)
+    """EN 1998-1:2004, 3.2.2.2 with Tables 3.2 and 3.3, types 1 and 2; a_g [g], plateau 2.5.
+
+    Raises KeyError for types and grounds that they do not have.
+    """
+    amplification, *corners = coefficients()["en_1998"][str(kind)][soil]
+    return Spectrum(a_g, amplification, 2.5, *corners)
 
 
 def spectrum_of(section: SpectrumSection, a_g: float | None = None) -> Spectrum:
@@ -91,13 +94,12 @@ def ground_acceleration(spectrum: Spectrum, period: float, damping: float = 5.0)
     eta = damping_factor(damping)
     if spectrum.table:
         periods, values = np.array(spectrum.table).T
-        # of other damping but at T = 0, where damping means nothing
-        share = eta if period > 0.0 else 1.0
-        return share * float(np.interp(period, periods, values, right=np.nan))
-    plateau, rock = eta * spectrum.F_0, spectrum.a_g * spectrum.S
+        return eta * float(np.interp(period, periods, values, right=np.nan))
+    plateau, ground = eta * spectrum.F_0, spectrum.a_g * spectrum.S
     if period < spectrum.T_B:
-        return rock * (1.0 + (plateau - 1.0) * period / spectrum.T_B)
-    return rock * plateau * min(1.0, spectrum.T_C / period, spectrum.T_C * spectrum.T_D / period**2)
+        return ground * (1.0 + (plateau - 1.0) * period / spectrum.T_B)
+    fallen: float = min(1.0, spectrum.T_C / period, spectrum.T_C * spectrum.T_D / period**2)
+    return ground * plateau * fallen
 
 
 @dataclass(frozen=True)
@@ -133,13 +135,13 @@ def floor_amplification(floor: Floor, damping: float) -> float:
     ξ_1 is a ratio here, 0.05 for 5 %, though the article has per cent, which fits [C7.2.7] alone: with per cent the
     peak of a floor would lie below the acceleration of the floor itself.
     """
-    return 1.1 * (floor.damping / 100.0) ** -0.5 * damping_factor(damping)
+    return 1.1 / math.sqrt(floor.damping / 100.0) * damping_factor(damping)
 
 
 def floor_acceleration(spectrum: Spectrum, floor: Floor, period: float, damping: float = 5.0) -> float:
     """Circolare 7/2019 [C7.2.5], [C7.2.6] with the first mode: S_eZ(T, ξ, z) [g]; beyond T_1 not below the ground."""
-    p, a_Z = floor_amplification(floor, damping), peak_floor_acceleration(spectrum, floor)
+    p, greatest = floor_amplification(floor, damping), peak_floor_acceleration(spectrum, floor)
     low, high = FLAT_FROM * floor.period, FLAT_TO * floor.period
     off = (1.0 - period / low) ** 1.6 if period < low else (period / high - 1.0) ** 1.2 if period > high else 0.0
-    own = p * a_Z / (1.0 + (p - 1.0) * off)
+    own = p * greatest / (1.0 + (p - 1.0) * off)
     return max(own, ground_acceleration(spectrum, period, damping)) if period > floor.period else own

@@ -1,0 +1,50 @@
+"""An assessment by a code in words: the ratios in a sentence, and the table of all figures with their articles."""
+
+from __future__ import annotations
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck.sections.assessment import LIMIT_STATES
+from mbla.model.model import Model
+from mbla.results.assessment.assessment import OLD, assessment_of
+from mbla.results.listing.text import full_sentence, number, sentence, table
+from mbla.results.results import CaseResult
+
+SCOPE = (
+    "Modelled: the mechanism as one that begins at alpha_0, and the curve under actions that are taken to last until "
+    "collapse. Not modelled: what ends it before, such as ties that rupture, beams that lose their seat or vaults that "
+    "fall with it (C8.7.1.2.1.6), and the elastic period of elements that are free to vibrate.",
+    "A ratio of ground accelerations is found with F_0, T_C* and the soil of its limit state kept.",
+)
+OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
+
+
+def assessment_words(model: Model, contacts: Contacts, case: CaseResult) -> str:
+    """Capacity over demand at every limit state; empty where no assessment is asked for."""
+    found, asked = assessment_of(model, contacts, case), case.load_case.assessment
+    if found is None or asked is None:
+        return ""
+    said = []
+    for name in LIMIT_STATES:
+        ratio = found.ratio(name)
+        if name in found.ratios:
+            said.append(f"{name} {number(ratio)} of what is asked for, {'met' if ratio >= 1.0 else 'NOT MET'}")
+        elif getattr(asked.spectra, name) is not None:
+            said.append(f"{name} no verdict")
+    return f"{found.code}: {'; '.join(said)}" + "".join(f". {full_sentence(text)[:-1]}" for text in found.remarks) + "."
+
+
+def assessment_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
+    """The same, every figure with its article, and what is not in it."""
+    found = assessment_of(model, contacts, case)
+    if found is None:
+        return []
+    rows = [
+        [each.limit_state, each.symbol, number(each.value), each.unit, each.article, each.words]
+        for each in found.figures
+    ]
+    lines = ["", *sentence(assessment_words(model, contacts, case))]
+    if rows:
+        heads = ["", "symbol", "value", "unit", "article", ""]
+        lines += ["", *table(heads, rows, left=6), ""]
+    old = case.load_case.assessment is not None and case.load_case.assessment.code == OLD
+    return lines + [line for words in (*SCOPE, *([OF_2009] if old else [])) for line in sentence(words)]
