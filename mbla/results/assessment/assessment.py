@@ -19,7 +19,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, summed
 from mbla.contacts.contacts import Contacts
-from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
+from mbla.deck.sections.assessment import LIMIT_STATES, AssessmentSection, SpectrumSection
 from mbla.deck.units import Units
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
@@ -30,6 +30,9 @@ from mbla.results.assessment.spectra import (
     Spectrum,
     coefficients,
     damping_factor,
+    floor_acceleration,
+    floor_amplification,
+    ground_acceleration,
     participation,
     spectrum_of,
 )
@@ -78,16 +81,10 @@ class Assessment:
     figures: tuple[Figure, ...] = ()
     remarks: tuple[Message, ...] = ()
 
-    def ratio(self, limit_state: str) -> float:
-        """Capacity over demand at a limit state; nan where there is no verdict."""
-        found = (each.value for each in self.figures if (each.symbol, each.limit_state) == (RATIO, limit_state))
-        return next(found, math.nan)
-
     @property
-    def ratios(self) -> dict[str, float]:
-        """Those that there are."""
-        found = {name: self.ratio(name) for name in LIMIT_STATES}
-        return {name: ratio for name, ratio in found.items() if not math.isnan(ratio)}
+    def ratios(self) -> dict[str, Figure]:
+        """Capacity over demand at every limit state that has a verdict."""
+        return {each.limit_state: each for each in self.figures if each.symbol == RATIO}
 
 
 @cache
@@ -128,7 +125,7 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
         words = "there is no assessment: the load case has no verified load factor above 0"
         return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))
     rows, mechanism = _Rows(asked.code, model.units), _mechanism_of(model, contacts, case.load_case, mechanics)
-    capacity = _capacity(rows, model, case, mechanism, mechanics.load_factor)
+    capacity = _capacity(rows, model, contacts, asked, mechanism, mechanics.load_factor)
     _doubts(rows, model, case, mechanism)
     for state in LIMIT_STATES:
         section: SpectrumSection | None = getattr(asked.spectra, state)
@@ -232,10 +229,11 @@ class _Capacity:
     floor: Floor | None
 
 
-def _capacity(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism, load_factor: float) -> _Capacity:
-    asked = case.load_case.assessment
-    assert asked is not None  # else nothing is assessed
-    crushes = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
+def _capacity(
+    rows: _Rows, model: Model, contacts: Contacts, asked: AssessmentSection, mechanism: _Mechanism, load_factor: float
+) -> _Capacity:
+    laws = [model.joints[contacts.joint_names[number]] for number in np.unique(contacts.joints).tolist()]
+    crushes = all(np.isfinite(law.compressive_strength) for law in laws)
     level = asked.knowledge if crushes else "LC1"
     confidence = coefficients()["confidence"][level]
     weights, delta, (of_stones, delta_stones) = mechanism.weights, mechanism.delta, mechanism.stones
@@ -250,7 +248,7 @@ def _capacity(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism
     rows.add("Q", 0.0)
     rows.add("e*", share, words=f"kinematic blocks, {len(weights)}")
     rows.add("e* stones", stones, words=f"single stones, {len(of_stones)}")
-    rows.add("FC", confidence, words=level if crushes else "LC1, as joints do not crush")
+    rows.add("FC", confidence, words=level if crushes else "LC1, as not all joints crush")
     rows.add("a_0*", activation)
     rows.add("a_0* stones", codes.spectral_acceleration(alpha, stones, confidence))
     floor, up = None, asked.height
@@ -267,24 +265,28 @@ def _assess(
     """All that is asked at one limit state, the deciding ratio last."""
     asked, spectrum, floor = case.load_case.assessment, spectrum_of(section), capacity.floor
     assert asked is not None  # else nothing is assessed
-    q = asked.behaviour_factor
+    q, where = asked.behaviour_factor, "a_g S" if floor is None else "at z, not below a_g S"
     _add_spectrum(rows, state, section, spectrum)
+    if floor is not None:
+        damping = floor.damping if asked.code != OLD else 5.0
+        rows.add("S_e(T_1)", ground_acceleration(spectrum, floor.period, damping), state=state, words=damping)
     if asked.code == OLD:
         demand = codes.demand_617(spectrum, floor)
-        rows.add("a_Z", demand, state=state)
+        rows.add("a_Z", demand, state=state, words=where)
         rows.add("q", q, state=state)
-        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z")
+        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z, by alpha_0 alone")
         return
-    rows.add("a_Z", codes.floor_demand(spectrum, floor), state=state)
+    article = "C8.7.1.2.1.5" if floor is None else "[C7.2.8]"
+    rows.add("a_Z", codes.floor_demand(spectrum, floor), state=state, words=where, article=article)
 
     def asked_of_floor(a_g: float) -> float:
         return codes.floor_demand(spectrum_of(section, a_g), floor)
 
     begins = codes.ground_capacity(asked_of_floor, capacity.activation)
     rows.add("a_g,0", begins, state=state)
-    borne, how, article = begins, "a_g,0/a_g", "C8.7.1.2.1.5"
+    borne, how, article = begins, "a_g,0/a_g, where it begins", "C8.7.1.2.1.5"
     if state == "SLV":
-        borne, how, article = q * begins, "q a_g,0/a_g", "C8.7.1.2.1.7"
+        borne, how, article = q * begins, "q a_g,0/a_g, by alpha_0 alone", "C8.7.1.2.1.7"
         rows.add("q", q, state=state)
         rows.add("q a_g,0", borne, state=state)
     if state in codes.SHARES:
@@ -295,18 +297,22 @@ def _assess(
                 return
         elif case.load_case.pushover is not None:
             found = _by_displacement(rows, state, section, case, capacity, mechanism)
-            borne, how, article = max(found, begins), "a_g,d/a_g or a_g,0/a_g", "C8.7.1.2.1.8"
             if math.isnan(found):
                 return
+            borne, how, article = max(found, begins), "a_g,d/a_g, by displacements", "C8.7.1.2.1.8"
+            if begins > found:
+                how = "a_g,0/a_g, for it does not begin below"
     rows.add(RATIO, borne / spectrum.a_g, state=state, words=how, article=article)
 
 
 def _add_spectrum(rows: _Rows, state: str, section: SpectrumSection, spectrum: Spectrum) -> None:
-    ntc, table = section.ntc_2018 is not None, section.table is not None
-    article = "NTC 3.2.3.2.1" if ntc else "table" if table else "EN 1998-1"
-    rows.add("a_g", spectrum.a_g, state=state, article=article)
-    for symbol in () if table else ("S", "T_B", "T_C", "T_D"):
-        rows.add(symbol, getattr(spectrum, symbol), state=state, article=article)
+    rows.add("a_g", spectrum.a_g, state=state, article=_source(section))
+    for symbol in () if spectrum.table else ("S", "T_B", "T_C", "T_D"):
+        rows.add(symbol, getattr(spectrum, symbol), state=state, article=_source(section))
+
+
+def _source(section: SpectrumSection) -> str:
+    return "table" if section.table is not None else "EN 1998-1" if section.ntc_2018 is None else "NTC 3.2.3.2.1"
 
 
 def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
@@ -342,10 +348,11 @@ def _by_displacement(
     a = codes.spectral_acceleration(factor * mechanism.acceleration, capacity.share, capacity.confidence)
     period = codes.secant_period(state, d, a * g)
 
-    def demand(spectrum: Spectrum) -> float:
-        return codes.displacement_demand(spectrum, capacity.floor, period, damping) * g
+    def demand(of: Spectrum) -> float:
+        return codes.displacement_demand(of, capacity.floor, period, damping) * g
 
-    asked = demand(spectrum_of(section))
+    spectrum = spectrum_of(section)
+    asked = demand(spectrum)
     found = codes.ground_capacity(lambda a_g: demand(spectrum_of(section, a_g)), d)
     rows.add("d/d_C", scale, state=state)
     rows.add("d_0", d_0, state=state)
@@ -353,6 +360,11 @@ def _by_displacement(
     rows.add("a(d)", a, state=state)
     rows.add("T", period, state=state, article="[C8.7.1.10]" if state == "SLV" else "[C8.7.1.11]")
     rows.add("eta", damping_factor(damping), state=state, words=damping, article="NTC [3.2.4]")
+    if capacity.floor is None:
+        rows.add("S_e(T)", ground_acceleration(spectrum, period, damping), state=state, article=_source(section))
+    else:
+        rows.add("p", floor_amplification(capacity.floor, damping), state=state)
+        rows.add("S_eZ(T)", floor_acceleration(spectrum, capacity.floor, period, damping), state=state)
     rows.add("d demand", asked, state=state)
     rows.add("ratio d", d / asked, state=state)
     rows.add("a_g,d", found, state=state)

@@ -13,7 +13,8 @@ SCOPE = (
     "Modelled: the mechanism as one that begins at alpha_0, and the curve under actions that are taken to last until "
     "collapse. Not modelled: what ends it before, such as ties that rupture, beams that lose their seat or vaults that "
     "fall with it (C8.7.1.2.1.6), and the elastic period of elements that are free to vibrate.",
-    "A ratio of ground accelerations is found with F_0, T_C* and the soil of its limit state kept.",
+    "a_g,0 and a_g,d are found with F_0, T_C* and the soil of their limit state kept. What follows from the curve is "
+    "not verified, as the curve is not.",
 )
 OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
 
@@ -23,14 +24,11 @@ def assessment_words(model: Model, contacts: Contacts, case: CaseResult) -> str:
     found, asked = assessment_of(model, contacts, case), case.load_case.assessment
     if found is None or asked is None:
         return ""
-    said = []
-    for name in LIMIT_STATES:
-        ratio = found.ratio(name)
-        if name in found.ratios:
-            said.append(f"{name} {number(ratio)} of what is asked for, {'met' if ratio >= 1.0 else 'NOT MET'}")
-        elif getattr(asked.spectra, name) is not None:
-            said.append(f"{name} no verdict")
-    return f"{found.code}: {'; '.join(said)}" + "".join(f". {full_sentence(text)[:-1]}" for text in found.remarks) + "."
+    said = {name: "no verdict" for name in LIMIT_STATES if getattr(asked.spectra, name) is not None}
+    for name, ratio in found.ratios.items():
+        said[name] = f"{number(ratio.value)} ({ratio.words}), {'met' if ratio.value >= 1.0 else 'NOT MET'}"
+    verdicts = "; ".join(f"{name} {words}" for name, words in said.items())
+    return " ".join([f"{found.code}, capacity over demand: {verdicts}.", *map(full_sentence, found.remarks)])
 
 
 def assessment_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
@@ -43,8 +41,8 @@ def assessment_lines(model: Model, contacts: Contacts, case: CaseResult) -> list
         for each in found.figures
     ]
     lines = ["", *sentence(assessment_words(model, contacts, case))]
-    if rows:
-        heads = ["", "symbol", "value", "unit", "article", ""]
-        lines += ["", *table(heads, rows, left=6), ""]
+    if not rows:
+        return lines
+    lines += ["", *table(["", "symbol", "value", "unit", "article", ""], rows, left=6), ""]
     old = case.load_case.assessment is not None and case.load_case.assessment.code == OLD
     return lines + [line for words in (*SCOPE, *([OF_2009] if old else [])) for line in sentence(words)]
