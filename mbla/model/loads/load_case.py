@@ -81,8 +81,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
             _judge_live(applied, path, own, site)
         pushed = None if section.pushover is None else _pushing(name, section, dead.total, own.total, site)
         loads = dead.total[:, :6], own.total[:, :6]
-        words = dead.words, own.words
-        case = LoadCase(name, *loads, *words, tilt=tilt, pushover=pushed, assessment=section.assessment)
+        case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment)
         if position is not None:
             case = replace(case, name=case_name(position), travel=position)
         cases.append(case)

@@ -139,8 +139,9 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
 def with_remarks(model: Model, contacts: Contacts, case: CaseResult) -> CaseResult:
     """A load case with what stands against its assessment among the remarks on its solution."""
     found = assessment_of(model, contacts, case)
-    remarks = (*case.solution.remarks, *(() if found is None else found.remarks))
-    return replace(case, solution=replace(case.solution, remarks=remarks))
+    if found is None:
+        return case
+    return replace(case, solution=replace(case.solution, remarks=(*case.solution.remarks, *found.remarks)))
 
 
 # --- The mechanism in numbers ---------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,7 +19,7 @@ COURSES = TEXT.replace(BOX, 'max: ["=t", 1, "=h/8"], repeat: {count: 8, translat
 QUICK = {"load_cases.outwards.pushover.step": 0.05}
 
 
-def assessed(text: str, case: str = "outwards", **overrides: object) -> Assessment:
+def assessed(text: str, case: str = "outwards", **overrides: Any) -> Assessment:
     """Of a load case of a deck, a few coarse steps far."""
     changes = QUICK if case == "outwards" else {}
     run = mbla.run(text, cases=case, set=changes | {key.replace("__", "."): value for key, value in overrides.items()})
@@ -41,7 +42,8 @@ def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     run = mbla.run(FACADE, output=tmp_path)
     case = run.case("outwards")
     found = assessment_of(run.model, run.contacts, case.record)
-    assert found is not None and found.remarks == ()
+    assert found is not None
+    assert found.remarks == ()
     assert values(found) == pytest.approx(
         {"alpha_0": 0.075, "P_1": 8640 * 9.81, "delta_1": 1.0, "Q": 0.0, "e*": 1.0, "e* stones": 1.0, "FC": 1.35}
         | {"a_0*": 0.5450, "a_0* stones": 0.5450},
@@ -59,7 +61,8 @@ def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     rest = math.asin(math.sin(alpha) - math.sin(theta))
     assert slv["a(d)"] == pytest.approx(math.tan(rest) * 9.81 / 1.35, rel=1e-5)
     old = assessment_of(run.model, run.contacts, run.case("by_circular_of_2009").record)
-    assert old is not None and ratios(old) == pytest.approx({"SLV": 0.4630}, abs=5e-5)
+    assert old is not None
+    assert ratios(old) == pytest.approx({"SLV": 0.4630}, abs=5e-5)
     assert slv["q a_g,0"] / slv["a_g"] == pytest.approx(0.4630, abs=5e-5)
 
     stored, disagreements = verify_file(tmp_path / f"{FACADE.stem}.h5")
@@ -91,7 +94,7 @@ def test_ratios_do_not_depend_on_units() -> None:
 
 
 def test_an_added_mass_counts_where_it_is() -> None:
-    """A mass on the top, as heavy as the wall: one kinematic block, its centre of mass higher than the control point."""
+    """A mass on the top, as heavy as the wall: the centre of mass lies above the control point."""
     deck = TEXT.replace("contacts:", "masses: [{mass: 8640, on: facade, at: [0.3, 0.5, 8]}]\ncontacts:")
     figures = values(assessed(deck))
     assert figures["P_1"] == pytest.approx(2 * 8640 * 9.81)
@@ -130,7 +133,7 @@ def test_a_height_asks_for_more_than_the_ground() -> None:
         ({"load_cases__outwards__pushover__control__direction": [1, 0, 1]}, "does not count along"),
     ],
 )
-def test_no_verdict_by_displacements_without_their_curve(changes: dict[str, object], says: str) -> None:
+def test_no_verdict_by_displacements_without_their_curve(changes: dict[str, Any], says: str) -> None:
     found = assessed(TEXT, **changes)
     assert found.ratios.keys() == {"SLD", "SLV"}
     assert found.ratios["SLV"].value == pytest.approx(0.4630, abs=5e-5)  # by the load factor alone, and said so
