@@ -19,6 +19,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, summed
 from mbla.contacts.contacts import Contacts
+from mbla.deck.section import given
 from mbla.deck.sections.assessment import LIMIT_STATES, AssessmentSection, SpectrumSection
 from mbla.deck.units import Units
 from mbla.errors import Message
@@ -95,21 +96,22 @@ def _kinds() -> dict[str, dict[str, str]]:
 
 @dataclass
 class _Rows:
-    """Figures and remarks as they are found."""
+    """Figures and remarks as they are found, now at one limit state."""
 
     code: str
     units: Units
+    state: str = ""
     figures: list[Figure] = field(default_factory=list)
     remarks: list[Message] = field(default_factory=list)
 
-    def add(self, symbol: str, value: float, *, state: str = "", words: object = "", article: str = "") -> None:
+    def add(self, symbol: str, value: float, words: object = "", article: str = "") -> None:
         """A figure of ``figures.csv``, accelerations in g; ``words`` and ``article`` fill its gaps."""
         kind = _kinds()[symbol.rstrip("0123456789_") if symbol.startswith(("P_", "delta_")) else symbol]
         length = self.units.length
         units = {"acceleration": f"{length}/s2", "length": length, "force": self.units.force}
         size = self.units.standard_gravity if kind["unit"] == "acceleration" else 1.0
         said = kind[self.code].format(article), kind["words"].format(words)
-        self.figures.append(Figure(state, symbol, value * size, units.get(kind["unit"], kind["unit"]), *said))
+        self.figures.append(Figure(self.state, symbol, value * size, units.get(kind["unit"], kind["unit"]), *said))
 
     def doubt(self, words: str) -> None:
         self.remarks.append(Message("assessment-in-doubt", words))
@@ -127,10 +129,9 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     rows, mechanism = _Rows(asked.code, model.units), _mechanism_of(model, contacts, case.load_case, mechanics)
     capacity = _capacity(rows, model, contacts, asked, mechanism, mechanics.load_factor)
     _doubts(rows, model, case, mechanism)
-    for state in LIMIT_STATES:
-        section: SpectrumSection | None = getattr(asked.spectra, state)
-        if section is not None:
-            _assess(rows, state, section, case, capacity, mechanism)
+    for state in given(asked.spectra, LIMIT_STATES):
+        rows.state = state
+        _assess(rows, getattr(asked.spectra, state), case, capacity)
     if not all(math.isfinite(each.value) for each in rows.figures):
         rows.doubt("a capacity is beyond every ground acceleration up to 10 g, or a table ends before a period needed")
     return Assessment(NAMES[asked.code], tuple(rows.figures), tuple(rows.remarks))
@@ -222,8 +223,10 @@ def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism) 
 
 @dataclass(frozen=True)
 class _Capacity:
-    """What the articles need of a mechanism: e*, FC, a_0* in g, and where it is, None on the ground."""
+    """What the articles need: e*, FC, a_0* in g, and where the mechanism is, None on the ground."""
 
+    asked: AssessmentSection
+    mechanism: _Mechanism
     share: float
     confidence: float
     activation: float
@@ -244,12 +247,12 @@ def _capacity(
     rows.add("alpha_0", alpha)
     for number, (weight, moved) in enumerate(zip(weights.tolist(), delta.tolist(), strict=True), 1):
         if number <= PARTS:
-            rows.add(f"P_{number}", weight, words=number)
+            rows.add(f"P_{number}", weight, number)
             rows.add(f"delta_{number}", moved)
     rows.add("Q", 0.0)
-    rows.add("e*", share, words=f"kinematic blocks, {len(weights)}")
-    rows.add("e* stones", stones, words=f"single stones, {len(of_stones)}")
-    rows.add("FC", confidence, words=level if crushes else "LC1, as not all joints crush")
+    rows.add("e*", share, f"kinematic blocks, {len(weights)}")
+    rows.add("e* stones", stones, f"single stones, {len(of_stones)}")
+    rows.add("FC", confidence, level if crushes else "LC1, as not all joints crush")
     rows.add("a_0*", activation)
     rows.add("a_0* stones", codes.spectral_acceleration(alpha, stones, confidence))
     floor, up = None, asked.height
@@ -257,59 +260,44 @@ def _capacity(
         floor = Floor(up.period, up.damping, participation(up.storeys), up.z / up.top)
         rows.add("gamma_1", floor.participation)
         rows.add("psi_1", floor.shape)
-    return _Capacity(share, confidence, activation, floor)
+    return _Capacity(asked, mechanism, share, confidence, activation, floor)
 
 
-def _assess(
-    rows: _Rows, state: str, section: SpectrumSection, case: CaseResult, capacity: _Capacity, mechanism: _Mechanism
-) -> None:
+def _assess(rows: _Rows, section: SpectrumSection, case: CaseResult, capacity: _Capacity) -> None:
     """All that is asked at one limit state, the deciding ratio last."""
-    asked, spectrum, floor = case.load_case.assessment, spectrum_of(section), capacity.floor
-    assert asked is not None  # else nothing is assessed
-    q, where = asked.behaviour_factor, "a_g S" if floor is None else "at z, not below a_g S"
-    _add_spectrum(rows, state, section, spectrum)
-    if floor is not None:
-        damping = floor.damping if asked.code != OLD else 5.0
-        rows.add("S_e(T_1)", ground_acceleration(spectrum, floor.period, damping), state=state, words=damping)
-    if asked.code == OLD:
-        demand = codes.demand_617(spectrum, floor)
-        rows.add("a_Z", demand, state=state, words=where)
-        rows.add("q", q, state=state)
-        rows.add(RATIO, q * capacity.activation / demand, state=state, words="q a_0*/a_Z, by alpha_0 alone")
-        return
-    article = "C8.7.1.2.1.5" if floor is None else "[C7.2.8]"
-    rows.add("a_Z", codes.floor_demand(spectrum, floor), state=state, words=where, article=article)
-
-    def asked_of_floor(a_g: float) -> float:
-        return codes.floor_demand(spectrum_of(section, a_g), floor)
-
-    begins = codes.ground_capacity(asked_of_floor, capacity.activation)
-    rows.add("a_g,0", begins, state=state)
-    borne, how, article = begins, "a_g,0/a_g, where it begins", "C8.7.1.2.1.5"
-    if state == "SLV":
-        borne, how, article = q * begins, "q a_g,0/a_g, by alpha_0 alone", "C8.7.1.2.1.7"
-        rows.add("q", q, state=state)
-        rows.add("q a_g,0", borne, state=state)
-    if state in codes.SHARES:
-        against = _why_no_displacement(case, mechanism)
-        if against:
-            rows.doubt(f"{state}: no verdict by displacements: {against}")
-            if state == "SLC":
-                return
-        elif case.load_case.pushover is not None:
-            found = _by_displacement(rows, state, section, case, capacity, mechanism)
-            if math.isnan(found):
-                return
-            borne, how, article = max(found, begins), "a_g,d/a_g, by displacements", "C8.7.1.2.1.8"
-            if begins > found:
-                how = "a_g,0/a_g, for it does not begin below"
-    rows.add(RATIO, borne / spectrum.a_g, state=state, words=how, article=article)
-
-
-def _add_spectrum(rows: _Rows, state: str, section: SpectrumSection, spectrum: Spectrum) -> None:
-    rows.add("a_g", spectrum.a_g, state=state, article=_source(section))
+    spectrum, floor, q = spectrum_of(section), capacity.floor, capacity.asked.behaviour_factor
+    where = "a_g S" if floor is None else "at z, not below a_g S"
+    rows.add("a_g", spectrum.a_g, article=_source(section))
     for symbol in () if spectrum.table else ("S", "T_B", "T_C", "T_D"):
-        rows.add(symbol, getattr(spectrum, symbol), state=state, article=_source(section))
+        rows.add(symbol, getattr(spectrum, symbol), article=_source(section))
+    if floor is not None:
+        damping = floor.damping if rows.code != OLD else 5.0
+        rows.add("S_e(T_1)", ground_acceleration(spectrum, floor.period, damping), damping)
+    if rows.code == OLD:
+        demand = codes.demand_617(spectrum, floor)
+        rows.add("a_Z", demand, where)
+        rows.add("q", q)
+        rows.add(RATIO, q * capacity.activation / demand, "q a_0*/a_Z, by alpha_0 alone")
+        return
+    rows.add("a_Z", codes.floor_demand(spectrum, floor), where, "C8.7.1.2.1.5" if floor is None else "[C7.2.8]")
+    begins = codes.ground_capacity(lambda a: codes.floor_demand(spectrum_of(section, a), floor), capacity.activation)
+    rows.add("a_g,0", begins)
+    borne, how, article = begins, "a_g,0/a_g, where it begins", "C8.7.1.2.1.5"
+    if rows.state == "SLV":
+        borne, how, article = q * begins, "q a_g,0/a_g, by alpha_0 alone", "C8.7.1.2.1.7"
+        rows.add("q", q)
+        rows.add("q a_g,0", borne)
+    if rows.state in codes.SHARES and case.load_case.pushover is not None:
+        against = _why_no_displacement(case, capacity.mechanism)
+        found = math.nan if against else _by_displacement(rows, section, case, capacity)
+        if against:
+            rows.doubt(f"{rows.state}: no verdict by displacements: {against}")
+        if math.isnan(found) and rows.state == "SLC":
+            return
+        if not math.isnan(found):
+            how = "a_g,d/a_g, by displacements" if found >= begins else "a_g,0/a_g, for it does not begin below"
+            borne, article = max(found, begins), "C8.7.1.2.1.8"
+    rows.add(RATIO, borne / spectrum.a_g, how, article)
 
 
 def _source(section: SpectrumSection) -> str:
@@ -317,9 +305,7 @@ def _source(section: SpectrumSection) -> str:
 
 
 def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
-    """What keeps the curve from a verdict, in words; empty where nothing does, or where no pushover is asked for."""
-    if case.load_case.pushover is None:
-        return ""
+    """What keeps the curve of a pushover from a verdict, in words; empty where nothing does."""
     from mbla.solution.pushover import ROUGH  # late, as few load cases are pushed
 
     curve = case.solution.curve
@@ -332,16 +318,10 @@ def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
     return "the control point does not count along the live load" if math.isnan(mechanism.control) else ""
 
 
-def _by_displacement(
-    rows: _Rows,
-    state: str,
-    section: SpectrumSection,
-    case: CaseResult,
-    capacity: _Capacity,
-    mechanism: _Mechanism,
-) -> float:
+def _by_displacement(rows: _Rows, section: SpectrumSection, case: CaseResult, capacity: _Capacity) -> float:
     """The ground acceleration, g, whose demand is the displacement that a limit state allows; nan beyond a table."""
-    curve, damping, g = case.solution.curve, codes.DAMPING[state], rows.units.standard_gravity
+    state, mechanism, g = rows.state, capacity.mechanism, rows.units.standard_gravity
+    curve, damping = case.solution.curve, codes.DAMPING[state]
     scale = codes.spectral_displacement(mechanism.weights, mechanism.delta, mechanism.control)
     d_0 = scale * ultimate_displacement(case)
     d = codes.SHARES[state] * d_0
@@ -355,18 +335,18 @@ def _by_displacement(
     spectrum = spectrum_of(section)
     asked = demand(spectrum)
     found = codes.ground_capacity(lambda a_g: demand(spectrum_of(section, a_g)), d)
-    rows.add("d/d_C", scale, state=state)
-    rows.add("d_0", d_0, state=state)
-    rows.add("d", d, state=state, words=codes.SHARES[state])
-    rows.add("a(d)", a, state=state)
-    rows.add("T", period, state=state, article="[C8.7.1.10]" if state == "SLV" else "[C8.7.1.11]")
-    rows.add("eta", damping_factor(damping), state=state, words=damping, article="NTC [3.2.4]")
+    rows.add("d/d_C", scale)
+    rows.add("d_0", d_0)
+    rows.add("d", d, codes.SHARES[state])
+    rows.add("a(d)", a)
+    rows.add("T", period, article="[C8.7.1.10]" if state == "SLV" else "[C8.7.1.11]")
+    rows.add("eta", damping_factor(damping), damping, "NTC [3.2.4]")
     if capacity.floor is None:
-        rows.add("S_e(T)", ground_acceleration(spectrum, period, damping), state=state, article=_source(section))
+        rows.add("S_e(T)", ground_acceleration(spectrum, period, damping), article=_source(section))
     else:
-        rows.add("p", floor_amplification(capacity.floor, damping), state=state)
-        rows.add("S_eZ(T)", floor_acceleration(spectrum, capacity.floor, period, damping), state=state)
-    rows.add("d demand", asked, state=state)
-    rows.add("ratio d", d / asked, state=state)
-    rows.add("a_g,d", found, state=state)
+        rows.add("p", floor_amplification(capacity.floor, damping))
+        rows.add("S_eZ(T)", floor_acceleration(spectrum, capacity.floor, period, damping))
+    rows.add("d demand", asked)
+    rows.add("ratio d", d / asked)
+    rows.add("a_g,d", found)
     return found

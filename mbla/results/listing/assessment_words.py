@@ -5,16 +5,18 @@ from __future__ import annotations
 from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.model.model import Model
-from mbla.results.assessment.assessment import OLD, assessment_of
+from mbla.results.assessment.assessment import NAMES, OLD, assessment_of
 from mbla.results.listing.text import full_sentence, number, sentence, table
 from mbla.results.results import CaseResult
 
-SCOPE = (
+MODELLED = (
     "Modelled: the mechanism as one that begins at alpha_0, and the curve under actions that are taken to last until "
     "collapse. Not modelled: what ends it before, such as ties that rupture, beams that lose their seat or vaults that "
-    "fall with it (C8.7.1.2.1.6), and the elastic period of elements that are free to vibrate.",
+    "fall with it (C8.7.1.2.1.6), and the elastic period of elements that are free to vibrate."
+)
+OF_2019 = (
     "a_g,0 and a_g,d are found with F_0, T_C* and the soil of their limit state kept. What follows from the curve is "
-    "not verified, as the curve is not.",
+    "not verified, as the curve is not."
 )
 OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
 
@@ -44,5 +46,5 @@ def assessment_lines(model: Model, contacts: Contacts, case: CaseResult) -> list
     if not rows:
         return lines
     lines += ["", *table(["", "symbol", "value", "unit", "article", ""], rows, left=6), ""]
-    old = case.load_case.assessment is not None and case.load_case.assessment.code == OLD
-    return lines + [line for words in (*SCOPE, *([OF_2009] if old else [])) for line in sentence(words)]
+    said = (MODELLED, OF_2009 if found.code == NAMES[OLD] else OF_2019)
+    return lines + [line for words in said for line in sentence(words)]
