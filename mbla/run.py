@@ -18,6 +18,7 @@ from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import timing
 from mbla.program.build import build_program
+from mbla.results.assessment.assessment import with_remarks
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
@@ -146,4 +147,4 @@ def solve_case(
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
-    return CaseResult(answer.load_case, solution, answer.checks, status)
+    return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

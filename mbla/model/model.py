@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.guides import NO_GUIDES, Guides, joined
@@ -181,6 +182,7 @@ class LoadCase:
     settlement : support that gives way, None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
     pushover : what follows limit analysis, None for nothing
+    assessment : what a code is asked, None for nothing
     """
 
     name: str
@@ -192,6 +194,7 @@ class LoadCase:
     travel: TravelPosition | None = None
     tilt: Tilt | None = None
     pushover: Pushing | None = None
+    assessment: AssessmentSection | None = None
 
     @property
     def deck_name(self) -> str:

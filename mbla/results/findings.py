@@ -42,6 +42,8 @@ WITHOUT_REASON = BROKEN | {
 
 REMARKS_THAT_WARN = frozenset(
     {
+        "assessment-in-doubt",
+        "assessment-not-done",
         "livesley-overstates",
         "default-for-published",
         "peak-on-path",

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.guides import Guides
@@ -40,6 +41,7 @@ BOX_FACES = np.array(
 TOWER_WEIGHT = 10.0
 STEP = ReductionStep("parts", StepState.APPLIED, 2, ProgramSize(12, 8, 80, 12), ProgramSize(12, 8, 80, 6))
 G = 9.81
+ASSESSED = AssessmentSection.model_validate({"spectra": {"SLV": {"table": [[0.0, 0.2], [2.0, 0.1]]}}})
 
 
 def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks:
@@ -322,7 +324,11 @@ def full_model(model: Model) -> Model:
     ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
     return replace(
         model,
-        load_cases=(replace(model.load_cases[0], settlement=settlement), model.load_cases[1], not_run),
+        load_cases=(
+            replace(model.load_cases[0], settlement=settlement, assessment=ASSESSED),
+            model.load_cases[1],
+            not_run,
+        ),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
     )
 

@@ -26,6 +26,7 @@ from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import full_results
 
 ROOT = Path(__file__).parents[2]
+TUTORIALS = ROOT / "decks" / "tutorials"
 DECKS = {
     "beam_on_three_supports": "settlement",
     "beam_under_travelling_load": "travel",
@@ -35,6 +36,7 @@ DECKS = {
     "incline_too_steep": "no equilibrium, certificate",
     "groove_locked": "unbounded, lock",
     "ferris_wall_1_slope": "load path",
+    "assessed_facade": "assessment, pushover",
 }
 TYPES: dict[str, tuple[type, ...]] = {
     "integer": (int,),
@@ -50,7 +52,7 @@ TYPES: dict[str, tuple[type, ...]] = {
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs")
     for name in DECKS:
-        deck = BENCHMARKS[name]
+        deck = BENCHMARKS.get(name, TUTORIALS / f"{name}.yaml")
         run(deck, RunOptions(folder=folder, overrides=("output.vtu=false",)))
     return folder
 

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from mbla.deck.quantities import Direction, Integer, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Turn
@@ -81,6 +82,11 @@ class LoadCaseSection(Section):
         description="after limit analysis: the load factor as the structure moves by finite displacements, step by "
         "step; loads keep their direction",
     )
+    assessment: AssessmentSection | None = Field(
+        None,
+        description="what a code says of the mechanism that a horizontal acceleration of all blocks brings about; by "
+        "displacements too where there is a `pushover`",
+    )
 
 
 @rule(SettlementSection)
@@ -101,6 +107,8 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
             yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
     if case.pushover is not None:
         yield from _not_pushed(case)
+    if case.assessment is not None:
+        yield from _not_assessed(case, case.assessment)
     special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
     for number, kind in special[1:]:
         words = f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"
@@ -120,3 +128,14 @@ def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
         for kind in given(load, LIVE_ONLY):
             words = "cannot go with pushover, whose loads keep their direction and their place"
             yield Finding("pushover-not-possible", words, "live", number, kind)
+
+
+def _not_assessed(case: LoadCaseSection, assessment: AssessmentSection) -> Iterator[Finding]:
+    live = case.live or []
+    single = len(live) == 1 and live[0].acceleration is not None and live[0].on is None and live[0].pattern is None
+    if not single or live[0].acceleration is None or live[0].acceleration[2] != 0.0:
+        words = "needs one live load, a horizontal acceleration of all blocks, without on and pattern"
+        yield Finding("assessment-not-possible", words, "assessment")
+    if assessment.spectra.SLC is not None and case.pushover is None:
+        words = "needs pushover: near collapse is a question of displacements"
+        yield Finding("assessment-not-possible", words, "assessment", "spectra", "SLC")

@@ -87,7 +87,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
             _judge_live(applied, path, own, site)
         pushed = _pushing(name, section, dead, own, site)
         loads = dead.total[:, :6], own.total[:, :6]
-        case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed)
+        case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment)
         if position is not None:
             case = replace(case, name=case_name(position), travel=position)
         cases.append(case)

@@ -14,6 +14,7 @@ from mbla.errors import Message, Notice
 from mbla.model.model import Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.program.reductions import ProgramSize
+from mbla.results.assessment.assessment import Figure, assessment_of
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.outcome import least_and_greatest
@@ -191,6 +192,8 @@ def _loads(load_case: LoadCase) -> Content:
         part = getattr(load_case, name)
         if part is not None:
             content |= _below(name, {field: getattr(part, field) for field in kind.__dataclass_fields__})
+    if load_case.assessment is not None:
+        content["assessment/asked"] = load_case.assessment.model_dump_json(exclude_none=True)
     return {RECORD_NAMES.get(path, path): value for path, value in content.items()}
 
 
@@ -218,6 +221,9 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
     else:
         del content["curve_end"]
+    assessment = assessment_of(model, contacts, case)
+    if assessment is not None:
+        content |= _columns("assessment", Figure, assessment.figures)
     settlement = case.load_case.settlement
     if settlement is not None and solution.mechanics is not None:
         content["reaction"] = settlement.reaction(solution.mechanics.load_factor)

@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
@@ -197,6 +198,7 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         travel=TravelPosition(**travel) if travel else None,
         tilt=Tilt(**tilt) if tilt else None,
         pushover=Pushing(**pushed) if (pushed := _part(get, "pushover/")) else None,
+        assessment=AssessmentSection.model_validate_json(asked) if (asked := get.get("assessment/asked")) else None,
     )
 
 

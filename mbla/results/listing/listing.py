@@ -15,6 +15,7 @@ from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import series_lines, worst_words
+from mbla.results.listing.assessment_words import assessment_lines
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
     enough_lines,
@@ -83,6 +84,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         Section("Reductions", spaced(reduction_lines(solution.reductions))),
         Section("Load path", path_lines(model, case)),
         Section("Pushover", curve_lines(model, case)),
+        Section("Assessment", assessment_lines(model, contacts, case)),
         Section("Solver programs", program_lines(solution)),
     ]
     return [section for section in sections if any(section.lines)]

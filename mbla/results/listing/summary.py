@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
+from mbla.results.listing.assessment_words import assessment_words
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
@@ -94,6 +95,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         text += "" if found is None else f": {mechanism_summary(model, how.collapse, how.failure)}"
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
-    for words in (*details, *reasons(case), bound_words(model, case), curve_words(model, case)):
+    assessed = assessment_words(model, contacts, case)
+    for words in (*details, *reasons(case), bound_words(model, case), curve_words(model, case), assessed):
         lines += sentence(words, DETAIL)
     return lines

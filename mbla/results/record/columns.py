@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.sections.assessment import LIMIT_STATES
+from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.interface_modes import InterfaceMode, relative_motion
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.rigid_parts import moving_blocks, moving_share
@@ -80,6 +82,14 @@ def _extent(end: int) -> Callable[[Scene, str], float | None]:
 
 def _of_parts(of: Callable[..., Any]) -> Callable[[Scene, str], Any]:
     return lambda scene, _: None if scene.collapse is None else of(scene.model, scene.collapse.parts)
+
+
+def _assessed(scene: Scene, name: str) -> float | None:
+    """Capacity over demand at the limit state that a name ends with, the least where it names none."""
+    found = None if scene.case is None else assessment_of(scene.model, scene.contacts, scene.case)
+    ratios = {} if found is None else {name: each.value for name, each in found.ratios.items()}
+    state = name.removeprefix("assessment_ratio").removeprefix("_")
+    return ratios.get(state) if state else min(ratios.values(), default=None)
 
 
 def _modes(scene: Scene, name: str) -> int | None:
@@ -155,6 +165,7 @@ FOUND: dict[str, Callable[[Scene, str], Any]] = {
     "angle": _of_case(angle_of),
     "angle_bounds": _of_case(lambda case: None if case.load_case.tilt is None else angle_bounds(case)),
     "ultimate_displacement": _of_case(ultimate_displacement),
+    **dict.fromkeys(("assessment_ratio", *(f"assessment_ratio_{name}" for name in LIMIT_STATES)), _assessed),
     "reaction_force": _of_case(lambda case: _reaction(case, turns=False)),
     "reaction_moment": _of_case(lambda case: _reaction(case, turns=True)),
     "figures": lambda scene, _: FIGURES.index(scene.figures),

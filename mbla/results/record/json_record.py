@@ -15,6 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
@@ -155,6 +156,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "curve": as_json(solution.curve),
         "curve_end": solution.curve_end,
+        "assessment": as_json(assessment_of(model, scene.contacts, case)),
         "mechanism": None
         if mechanics is None
         else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension_of((case,))),

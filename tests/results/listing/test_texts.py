@@ -22,7 +22,7 @@ from mbla.results.listing.text import WIDTH
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import PathPoint, Standing, StandingResult, Status
-from tests.results.synthetic import full_results, tower_mechanics, tower_results
+from tests.results.synthetic import ASSESSED, full_results, tower_mechanics, tower_results
 
 TEXTS = Path(__file__).with_name("texts.txt")
 NAN = float("nan")
@@ -80,6 +80,7 @@ CASES = {
     "tilt, unbounded, associative": case(Status.UNBOUNDED, of=ASSOCIATIVE, load={"tilt": TILT}, **NONE),
     "force": case(load={"live_words": ("force (1, 0, 0) N on tower[0]",)}),
     "approximate": case(Status.APPROXIMATE, reason="did not settle"),
+    "assessment": case(of=ASSOCIATIVE, load={"assessment": ASSESSED}),
     "failed": case(Status.NOT_VERIFIED, checks=FAILED),
     "large residual": case(Status.NOT_VERIFIED, checks={"slip_residual": 0.1}),
     "no answer": case(Status.NOT_VERIFIED, **NONE),
@@ -94,7 +95,7 @@ CASES = {
     "numerical error": case(Status.NUMERICAL_ERROR, **NONE),
 }
 """what a case may be, by what is special to it"""
-SHOWN = ("Verdict", "Load factor and bounds", "Load path", "Locking forces")
+SHOWN = ("Verdict", "Load factor and bounds", "Load path", "Assessment", "Locking forces")
 """sections that say something else for it; what they share with the plain case is left out"""
 NEEDS = {"push": CaseNeeds({"unknown_velocities": 12, "cones": 8})}
 DIFFERS = ("push_x: static bound is 1 recomputed, the file says 2",)

@@ -63,8 +63,8 @@ def _builders(classes: list[ast.ClassDef]) -> set[str]:
 
 
 def _makes(path: Path, call: ast.Call, names: set[str]) -> bool:
-    of_solution = path.is_relative_to(PACKAGE / "solution") and _name(call.func) == "Message"
-    return _name(call.func) in names and not of_solution
+    remarks = any(path.is_relative_to(PACKAGE / place) for place in ("solution", "results/assessment"))
+    return _name(call.func) in names and not (remarks and _name(call.func) == "Message")
 
 
 def _site(path: Path, call: ast.Call) -> Site:

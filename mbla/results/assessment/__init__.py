@@ -1,0 +1,1 @@
+"""What codes ask of a mechanism: spectra, articles, and the figures of a load case."""

@@ -1,0 +1,50 @@
+"""An assessment by a code in words: the ratios in a sentence, and the table of all figures with their articles."""
+
+from __future__ import annotations
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck.sections.assessment import LIMIT_STATES
+from mbla.model.model import Model
+from mbla.results.assessment.assessment import NAMES, OLD, assessment_of
+from mbla.results.listing.text import full_sentence, number, sentence, table
+from mbla.results.results import CaseResult
+
+MODELLED = (
+    "Modelled: the mechanism as one that begins at alpha_0, and the curve under actions that are taken to last until "
+    "collapse. Not modelled: what ends it before, such as ties that rupture, beams that lose their seat or vaults that "
+    "fall with it (C8.7.1.2.1.6), and the elastic period of elements that are free to vibrate."
+)
+OF_2019 = (
+    "a_g,0 and a_g,d are found with F_0, T_C* and the soil of their limit state kept. What follows from the curve is "
+    "not verified, as the curve is not."
+)
+OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
+
+
+def assessment_words(model: Model, contacts: Contacts, case: CaseResult) -> str:
+    """Capacity over demand at every limit state; empty where no assessment is asked for."""
+    found, asked = assessment_of(model, contacts, case), case.load_case.assessment
+    if found is None or asked is None:
+        return ""
+    said = {name: "no verdict" for name in LIMIT_STATES if getattr(asked.spectra, name) is not None}
+    for name, ratio in found.ratios.items():
+        said[name] = f"{number(ratio.value)} ({ratio.words}), {'met' if ratio.value >= 1.0 else 'NOT MET'}"
+    verdicts = "; ".join(f"{name} {words}" for name, words in said.items())
+    return " ".join([f"{found.code}, capacity over demand: {verdicts}.", *map(full_sentence, found.remarks)])
+
+
+def assessment_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
+    """The same, every figure with its article, and what is not in it."""
+    found = assessment_of(model, contacts, case)
+    if found is None:
+        return []
+    rows = [
+        [each.limit_state, each.symbol, number(each.value), each.unit, each.article, each.words]
+        for each in found.figures
+    ]
+    lines = ["", *sentence(assessment_words(model, contacts, case))]
+    if not rows:
+        return lines
+    lines += ["", *table(["", "symbol", "value", "unit", "article", ""], rows, left=6), ""]
+    said = (MODELLED, OF_2009 if found.code == NAMES[OLD] else OF_2019)
+    return lines + [line for words in said for line in sentence(words)]
