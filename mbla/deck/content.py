@@ -21,6 +21,7 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
+from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Support, SymmetryPlane
 from mbla.deck.text.include import MAX_FILES
 from mbla.errors import Finding
@@ -94,6 +95,11 @@ class DeckContent(Section):
         default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"
     )
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
+    groups: dict[Name, Selector] = Field(
+        default_factory=dict,
+        description="names for choices of blocks, beside the groups of the items: each stands by itself, or in a list, "
+        "wherever blocks are chosen, for the selector given here",
+    )
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")

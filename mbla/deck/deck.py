@@ -11,6 +11,7 @@ from typing import Any
 
 from mbla.deck.content import DeckContent, UnitsSection
 from mbla.deck.expressions import Parameters, is_expression
+from mbla.deck.groups import put_groups_in_place
 from mbla.deck.notices import notices_of
 from mbla.deck.references import check_references, side_files
 from mbla.deck.section import built
@@ -50,6 +51,7 @@ class Deck:
 
     sources : the main file first, then the included ones
     side_files : in the order of the deck
+    data    : as read, with inclusions, overrides and named groups in their places; expressions are not evaluated
     sha256  : of the texts of all sources and overrides, 64 hex digits; neither file names nor side files count
     """
 
@@ -58,6 +60,7 @@ class Deck:
     side_files: tuple[SideFile, ...]
     overrides: tuple[str, ...]
     sha256: str
+    data: dict[str, Any]
     content: DeckContent
     units: Units
     notices: tuple[Notice, ...]
@@ -130,6 +133,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         raise DeckError([tree.fault(("mbla_sweep",), Message("sweep-file-and-deck", words), at_key=True)])
     if not expected:
         tree.data.pop("expected", None)
+    put_groups_in_place(tree)
     units = _units(tree.data)
     parameters = Parameters(given if isinstance(given := tree.data.get("parameters"), dict) else {})
     content, faults = validate(
@@ -158,6 +162,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         side_files=tuple(SideFile(at, name, _side_name(tree, at, name)) for at, name in side_files(tree.data)),
         overrides=tuple(overrides),
         sha256=sha256_of(source.text for source in tree.sources),
+        data=tree.data,
         content=content,
         units=units,
         notices=notices_of(tree, content, units, parameters),

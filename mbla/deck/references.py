@@ -33,6 +33,16 @@ class Reference:
 
 LOADS = ("loads.*", "load_cases.*.dead", "load_cases.*.live")
 """Where lists of loads stand."""
+SELECTORS = (
+    "contacts.overrides.#.between.#",
+    "supports.#.blocks",
+    "masses.#.on",
+    *(f"{loads}.#.on" for loads in LOADS),
+    "load_cases.*.settlement.on",
+    "load_cases.*.pushover.control.on",
+    "symmetry.#.halves",
+)
+"""Where blocks are chosen."""
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.*.joint", "joint law", BUILT_IN),
@@ -43,20 +53,10 @@ REFERENCES = (
         for kind in ("wall", "walls")
         for over in ("lintel", "arch")
     ),
-    Reference("contacts.overrides.#.between.#", "group", (GROUND,)),
-    Reference("contacts.overrides.#.between.#.#", "group", (GROUND,)),
-    Reference("contacts.overrides.#.between.#.group", "group"),
-    Reference("contacts.overrides.#.between.#.#.group", "group"),
     Reference("supports.#.joint", "joint law", BUILT_IN),
     *(
-        Reference(f"{place}{form}", "group")
-        for place in (
-            "supports.#.blocks",
-            "masses.#.on",
-            *(f"{loads}.#.on" for loads in LOADS),
-            "load_cases.*.settlement.on",
-            "symmetry.#.halves",
-        )
+        Reference(f"{place}{form}", "group", (GROUND,) if "between" in place and "group" not in form else ())
+        for place in (*SELECTORS, "groups.*")
         for form in ("", ".group", ".#", ".#.group")
     ),
     *(Reference(f"{loads}.#.loads", "load") for loads in LOADS),
@@ -72,8 +72,11 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         "load": _keys(data.get("loads")),
         "group": list(dict.fromkeys(groups(data))),
     }
+    choices = _keys(data.get("groups"))
     for reference in REFERENCES:
         names = dict.fromkeys((*known[reference.kind], *reference.also))
+        if reference.path.removesuffix(".#") in SELECTORS:
+            names |= dict.fromkeys(choices)
         for path, name in find(data, reference.path.split(".")):
             if isinstance(name, str) and name not in names:
                 yield tree.fault(path, Message("unknown-name", unknown(reference.kind, name, names, "known")))
@@ -87,6 +90,10 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         if law in BUILT_IN:
             message = f"{law} is a joint law that every deck knows: choose another name, or use it without declaring it"
             yield tree.fault(("joints", law), Message("reserved-name", message), at_key=True)
+    for name in choices:
+        if name == GROUND or name in known["group"]:
+            words = f"{name} is a group of blocks already, or ground: choose another name"
+            yield tree.fault(("groups", name), Message("reserved-name", words), at_key=True)
     for path, group in find(data, ["blocks", "#", "*", "group"]):
         if group == GROUND:
             words = f"{GROUND} stands for ground planes in contacts.overrides: choose another name"
@@ -115,6 +122,8 @@ def groups(data: dict[str, Any]) -> Iterator[str]:
                 yield group
                 if item.get("springers") == "blocks":
                     yield f"{group}_springers"
+                if item.get("wall") in ("shelf", "pocket"):
+                    yield f"{group}_wall"
 
 
 def find(data: Any, pattern: list[str], path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:

@@ -152,7 +152,8 @@ def _build(deck: Deck) -> Structure:
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
     roster = Roster(built.blocks, partial, deck.fault_at, faults)
     supports = build_supports(deck, Supports(items.fixed, items.grounds), roster)
-    check_overrides(deck.contacts.overrides, roster)
+    if not deck.content.symmetry:  # else images count among what they choose
+        check_overrides(deck.contacts.overrides, roster)
     interfaces = read_interfaces(deck, roster, supports.grounds)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))

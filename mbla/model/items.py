@@ -73,7 +73,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             findings = refused.findings if isinstance(refused, ItemRefused) else ()
             faults += [deck.fault_at((*path, *below), message) for below, message in findings]
             faults += refused.faults if isinstance(refused, DeckError) else ()
-            partial |= {group, f"{group}_springers"}
+            partial |= {group, f"{group}_springers", f"{group}_wall"}
             continue
         notices += generated.notices
         for copy, onwards in enumerate(copies):

@@ -26,7 +26,7 @@ from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.load_kind import entries_of
 from mbla.model.model import Ground, LoadCase, Model, Settlement
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
 from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
@@ -60,6 +60,11 @@ def with_images(deck: Deck, model: Model) -> Model:
         _refuse(deck, findings)
         _refuse(deck, _cannot_mirror(deck, model, mirror, path))
         model = _mirrored(model, mirror, deck.contacts.tolerance)
+    if deck.content.symmetry:
+        roster = Roster(model.blocks, fault_at=deck.fault_at)
+        check_overrides(deck.contacts.overrides, roster)
+        if roster.faults:
+            raise DeckError(roster.faults)
     return model
 
 

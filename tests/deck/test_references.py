@@ -34,6 +34,16 @@ def test_springers_of_an_arch_are_a_group(tmp_path: Path) -> None:
     ]
 
 
+def test_the_wall_of_a_stair_is_a_group(tmp_path: Path) -> None:
+    stair = (
+        "spiral_stair: {group: stair, material: stone, treads: 4, inner_radius: 0.5, outer_radius: 1.5, rise: 0.2, "
+        "angle: 30, overlap: 5, built_in: 0.2, wall: %s}"
+    )
+    text = BLOCK.replace(BOX, stair % "shelf").replace("{ground: {z: 0}}", "{blocks: stair_wall}")
+    assert read_deck(write(tmp_path, text)).content.supports[0].blocks == "stair_wall"
+    assert any("unknown group" in message for message in faults(write(tmp_path, text.replace("shelf", "none"))))
+
+
 @pytest.mark.parametrize("section", ["materials: 5", "materials: [stone]", "materials: {stone: 5}"])
 def test_names_are_compared_even_where_sections_are_broken(tmp_path: Path, section: str) -> None:
     messages = faults(write(tmp_path, BLOCK.replace("materials:\n  stone: {density: 2000}", section)))

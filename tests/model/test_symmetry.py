@@ -193,3 +193,17 @@ def test_named_loads_have_images(tmp_path: Path) -> None:
     assert one.load_cases[0].live_load == pytest.approx(model_of(tmp_path, HALF).load_cases[0].live_load)
     with pytest.raises(DeckError, match=r"loads\.quake\[0\]\.acceleration.*acts across the plane of symmetry x = 1"):
         model_of(tmp_path, f"{named}loads: {{quake: [{{acceleration: [0.5, 0.5, 0]}}]}}\n")
+
+
+def test_an_image_can_be_named_where_joint_laws_are_given(tmp_path: Path) -> None:
+    between = "{joint: frictionless, between: [{group: side, index: 9}, ground]}"
+    text = HALF.replace("contacts: {joint: dry}", f"contacts: {{joint: dry, overrides: [{between}]}}")
+    (tmp_path / "deck.yaml").write_text(text, encoding="utf-8")
+    deck = read_deck(tmp_path / "deck.yaml")
+    model = build_model(deck)
+    contacts = find_contacts(model, deck.contacts)
+    slippery = contacts.bodies[contacts.joints == contacts.joint_names.index("frictionless")]
+    assert [model.blocks.name(block) for block in slippery[slippery < len(model.blocks)].tolist()] == ["side[9]"]
+    (tmp_path / "deck.yaml").write_text(text.replace("index: 9", "index: 99"), encoding="utf-8")
+    with pytest.raises(DeckError, match=r"there is no such block: side has 18, index 0 to 17"):
+        build_model(read_deck(tmp_path / "deck.yaml"))

@@ -17,7 +17,7 @@ from mbla.deck.text.tree import MappingMarks, Marks, SequenceMarks, Tree, key_te
 from mbla.errors import DeckError, Fault, FileError, Message
 
 MAX_FILES = 100
-NAMED = frozenset({"parameters", "materials", "joints", "loads", "load_cases", "expected"})
+NAMED = frozenset({"parameters", "materials", "joints", "groups", "loads", "load_cases", "expected"})
 """Sections whose entries are things with a name, never merged with one another."""
 
 

@@ -181,15 +181,15 @@ def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tup
     return translation, rotation
 
 
-def moves_together(contacts: Contacts, velocities: FloatArray) -> BoolArray:
+def moves_together(contacts: Contacts, velocities: FloatArray, together: float = TOGETHER) -> BoolArray:
     """Interfaces whose bodies move as one, (n_interfaces,), from velocities at the contact points, (n_points, 3)."""
     speeds = np.linalg.norm(velocities, axis=1)
-    return np.asarray(largest_by_interface(contacts, speeds) <= TOGETHER * speeds.max(initial=0.0))
+    return np.asarray(largest_by_interface(contacts, speeds) <= together * speeds.max(initial=0.0))
 
 
-def stuck_interfaces(model: Model, contacts: Contacts, motion: FloatArray) -> BoolArray:
+def stuck_interfaces(model: Model, contacts: Contacts, motion: FloatArray, together: float = TOGETHER) -> BoolArray:
     """The same for any motion of the blocks, (n_blocks, 6), as that which shows a lack of equilibrium."""
-    return moves_together(contacts, contact_velocities(model, contacts, motion))
+    return moves_together(contacts, contact_velocities(model, contacts, motion), together)
 
 
 def _turns_about_normal(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:

@@ -6,7 +6,7 @@ import pytest
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.rigid_parts import moving_share, part_motions, reach, rigid_parts
+from mbla.results.collapse.rigid_parts import moving_share, part_motions, parts_of_one_twist, reach, rigid_parts
 from mbla.results.listing.mechanism_words import part_lines
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_model
 
@@ -43,6 +43,19 @@ def test_blocks_that_turn_together_are_one_part() -> None:
     assert part.turns
     assert part.direction == pytest.approx([0, 1, 0])
     assert part.axis_point == pytest.approx([1, 0.5, 3])
+
+
+def test_contacts_that_hardly_move_add_up_along_a_part() -> None:
+    model, contacts = stack(7)
+    motion = rigid(model, [1, 2, 3, 4, 5, 6], (0, 0, 0), (0, 0, 0), (1.0, 0, 0))
+    motion[3:, 0] += 5e-5 * np.arange(4)  # each against the one below
+    assert rigid_parts(model, contacts, motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
+    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 1, 1, 1, 4, 3, 2]
+    motion[3:, 0] = 1.0 + 1e-8
+    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
+    motion[1:3, 0] = 5e-5  # almost at rest
+    assert rigid_parts(model, contacts, motion).tolist() == [0, 0, 0, 1, 1, 1, 1]
+    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 2, 2, 1, 1, 1, 1]
 
 
 def test_nothing_moves_nothing_but_rest() -> None:

@@ -32,6 +32,7 @@ from mbla.model import build_model, geometry
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
+from mbla.results.macro_blocks import refuse_joints_of_table
 from mbla.results.notebook import run
 from mbla.results.notebook.run import Run
 from mbla.results.pictures import animation, renderer
@@ -210,6 +211,11 @@ def cluster_without_dask(folder: Path, patch: Patch) -> None:
 def film_of_what_stands_still(folder: Path, patch: Patch) -> None:
     patch.setattr(animation, "scene_of", lambda *arguments: SimpleNamespace(motion=np.zeros(3)))
     animation.write_animation(tower_results(), tower_results().cases[0], folder / "a.gif")
+
+
+@brings("macro-blocks-not-possible")
+def glue_after_a_table_of_joints(folder: Path, patch: Patch) -> None:
+    refuse_joints_of_table(b"# of a survey\ninterface; group_a; index_a; group_b; index_b; x; y; z; joint\n")
 
 
 @brings("unknown-table")
