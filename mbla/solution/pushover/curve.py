@@ -140,7 +140,7 @@ def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
         return steps, CurveEnd.LATE
     if dropping:
         return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
-    return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.STUCK
+    return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.FALLS if push.falls else CurveEnd.STUCK
 
 
 def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:

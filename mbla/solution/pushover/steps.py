@@ -51,12 +51,12 @@ from mbla.solution.solution import Mechanics
 MOST_PAIRS = 12
 """Pairs of programs of a step at most: one is usual, two where the mechanism changes."""
 
-FEW_PAIRS, ENOUGH, MOST_RUN = 3, 1e-5, 60
+FEW_PAIRS, MOST_RUN = 3, 60
 """Pairs before an interior-point run from their best state, if they leave more than the residual; factorisations. In
 space there are these pairs alone: joints carry all force at the point about which they twist there, and whatever looks
 further finds other states, lower by a fifth, at the same place."""
 
-WANTED = 1e-7
+WANTED = 1e-5
 """Residual of the joint law with which a step is done."""
 
 OFF = 0.2
@@ -68,7 +68,7 @@ LARGEST_MOTION, LARGEST_TURN = 0.02, 0.02
 SHORTER = (1.0, 0.5, 0.25, 0.125)
 """Shares of a step that are tried in turn where no forces are found: so sharply the end of a curve is known."""
 
-TAKEN = 0.5
+TAKEN = 0.2
 """Weight of falling blocks over that of the control point, or of what a support that gives way carries, from which the
 curve is at its end."""
 
@@ -131,6 +131,7 @@ class Pushover:
     control : of its mechanism
     step    : m, of the control point
     late    : whether the time limit ended it
+    falls   : whether the dead load alone brings the structure down there, as far as was tried last
     """
 
     model: Model
@@ -142,6 +143,7 @@ class Pushover:
     log: Log
     step: float
     late: bool = False
+    falls: bool = False
 
     def steps(self, first: Mechanics) -> Iterator[Step]:
         """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
@@ -204,6 +206,7 @@ class Pushover:
                 break
             fallen = falling
         if solved is None:
+            self.falls = self._ends_it(falling)
             return None
         moved = self.control.displacement(self.model, pose)
         there = solids.block_motions(solved.mechanism)
@@ -256,12 +259,12 @@ class Pushover:
         found: list[LawState] = []
         start = _reduced(part, normals)
         for most in (FEW_PAIRS, MOST_PAIRS):
-            for state in islice(alternation.states(start), most):
+            for state in islice(_states(alternation, start), 2 * most):
                 found.append(state)
                 if state.residual < WANTED:
                     break
             best = min(found, key=lambda state: state.residual, default=None)
-            if best is None or best.residual < ENOUGH or most == MOST_PAIRS or part.components == 3:
+            if best is None or best.residual < WANTED or most == MOST_PAIRS or part.components == 3:
                 break
             run = run_with_moving_anchor(stiffness_of(part), slope, best.forces, MOST_RUN, WANTED, lambda *each: None)
             if run.best is not None:
@@ -272,6 +275,23 @@ class Pushover:
     def _slope(self, part: Program) -> FloatArray:
         """Tangent of the dilatancy angle, (n_points,)."""
         return part.limits.dilatancy_by(self.settings.analysis.flow_rule)
+
+
+def _states(alternation: Alternation, normal: FloatArray) -> Iterator[LawState]:
+    """States of a program of forces with the motion before it and with the one after it, in turn.
+
+    normal : (n_points,) normal forces to start from
+    """
+    velocities = alternation.motion_for(normal)
+    while velocities is not None:
+        found = alternation.forces_for(velocities, 0.0)
+        if found is None:
+            return
+        forces, load_factor = found
+        yield alternation.state(forces, velocities, load_factor)
+        velocities = alternation.motion_for(forces[:, 0])
+        if velocities is not None:
+            yield alternation.state(forces, velocities, load_factor)
 
 
 PLANE_AND_PARTS = ReductionSwitches(True, False, False)
