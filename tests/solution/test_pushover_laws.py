@@ -1,0 +1,147 @@
+"""Laws that every pushover keeps: energy, invariance under rigid motion, glue, debris, statics of what settles."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import numpy as np
+import pytest
+
+from mbla.results.listing.pushover import energy_missing
+from mbla.results.results import CaseResult
+from mbla.solution.solution import CurveEnd, Status
+from tests.line import case_of
+from tests.solution.test_pushover import DECKS, columns
+
+HEAD = "mbla: 1\nmaterials: {stone: {density: 2000}}\n"
+
+
+def random_deck(seed: int) -> str:
+    """A wall in running bond, an arch, a leaning column or a block on a slab, pushed by small steps."""
+    pick = random.Random(seed)
+    friction, kind, ground = pick.uniform(0.3, 0.9), seed % 4, 0.0
+    if kind == 0:
+        height, length, courses = pick.uniform(0.12, 0.3), pick.choice([1.6, 2.0, 2.4]), pick.randint(3, 7)
+        unit = f"[0.4, 0.2, {height:.4f}]"
+        items = [f"wall: {{material: stone, unit: {unit}, length: {length}, courses: {courses}}}"]
+        step = height * courses / 400
+    elif kind == 1:
+        friction, thickness, voussoirs = pick.uniform(0.5, 0.9), pick.uniform(0.3, 0.6), pick.randint(5, 15)
+        shape = f"shape: semicircular, span: 4, thickness: {thickness:.4f}, width: 0.5, voussoirs: {voussoirs}"
+        items, step = [f"arch: {{material: stone, {shape}}}"], 0.0005
+    elif kind == 2:
+        shifts = [0.02 * row * pick.uniform(-1, 1) for row in range(pick.randint(2, 6))]
+        corners = [
+            f"min: [{x:.4f}, 0, {0.4 * z:.1f}], max: [{x + 0.5:.4f}, 0.5, {0.4 * z + 0.4:.1f}]"
+            for z, x in enumerate(shifts)
+        ]
+        items, step = [f"box: {{material: stone, {each}}}" for each in corners], 0.0025
+    else:
+        width, height = pick.uniform(0.2, 1.0), pick.uniform(0.4, 1.5)
+        corners = [f"min: [0, 0, 0], max: [{width:.4f}, 0.5, {height:.4f}]", "min: [0.05, 0, -0.3], max: [2, 0.5, 0]"]
+        items, step, ground = [f"box: {{material: stone, {each}}}" for each in corners], 0.0025, -0.3
+    blocks = "".join(f"  - {item}\n" for item in items)
+    steps = pick.choice([10, 20, 40])
+    return (
+        f"{HEAD}joints: {{dry: {{friction: {friction:.4f}}}}}\nblocks:\n{blocks}contacts: {{joint: dry}}\n"
+        f"supports: [{{ground: {{z: {ground}}}}}]\n"
+        f"load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}], pushover: {{step: {step}, steps: {steps}}}}}}}\n"
+    )
+
+
+def pushed_case(text: str, *overrides: str) -> CaseResult:
+    """The first load case of a deck, as a run gives it."""
+    return case_of(text, *overrides)[1]
+
+
+SPREADING = (DECKS / "tutorials" / "spreading_arch.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.every(5)
+@pytest.mark.parametrize("seed", range(50))
+def test_live_work_is_friction_and_what_the_dead_load_gained(seed: int) -> None:
+    """On random structures; what is missing is the work of gaps that close, of first order in the step."""
+    case = pushed_case(random_deck(seed))
+    assert case.status is Status.SOLVED
+    curve = case.solution.curve
+    assert len(curve) > 10 or case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert abs(energy_missing(curve)) < 0.01
+    assert max(row.residual for row in curve) < 1e-4
+    assert np.diff([row.friction for row in curve]).min() > -1e-6 * abs(curve[-1].live_work)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_rigid_motion_of_everything_changes_nothing(seed: int) -> None:
+    text = random_deck(seed)
+    item = "{translate: [3, -2, 0]}]}"
+    turned = text.replace("}\ncontacts", f", transform: [{{rotate: {{axis: [0, 0, 1], angle: 37}}}}, {item}\ncontacts")
+    across = math.cos(math.radians(37)), math.sin(math.radians(37))
+    turned = turned.replace("acceleration: [1, 0, 0]", f"acceleration: [{across[0]:.15f}, {across[1]:.15f}, 0]")
+    own, other = (columns(pushed_case(each).solution.curve) for each in (text, turned))
+    assert turned.count("rotate") == 1
+    assert other[0] == pytest.approx(own[0], rel=1e-5)
+    assert other[1] == pytest.approx(own[1], rel=1e-5)
+
+
+def test_glued_blocks_are_one() -> None:
+    """A block in three pieces that are glued to each other rocks as the whole one does."""
+    piece = "  - box: {{material: stone, min: [0, 0, {}], max: [0.2, 0.5, {}]}}\n"
+    pieces = "".join(piece.format(z, z + 0.25) for z in (0, 0.25, 0.5, 0.75))
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.8}}}}\nblocks:\n{pieces}"
+        "contacts: {joint: dry, overrides: [{joint: glued, orientation: bed, box: [[-1, -1, 0.1], [1, 1, 1]]}]}\n"
+        "supports: [{ground: {z: 0}}]\n"
+        "load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005}}}\n"
+    )
+    case = pushed_case(text)
+    moved, factors = columns(case.solution.curve)
+    alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-6)
+
+
+def test_the_thrust_of_an_arch_that_spreads_is_that_of_statics() -> None:
+    """W x / z of a half as it lies, its hinges as far apart as the span has grown."""
+    case = pushed_case(SPREADING)
+    half, centroid = 3384.45, (0.42173913, 0.57826087)
+    rows = case.solution.curve
+    spread = np.array([row.displacement for row in rows])
+    across = 1.0 + spread / 2
+    up = np.sqrt(1.0 + 1.3**2 - across**2)
+    turned = np.arctan2(1.3, 1.0) - np.arctan2(up, across)
+    lever = centroid[0] * np.cos(turned) + centroid[1] * np.sin(turned)
+    thrust = np.array([row.reaction for row in rows])
+    assert thrust == pytest.approx(half * lever / up, rel=5e-4)
+    assert thrust[0] == pytest.approx(half * lever[0] / up[0], rel=1e-6)
+    unit = case.load_case.settlement.unit if case.load_case.settlement is not None else math.nan
+    errors = np.array([row.error for row in rows]) * unit / thrust
+    assert 1e-5 < np.nanmax(errors) < 5e-4
+    assert max(row.residual for row in rows) < 1e-5
+
+
+def test_a_support_is_followed_until_nothing_is_carried() -> None:
+    """The two halves fall between their supports before these are as far apart as both halves are long."""
+    case = pushed_case(SPREADING, "load_cases.spreads.settlement.amount=3", "load_cases.spreads.settlement.step=0.02")
+    assert case.solution.curve_end is CurveEnd.NOT_CARRIED
+    assert 1.0 < case.solution.curve[-1].displacement < 2.0 * math.hypot(1.0, 1.3) - 2.0
+
+
+def test_what_falls_alone_is_left_out() -> None:
+    """A plank between a block that rocks and a post drops as the block leaves it; that rocks on by its closed form."""
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.8}}}}\nblocks:\n"
+        "  - box: {group: tall, material: stone, min: [0, 0, 0], max: [0.2, 0.5, 1]}\n"
+        "  - box: {group: post, material: stone, min: [0.9, 0, 0], max: [1.2, 0.5, 1]}\n"
+        "  - box: {group: plank, material: stone, min: [0.15, 0, 1], max: [0.95, 0.5, 1.02]}\n"
+        "contacts: {joint: dry}\nsupports: [{ground: {z: 0}}, {blocks: post}]\n"
+        "load_cases: {push: {live: [{acceleration: [-1, 0, 0]}], pushover: {step: 0.004, control: {on: tall}}}}\n"
+    )
+    case = pushed_case(text)
+    assert case.solution.curve[-1].debris == 1
+    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+    alone = [row for row in case.solution.curve if row.debris]
+    moved, factors = columns(tuple(alone))
+    assert len(alone) > 10
+    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-3)
