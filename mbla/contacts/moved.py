@@ -6,8 +6,9 @@ of the contact, and every corner of what they share is a contact point with its 
 there with its sign. The normal is that of the larger facet, on which the smaller one stands, and the mean of both where
 they are of one size. A point outside of what they share would hold a block that nothing holds.
 
-With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds, all gaps being zero:
-facets that share an edge there, at an angle, are no contact then nor later.
+With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds: what gaps there within
+the tolerance touches, and the gap in the middle of two facets then counts as none later as well. Facets that share an
+edge there, at an angle, are no contact then nor later.
 """
 
 from __future__ import annotations
@@ -36,8 +37,9 @@ FACING, HINGED = (float(np.cos(np.radians(angle))) for angle in (50.0, 85.0))
 larger one have other normals. Facets in contact as built hinge on each other up to the second."""
 
 REACH = 0.05
-"""Gap, over block size, beyond which facets are not in contact: a step moves blocks by less (:data:`LARGEST_MOTION` of
-:mod:`mbla.solution.pushover.steps`)."""
+"""Gap or overlap, over block size, beyond which facets are not in contact: a step moves blocks by less
+(:data:`LARGEST_MOTION` of :mod:`mbla.solution.pushover.steps`), and what overlaps more are the far sides of blocks whose
+near ones touch."""
 
 NARROW = 1e-6
 """Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
@@ -75,8 +77,11 @@ class MovedSearch:
         overlays, parts = self._near(model, self.facets)
         least, greatest = _extreme_gaps(overlays, parts)
         apart = ((greatest > section.tolerance) & (least < section.tolerance)) | (widths(parts) < section.tolerance)
-        pair = self._pair(overlays.bodies, overlays.facets)
-        self._edges, self._joined = np.unique(pair[apart]), np.unique(pair[~apart & (greatest <= section.tolerance)])
+        pair, joined = self._pair(overlays.bodies, overlays.facets), ~apart & (greatest <= section.tolerance)
+        self._edges = np.unique(pair[apart])
+        self._joined, first = np.unique(pair[joined], return_index=True)
+        middles = gap_at(overlays, np.arange(len(parts)), areas_and_centroids(needed_corners(parts, NARROW))[1])
+        self._built = (middles * overlays.sizes)[joined][first]
 
     def at(self, pose: Pose, fallen: BoolArray | None = None) -> MovedContacts:
         """Contacts of the model with its blocks there, but those of debris, (n_blocks,)."""
@@ -102,7 +107,7 @@ class MovedSearch:
             offsets = np.einsum("ka,kai->ki", places, overlays.frames[rows, 1:])
             return np.asarray(overlays.origins[rows] + size[rows, None] * offsets)
 
-        gaps = gap_at(overlays, of_point, found.points) * size[of_point]
+        gaps = gap_at(overlays, of_point, found.points) * size[of_point] - self._gaps_as_built(overlays)[of_point]
         contacts = Contacts(
             bodies=overlays.bodies,
             normals=overlays.frames[:, 0],
@@ -126,7 +131,7 @@ class MovedSearch:
         overlays, shapes = self._between(model, facets)
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
-        near = (widths(parts) > NARROW) & (_extreme_gaps(overlays, parts)[0] < REACH)
+        near = (widths(parts) > NARROW) & (np.abs(_extreme_gaps(overlays, parts)[0]) < REACH)
         near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
             self._pair(overlays.bodies, overlays.facets), self._edges
         )
@@ -134,6 +139,14 @@ class MovedSearch:
             body = np.append(solid, len(solid) + np.arange(len(model.grounds)))[overlays.bodies]
             near &= body[:, 0] != body[:, 1]
         return overlays.take(near), parts[near]
+
+    def _gaps_as_built(self, overlays: Overlays) -> FloatArray:
+        """Of facets in contact as built that gap in the middle, which counts as none, (n,) m; 0 of others."""
+        pair = self._pair(overlays.bodies, overlays.facets)
+        place = np.minimum(np.searchsorted(self._joined, pair), max(len(self._joined) - 1, 0))
+        if not len(self._joined):
+            return np.zeros(len(pair))
+        return np.where(self._joined[place] == pair, self._built[place], 0.0)
 
     def _pair(self, bodies: IntArray, facets: IntArray) -> IntArray:
         """A number for each pair of facets, (n,); ground planes, which have none, go by their bodies."""

@@ -195,6 +195,9 @@ class Pushover:
                 continue
             solids, case = moved_solids(self.model, found, self.case, pose, fallen)
             solved = self._solved(solids, case, found, work, normals)
+            if solved is None:  # what overlaps on two sides cannot be pushed apart: then it may not overlap more
+                apart = replace(found, gaps=np.maximum(found.gaps, 0.0))
+                solved = self._solved(solids, case, apart, work, normals)
             carried = solved is not None and (solved.load_factor > 0.0 or self.case.settlement is not None)
             falling = fallen if carried else fallen | self._falling(solids, case)
             if solved is not None and carried:
@@ -280,9 +283,12 @@ class Pushover:
 def _states(alternation: Alternation, normal: FloatArray) -> Iterator[LawState]:
     """States of a program of forces with the motion before it and with the one after it, in turn.
 
-    normal : (n_points,) normal forces to start from
+    normal : (n_points,) normal forces to start from; those of associative flow where their friction does not hold
     """
     velocities = alternation.motion_for(normal)
+    if velocities is None:
+        held = alternation.forces_for(np.zeros_like(alternation.program.dead_load), 0.0)
+        velocities = None if held is None else alternation.motion_for(held[0][:, 0])
     while velocities is not None:
         found = alternation.forces_for(velocities, 0.0)
         if found is None:
