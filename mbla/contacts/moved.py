@@ -3,8 +3,8 @@
 Faces of moved blocks are no longer parallel, and a joint that opens about an edge stays a contact at that edge. Two
 facets face each other where their normals are opposite within ``FACING``; their outlines are projected along the normal
 of the contact, and every corner of what they share is a contact point with its own gap, the distance of the two planes
-there with its sign. The normal is that of the larger facet, on which the smaller one stands, and the mean of both where
-they are of one size. A point outside of what they share would hold a block that nothing holds.
+there with its sign. The normal is that of the face on which an edge of the other block stands, and the mean of both
+where both have an edge there. A point outside of what they share would hold a block that nothing holds.
 
 With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds: what gaps there within
 the tolerance touches, and the gap in the middle of two facets then counts as none later as well. Facets that share an
@@ -38,26 +38,32 @@ larger one have other normals. Facets in contact as built hinge on each other up
 
 REACH = 0.05
 """Gap or overlap, over block size, beyond which facets are not in contact: a step moves blocks by less
-(:data:`LARGEST_MOTION` of :mod:`mbla.solution.pushover.steps`), and what overlaps more are the far sides of blocks whose
-near ones touch."""
+(:data:`LARGEST_MOTION` of :mod:`mbla.solution.pushover.steps`), and what overlaps more are the far sides of blocks
+whose near ones touch."""
 
 NARROW = 1e-6
 """Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
 
-SAME_AREA = 1e-6
-"""Relative difference of the areas of two facets that are of one size."""
+ON_EDGE = 1e-3
+"""Distance from the edge of a facet, over block size, within which a point is on it: edges that have slipped by less
+against each other hinge as if they had not."""
+
+FLAT = 1e-9
+"""Angle between two facets, rad, up to which they are parallel."""
 
 
 @dataclass(frozen=True)
 class MovedContacts:
     """Contacts, and the gap of each contact point, (n_points,) m: negative where rounding or a step let blocks overlap.
 
-    faces : (n_interfaces, 2) facets, numbered as the blocks have them; −1 for ground
+    faces   : (n_interfaces, 2) facets, numbered as the blocks have them; −1 for ground
+    overlap : greatest, over the size of the smaller block
     """
 
     contacts: Contacts
     gaps: FloatArray
     faces: IntArray
+    overlap: float
 
 
 class MovedSearch:
@@ -69,7 +75,6 @@ class MovedSearch:
     def __init__(self, model: Model, contacts: Contacts, section: ContactsSection) -> None:
         self.model, self.contacts, self.section = model, contacts, section
         self.facets = build_facets(model.blocks)
-        self._areas = shapely.area(self.facets.polygons)
         corners = shapely.get_coordinates(self.facets.polygons, return_index=True)
         self._corners, self._facet_of_corner = corners
         self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
@@ -124,7 +129,8 @@ class MovedSearch:
             report=self.contacts.report,
             solid_of_block=self.contacts.solid_of_block,
         )
-        return MovedContacts(contacts, gaps, overlays.facets)
+        overlap = max(-float((gaps / size[of_point]).min(initial=0.0)), 0.0)
+        return MovedContacts(contacts, gaps, overlays.facets, overlap)
 
     def _near(self, model: Model, facets: Facets) -> tuple[Overlays, Polygons]:
         """Common surfaces within reach."""
@@ -180,9 +186,6 @@ class MovedSearch:
         bodies, pairs = np.column_stack([facets.blocks[a], facets.blocks[b]]), np.column_stack([a, b])
         facing = self._face_each_other(bodies, pairs, facets.normals[a], facets.normals[b])
         a, b = a[facing], b[facing]
-        larger = self._areas[a] - self._areas[b]
-        same = np.abs(larger) <= SAME_AREA * self._areas[b]
-        host = np.where(same, 0.0, np.sign(larger))
         near = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
         between = build_overlays(
             np.column_stack([facets.blocks[a], facets.blocks[b]]),
@@ -191,11 +194,29 @@ class MovedSearch:
             Planes(facets.origins[b], facets.normals[b]),
             near,
             np.minimum(sizes[a], sizes[b]),
-            host,
         )
-        shapes = [
-            intersect(_outlines(between, facets, 0), _outlines(between, facets, 1), facets.convex[a] & facets.convex[b])
-        ]
+        outlines = _outlines(between, facets, 0), _outlines(between, facets, 1)
+        common = intersect(*outlines, facets.convex[a] & facets.convex[b])
+        host = _faces_stood_on(between, common, *outlines)
+        tilted = np.flatnonzero(host)
+        if len(tilted):
+            first, second = a[tilted], b[tilted]
+            one = between.take(tilted)
+            turned = build_overlays(
+                one.bodies,
+                one.facets,
+                Planes(facets.origins[first], facets.normals[first]),
+                Planes(facets.origins[second], facets.normals[second]),
+                near[tilted],
+                one.sizes,
+                host[tilted],
+            )
+            outlines = _outlines(turned, facets, 0), _outlines(turned, facets, 1)
+            common[tilted] = intersect(*outlines, facets.convex[first] & facets.convex[second])
+            order = np.arange(len(a), dtype=np.int64)
+            order[tilted] = len(a) + np.arange(len(tilted))
+            between = concatenate([between, turned]).take(order)
+        shapes = [common]
         overlays = [between]
         for index, ground in enumerate(model.grounds):
             corner = np.where(ground.normal > 0, facets.lower, facets.upper)
@@ -244,6 +265,28 @@ def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
     facet = overlays.facets[:, side]
     matrices, offsets = local_maps(overlays, facets.origins[facet], facets.frames[facet])
     return map_polygons(facets.polygons[facet], matrices, offsets)
+
+
+def _faces_stood_on(overlays: Overlays, common: Polygons, first: Polygons, second: Polygons) -> FloatArray:
+    """Whose plane is that of the contact, as ``build_overlays`` takes it, (n,).
+
+    Where two facets at an angle touch, along the part of their common surface of the least gap, an edge of one stands
+    on the face of the other: the normal is that of the face. Where both have an edge there it is the mean.
+    """
+    host = np.zeros(len(common))
+    rows = np.flatnonzero((np.hypot(overlays.gaps[:, 1], overlays.gaps[:, 2]) > FLAT) & ~shapely.is_empty(common))
+    points, row = shapely.get_coordinates(common[rows], return_index=True)
+    if not len(row):
+        return host
+    gaps, start = gap_at(overlays, rows[row], points), np.flatnonzero(np.diff(row, prepend=-1))
+    least, most = np.minimum.reduceat(gaps, start), np.maximum.reduceat(gaps, start)
+    closed = (gaps <= (least + 1e-6 * (most - least))[row]).astype(float)
+    touch = np.add.reduceat(closed[:, None] * points, start) / np.add.reduceat(closed, start)[:, None]
+    on_first, on_second = (
+        shapely.distance(shapely.points(touch), shapely.boundary(each[rows])) < ON_EDGE for each in (first, second)
+    )
+    host[rows] = np.where(on_first & ~on_second, -1.0, np.where(on_second & ~on_first, 1.0, 0.0))
+    return host
 
 
 def _extreme_gaps(overlays: Overlays, parts: Polygons) -> tuple[FloatArray, FloatArray]:

@@ -44,6 +44,7 @@ REMARKS_THAT_WARN = frozenset(
     {
         "assessment-in-doubt",
         "assessment-not-done",
+        "control-point-at-rest",
         "livesley-overstates",
         "default-for-published",
         "peak-on-path",

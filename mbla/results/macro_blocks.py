@@ -122,7 +122,7 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
         "title": f"Macro-blocks of {load_case.deck_name}, {results.deck.name}",
         "groups": {name: _selector(results, np.flatnonzero(parts == part)) for part, name in names.items()},
         "contacts": contacts | {"overrides": [*contacts.get("overrides", []), *glue]},
-        "load_cases": {load_case.deck_name: data["load_cases"][load_case.deck_name]},
+        "load_cases": {load_case.deck_name: _first_movement(data["load_cases"][load_case.deck_name])},
         "expected": _expected(case, mechanics, f"{stem}.h5"),
     }
     content = data | changed
@@ -134,6 +134,15 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
         if each.number in names and len(each.blocks) > 1
     ]
     return "".join(f"# {line}\n" for line in lines) + text
+
+
+def _first_movement(case: dict[str, Any]) -> dict[str, Any]:
+    """The load case without what follows limit analysis: the parts of the first movement are not those of the next."""
+    kept = {key: value for key, value in case.items() if key not in ("pushover", "assessment")}
+    if "settlement" in kept:
+        only_first = ("amount", "step", "error")
+        kept["settlement"] = {key: value for key, value in kept["settlement"].items() if key not in only_first}
+    return kept
 
 
 def _with_joints(results: Results, parts: IntArray) -> list[int]:

@@ -230,13 +230,21 @@ def angle_of(case: CaseResult) -> float:
     return math.degrees(math.atan(found.load_factor)) if tilt.tangent else tilt.angle
 
 
-def ultimate_displacement(case: CaseResult) -> float:
+def curve_residual(case: CaseResult) -> float:
+    """The greatest residual of the steps of a pushover; 0 without any."""
+    return float(np.max([row.residual for row in case.solution.curve[1:]], initial=0.0))
+
+
+def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     """Displacement of the control point at which a pushover leaves no load factor, on the line between two steps.
 
     That of the last step where it falls on from there under its dead load alone, or nothing carries it any more; nan
-    where the pushover did not come so far, or where there is none.
+    where the pushover did not come so far, where there is none, and unless ``sure`` is false where its steps are not
+    verified.
     """
     curve = case.solution.curve
+    if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
+        return math.nan
     if case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement
     if len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:

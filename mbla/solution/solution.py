@@ -124,6 +124,8 @@ class CurveEnd(StrEnum):
     NOT_CARRIED = "nothing carries it any more"
     REACHED = "the displacement asked for is reached"
     STEPS_DONE = "the steps asked for are done"
+    BLOCKED = "something blocks it: the load factor rises without end"
+    DEEP = "blocks overlap, however short the step"
     STUCK = "no forces or no motion were found for the next step"
     LATE = "the time limit was reached"
 
@@ -164,6 +166,7 @@ class PushedSteps:
     """What the rows of a pushover follow from: its loads, mechanisms and forces, step by step, limit analysis first.
 
     work         : (n_steps,) live work of the step that led there
+    scale        : (n_steps,) live work for which it was solved: the gaps there close by no more in it; inf at first
     load_factors : (n_steps,)
     mechanisms   : (n_steps, n_blocks, 6) for a live power of 1
     fallen       : (n_steps, n_blocks) blocks that are debris
@@ -173,6 +176,7 @@ class PushedSteps:
     """
 
     work: FloatArray
+    scale: FloatArray
     load_factors: FloatArray
     mechanisms: FloatArray
     fallen: BoolArray

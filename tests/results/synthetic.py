@@ -280,6 +280,7 @@ def full_solution(solution: Solution) -> Solution:
         curve_end=CurveEnd.STEPS_DONE,
         pushed=PushedSteps(
             work=np.array([0.0, 0.01]),
+            scale=np.array([np.inf, 0.02]),
             load_factors=np.array([0.5, 0.4]),
             mechanisms=np.stack([mechanics.mechanism, 0.5 * mechanics.mechanism]),
             fallen=np.array([[False, False, False], [False, False, True]]),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.pushover import energy_missing
+from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.solution import CurveEnd, Status
 from tests.line import case_of
@@ -145,3 +146,78 @@ def test_what_falls_alone_is_left_out() -> None:
     moved, factors = columns(tuple(alone))
     assert len(alone) > 10
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-3)
+
+
+def test_the_normal_is_that_of_the_face_stood_on() -> None:
+    """A beam on two piers, one of which sinks: its face on the edge of one, its own edge on the face of the other."""
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.6}}}}\ncontacts: {{joint: dry}}\nsupports: [{{blocks: pier}}]\nblocks:\n"
+        "  - box: {group: pier, material: stone, min: [0, 0, -0.5], max: [0.5, 0.5, 0]}\n"
+        "  - box: {group: pier, material: stone, min: [1.5, 0, -0.5], max: [2, 0.5, 0]}\n"
+        "  - box: {group: beam, material: stone, min: [0, 0, 0], max: [2, 0.5, 0.3]}\nload_cases:\n"
+        "  sinks: {settlement: {on: {group: pier, index: 1}, direction: [0, 0, -1], amount: 0.25, step: 0.01}}\n"
+    )
+    case = pushed_case(text)
+    weight = 2000 * 2 * 0.5 * 0.3 * 9.81
+    # about the edge of the left pier: W (0.5 cos + 0.15 sin) = R 1.5 cos + 0.6 R u, as its end slides on the right one
+    sunk = np.array([row.displacement for row in case.solution.curve])
+    turned = np.arcsin(sunk / 1.5)
+    cos, sin = np.cos(turned), np.sin(turned)
+    closed = weight * (0.5 * cos + 0.15 * sin) / (1.5 * cos + 0.6 * sunk)
+    assert [row.reaction for row in case.solution.curve[1:]] == pytest.approx(closed[1:], rel=3e-6)
+
+
+@pytest.mark.parametrize("breadth", [0.6, 1.0])
+def test_a_block_tips_on_a_narrow_base_as_on_a_wide_one(breadth: float) -> None:
+    """By a moment about its edge, until its centre of gravity is above it, whatever the friction."""
+    inside = (1.0 - breadth) / 2
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.3}}}}\ncontacts: {{joint: dry}}\nsupports: [{{blocks: base}}]\nblocks:\n"
+        f"  - box: {{group: base, material: stone, min: [-0.2, {inside}, 0], max: [1.2, {1 - inside}, 0.5]}}\n"
+        "  - box: {group: cube, material: stone, min: [0, 0, 0.5], max: [1, 1, 1.5]}\nload_cases:\n"
+        "  tips:\n    live: [{moment: [0, 1000, 0], on: cube}]\n"
+        "    pushover: {step: 0.05, control: {on: cube, direction: [1, 0, 0]}}\n"
+    )
+    case = pushed_case(text)
+    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert ultimate_displacement(case) == pytest.approx(0.5, rel=1e-3)
+
+
+WALLS = (
+    f"{HEAD}joints: {{dry: {{friction: 0.6}}}}\ncontacts: {{joint: dry}}\nblocks:\n"
+    "  - box: {group: a, material: stone, min: [0, 0, 0], max: [0.2, 0.5, 1]}\n"
+    "  - box: {group: b, material: stone, min: [0.22, 0, 0], max: [0.62, 0.5, 1]}\n"
+)
+"""Two walls 20 mm apart."""
+
+
+def test_blocks_that_meet_do_not_overlap() -> None:
+    """A wall that rocks against its neighbour, and both as one from there on, or none where the neighbour is fixed."""
+    push = "load_cases: {all: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005, control: {on: a}}}}\n"
+    free = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}]\n{push}").solution
+    assert max(row.overlap for row in free.curve) < 1e-4
+    assert max(row.load_factor for row in free.curve) > 1.5 * free.curve[0].load_factor
+    assert abs(energy_missing(free.curve)) < 1e-3
+    one = push.replace("[1, 0, 0]}", "[1, 0, 0], on: a}")
+    held = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}, {{blocks: b}}]\n{one}").solution
+    assert held.curve_end is CurveEnd.BLOCKED
+    assert held.curve[-1].displacement == pytest.approx(0.01, rel=0.01)  # 20 mm at the top
+
+
+def test_the_error_is_of_the_size_of_the_change_with_the_step() -> None:
+    """On an arch whose hinges move; at the end of its curve no longer step is known."""
+    arch = "arch: {material: stone, shape: semicircular, span: 4, thickness: 0.5, width: 0.5, voussoirs: 9}"
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.8}}}}\nblocks:\n  - {arch}\ncontacts: {{joint: dry}}\n"
+        "supports: [{ground: {z: 0}}]\nload_cases:\n"
+        "  push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.004, until: 0.04, error: true}}\n"
+    )
+    coarse = pushed_case(text).solution.curve
+    fine = pushed_case(text, "load_cases.push.pushover.step=0.0005").solution.curve
+    exact = np.interp([row.displacement for row in coarse], *columns(fine))
+    missed = np.abs([row.load_factor for row in coarse] - exact)
+    claimed = np.array([row.error for row in coarse])
+    known = np.isfinite(claimed)
+    assert known.sum() >= len(coarse) - 2
+    assert missed[known].max() < 2.0 * claimed[known].max()
+    assert claimed[known].max() < 10.0 * missed[known].max()

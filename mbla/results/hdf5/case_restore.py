@@ -71,6 +71,7 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
         return {}
     steps = PushedSteps(
         work=get["pushed/work"],
+        scale=get["pushed/scale"],
         load_factors=get["curve/load_factor"],
         mechanisms=get["pushed/mechanism"],
         fallen=get["pushed/fallen"],

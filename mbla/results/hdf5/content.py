@@ -244,6 +244,7 @@ def _pushed(steps: PushedSteps) -> Content:
         "rotation": np.stack([pose.rotation_vectors for pose in poses]),
         "fallen": steps.fallen,
         "work": steps.work,
+        "scale": steps.scale,
         "mechanism": steps.mechanisms,
         "point_start": steps.point_start,
         "contact_forces": steps.forces,

@@ -9,7 +9,7 @@ import numpy as np
 from mbla.model.model import Model
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small
 from mbla.results.listing.verdict_words import load_factor_words
-from mbla.results.outcome import ultimate_displacement
+from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.solution import CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
@@ -31,7 +31,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         says = (
             f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
         )
-        ultimate = ultimate_displacement(case)
+        ultimate = ultimate_displacement(case, sure=False)
         if last.load_factor <= 0.0:
             says += f"nothing at {number(ultimate)} {length}"
         else:
@@ -48,16 +48,20 @@ def curve_words(model: Model, case: CaseResult) -> str:
         )
     fallen = curve[-1].debris
     says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
-    return f"{says}. {curve_verdict(case)}"
+    return f"{says}. {curve_verdict(case, length)}"
 
 
-def curve_verdict(case: CaseResult) -> str:
+def curve_verdict(case: CaseResult, length: str) -> str:
     """How well the steps of a pushover meet the joint law, as code that did not solve them finds."""
     residuals = [row.residual for row in case.solution.curve[1:]]
     rough = sum(not residual <= SOLVED_RESIDUAL for residual in residuals)
-    worst = float(np.max(residuals, initial=0.0))
+    worst = curve_residual(case)
+    if not residuals:
+        return "No step could be made."
     if not rough:
-        return f"Verified: every step meets equilibrium and the joint law to {worst:.1g}."
+        overlap = max(row.overlap for row in case.solution.curve)
+        says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
+        return f"{says}, blocks overlap by {overlap:.1g} {length} at most."
     name = "Not verified" if not worst <= APPROXIMATE_RESIDUAL else "Approximate"
     steps = "step misses" if rough == 1 else "steps miss"
     return f"{name}: {rough} of {len(residuals)} {steps} equilibrium or the joint law by up to {worst:.1g}."

@@ -39,13 +39,15 @@ class Control:
 
     @staticmethod
     def of_moving(model: Model, case: LoadCase, mechanism: FloatArray) -> Control:
-        """The centroid of what moves in a mechanism, (n_blocks, 6), along the live load on it."""
+        """Centre of the live load on what moves in a mechanism, (n_blocks, 6), along it: of masses their centroid."""
         speed = np.linalg.norm(mechanism[:, :3], axis=1)
         moves = np.flatnonzero(speed > MOVES * speed.max())
-        along = case.live_load[moves, :3].sum(axis=0)
+        loads = case.live_load[moves, :3]
+        along, own = loads.sum(axis=0), _centre(model, moves)
         size = float(np.linalg.norm(along))
-        own = _centre(model, moves)
-        direction = along / size if size > 0.0 else own["weights"] @ mechanism[moves, :3]
+        if size > 0.0:  # by its share of the live load: so the control point does the work of it
+            return Control(moves, own["points"], loads @ along / size**2, along / size)
+        direction = own["weights"] @ mechanism[moves, :3]
         return Control(moves, direction=direction / np.linalg.norm(direction), **own)
 
     def displacement(self, model: Model, pose: Pose) -> float:

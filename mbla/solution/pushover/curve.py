@@ -1,8 +1,8 @@
 """The capacity curve of a load case: made by steps, and found again from their forces and mechanisms alone.
 
 Poses follow from the mechanisms, contacts from the poses, and with these every row is judged as a load case at rest is
-(:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ of
-the step that led there. No matrix of the program stage is used for it and no solver called.
+(:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ for
+which it was solved. No matrix of the program stage is used for it and no solver called.
 
 The curve ends where the load factor is nothing, where the structure falls on without the live load, at the displacement
 asked for, or where no forces or no motion are found. The error of a load factor, which is of first order in the step,
@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -25,18 +26,22 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.pushover.control import Control
+from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.steps import Pushover, Step, moved_solids
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.case import Case, InterfaceTerms
 from mbla.solution.verification.residuals import residuals_of
+from mbla.solution.verification.statics import LoadScale, load_scale
 
 BY_ITSELF, MOST_DROPPING = 100.0, 50
 """Power of the dead load over that of the live load in a mechanism by which a structure goes on whatever the live load,
 and steps that it may do so until its blocks come to rest on others: the curve goes on from there, or ends where the
 fall began."""
+
+BLOCKED = 100.0
+"""Load factor over that of the structure as built from which something blocks its way."""
 
 ALIKE = 0.9
 """Cosine between the motions of two steps below which they are two mechanisms."""
@@ -46,10 +51,18 @@ ALIKE = 0.9
 class MovedCase(Case):
     """A step: contact points come into touch at the end of it, where their gaps are used up.
 
-    gaps : (n_points,) m over the live work of the step that led there
+    gaps     : (n_points,) m over the live work for which it was solved
+    greatest : load factor to which what is left unexplained of the power is relative, besides that of the step
     """
 
     gaps: FloatArray
+    greatest: float
+
+    @cached_property
+    def scale(self) -> LoadScale:
+        """Sizes of the loads, and of the load factors of the curve."""
+        own = load_scale(self.model, self.contacts, self.load_case, self.limits)
+        return _CurveScale(**vars(own), greatest=self.greatest)
 
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """Velocities at the contact points, opening from where they touch, (n_points, 3)."""
@@ -60,6 +73,23 @@ class MovedCase(Case):
     def interface_terms(self, mechanics: Mechanics) -> InterfaceTerms:
         """The work that normal forces do while gaps close."""
         return InterfaceTerms(dissipated=float(mechanics.contact_forces[:, 0] @ self.gaps))
+
+
+@dataclass(frozen=True)
+class _CurveScale(LoadScale):
+    greatest: float
+
+    def least_factor(self, mechanism: FloatArray) -> float:
+        """The greatest load factor of the curve, which falls to nothing."""
+        return max(super().least_factor(mechanism), self.greatest)
+
+
+def _greatest(case: LoadCase, steps: PushedSteps) -> float:
+    """Greatest load factor of a curve, or reaction of a support over the unit of load factors."""
+    settlement = case.settlement
+    if settlement is None:
+        return float(np.abs(steps.load_factors).max())
+    return float(np.abs([settlement.reaction(each) / settlement.unit for each in steps.load_factors]).max())
 
 
 def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: Solution, solved: bool) -> str:
@@ -95,13 +125,13 @@ def pushed(
     if against or solution.mechanics is None or case.pushover is None:
         remark = Message("pushover-not-done", f"there is no pushover: {against}")
         return replace(solution, remarks=(*solution.remarks, remark))
-    search = MovedSearch(model, contacts, section)
-    control = Control.of(model, case, solution.mechanics.mechanism)
+    search, first = MovedSearch(model, contacts, section), solution.mechanics
+    control = Control.of(model, case, first.mechanism)
     push = Pushover(model, contacts, search, case, control, settings, log, case.pushover.step)
-    steps, end = _followed(push, solution.mechanics)
+    steps, end = _followed(push, first)
     errors = np.full(len(steps), np.nan)
     if case.pushover.error:
-        longer, _ = _followed(replace(push, step=2.0 * push.step), solution.mechanics)
+        longer, _ = _followed(replace(push, step=2.0 * push.step, most=2.0), first)
         moved, factors = (
             np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor")
         )
@@ -109,13 +139,23 @@ def pushed(
         errors = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
     solution = replace(solution, pushed=_record(steps, errors), curve_end=end)
     curve = curve_of(model, contacts, section, case, solution)
-    remarks, rough = solution.remarks, [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
+    remarks = (*solution.remarks, *_control_remarks(model, control, first))
+    rough = [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
     if rough:
         worst = max(rough, key=lambda row: row.residual)
         words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
         words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
         remarks = (*remarks, Message("pushover-rough", words))
     return replace(solution, curve=curve, remarks=remarks)
+
+
+def _control_remarks(model: Model, control: Control, first: Mechanics) -> tuple[Message, ...]:
+    """A remark where the control point that the deck gives stays or goes back in the first movement."""
+    speed = control.speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
+    if speed > MOVES * float(np.linalg.norm(first.mechanism[:, :3], axis=1).max()):
+        return ()
+    words = "the control point of the pushover does not go the way in which its displacement counts at first"
+    return (Message("control-point-at-rest", words),)
 
 
 def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
@@ -125,6 +165,8 @@ def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
     steps: list[Step] = []
     dropping = 0
     for step in push.steps(first):
+        if step.load_factor > BLOCKED * abs(first.load_factor) and not settles:
+            return steps, CurveEnd.BLOCKED
         steps.append(step)
         if step.load_factor <= 0.0 and not settles:
             return steps, CurveEnd.NOTHING_LEFT
@@ -140,12 +182,15 @@ def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
         return steps, CurveEnd.LATE
     if dropping:
         return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
+    if push.deep:
+        return steps, CurveEnd.DEEP
     return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.FALLS if push.falls else CurveEnd.STUCK
 
 
 def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
     return PushedSteps(
-        work=np.array([step.work for step in steps]),
+        work=np.array([step.led for step in steps]),
+        scale=np.array([step.scale for step in steps]),
         load_factors=np.array([step.load_factor for step in steps]),
         mechanisms=np.stack([step.mechanism for step in steps]),
         fallen=np.stack([step.fallen for step in steps]),
@@ -192,18 +237,19 @@ def curve_of(
     assert steps is not None
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
+    greatest = _greatest(case, steps)
     work, before = np.zeros(3), np.zeros(3)
     for number, pose in enumerate(poses_of(steps)):
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
             found = search.at(pose, fallen)
             solids, loads = moved_solids(model, found, case, pose, fallen)
-            gaps = found.gaps / steps.work[number]
+            gaps = found.gaps / steps.scale[number]
         else:
             solids, gaps = solids_of(model, contacts), np.zeros(len(first.contact_forces))
             loads = solids.load_case(case)
-        step = MovedCase(solids.model, solids.contacts, loads, gaps)
-        overlap = abs(float(gaps.min(initial=0.0))) * float(steps.work[number])
+        overlap = 0.0 if number == 0 else abs(float(found.gaps.min(initial=0.0)))
+        step = MovedCase(solids.model, solids.contacts, loads, gaps, greatest)
         residual, powers = np.nan, np.zeros(3)
         if len(gaps) == len(mechanics.contact_forces):
             of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))

@@ -59,8 +59,12 @@ further finds other states, lower by a fifth, at the same place."""
 WANTED = 1e-5
 """Residual of the joint law with which a step is done."""
 
-OFF = 0.2
-"""Share by which the control point may miss its step before the step is solved again with another live work."""
+OFF, MOST_WORKS = 0.2, 3
+"""Share by which the live work of a step may differ from that for which it was solved before it is solved again, and
+how many times it is."""
+
+DEEP = 0.01
+"""Overlap of blocks over their size, from which a shorter step is tried; without one the curve is at its end."""
 
 LARGEST_MOTION, LARGEST_TURN = 0.02, 0.02
 """Greatest motion of a block in a step, over its size, and greatest rotation, rad."""
@@ -85,7 +89,9 @@ class Step:
     mechanism    : (n_blocks, 6) for a live power of 1
     forces       : (n_points, 3) N of the contacts there
     fallen       : (n_blocks,) blocks that are debris
-    work         : live work of the step that led here
+    led          : live work of the step that led here
+    scale        : live work for which it was solved, inf without gaps: those of its contacts close by no more in it
+    work         : live work of the step that goes on from here, at most that
     """
 
     displacement: float
@@ -94,6 +100,8 @@ class Step:
     forces: FloatArray
     pose: Pose
     fallen: BoolArray
+    led: float
+    scale: float
     work: float = 0.0
 
 
@@ -130,8 +138,10 @@ class Pushover:
     model   : as it may move under the load case
     control : of its mechanism
     step    : m, of the control point
+    most    : multiple of the greatest motion and rotation of blocks in a step
     late    : whether the time limit ended it
     falls   : whether the dead load alone brings the structure down there, as far as was tried last
+    deep    : whether blocks overlap too much there
     """
 
     model: Model
@@ -142,14 +152,17 @@ class Pushover:
     settings: SolverSettings
     log: Log
     step: float
+    most: float = 1.0
     late: bool = False
     falls: bool = False
+    deep: bool = False
 
     def steps(self, first: Mechanics) -> Iterator[Step]:
         """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
         still = np.zeros(len(self.model.blocks), dtype=bool)
         pose, normals = Pose.at_rest(len(still)), _Normals.of(self.contacts, first.contact_forces)
-        step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still)
+        step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf)
+        step = replace(step, work=self.work_of(step))
         while True:
             yield step
             if self.settings.deadline is not None and time.monotonic() > self.settings.deadline:
@@ -162,59 +175,78 @@ class Pushover:
 
     def _after(self, step: Step, normals: _Normals) -> tuple[Step, _Normals] | None:
         """The next step and its normal forces; None without any."""
-        work = self.work_of(step)
         for share in SHORTER:
-            solved = self._with_debris(step, share * work, normals)
-            if solved is None:
-                continue
-            asked = min(self.work_of(solved[0]), self._most_work(step))
-            if share == 1.0 and abs(asked / work - 1.0) > OFF:
-                solved = self._with_debris(step, asked, normals) or solved
-            return solved
+            solved = self._with_debris(step, share * step.work, normals)
+            if solved is not None:
+                return solved
         return None
 
     def work_of(self, step: Step) -> float:
         """Live work of the step from there: as far as the control point shall go, and no block goes too far."""
-        speed, most = self.control.speed(self.model, step.pose, step.mechanism), self._most_work(step)
-        return min(self.step / speed, most) if speed > 0.0 else most
-
-    def _most_work(self, step: Step) -> float:
-        """Live work by which no block goes too far."""
+        assert self.case.pushover is not None  # else nothing is pushed
+        left = self.case.pushover.until - step.displacement
+        far = min(self.step, left) if left > 0.0 else self.step
         moved = np.linalg.norm(step.mechanism[:, :3], axis=1) / self.model.blocks.sizes
         turned = np.linalg.norm(step.mechanism[:, 3:], axis=1)
-        return float(min(LARGEST_MOTION / max(moved.max(), 1e-300), LARGEST_TURN / max(turned.max(), 1e-300)))
+        most = min(LARGEST_MOTION / max(moved.max(), 1e-300), LARGEST_TURN / max(turned.max(), 1e-300)) * self.most
+        speed = self.control.speed(self.model, step.pose, step.mechanism)
+        return float(min(far / speed, most) if speed > 0.0 else most)
 
-    def _with_debris(self, step: Step, work: float, normals: _Normals) -> tuple[Step, _Normals] | None:
+    def _with_debris(self, step: Step, led: float, normals: _Normals) -> tuple[Step, _Normals] | None:
         """The step by a live work from another one, without the blocks that fall meanwhile."""
-        fallen, pose = step.fallen, step.pose.after(work * step.mechanism)
+        fallen, pose = step.fallen, step.pose.after(led * step.mechanism)
         while True:
             found = self.search.at(pose, fallen)
+            self.deep = found.overlap > DEEP
+            if self.deep:
+                return None
             hanging = _hanging(self.model, found.contacts) & ~fallen
             if hanging.any() and not self._ends_it(fallen | hanging):
                 fallen = fallen | hanging
                 continue
             solids, case = moved_solids(self.model, found, self.case, pose, fallen)
+            reached = self._reached(step, pose, fallen, led, solids, case, found, normals)
+            carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
+            falling = fallen if carried else fallen | self._falling(solids, case)
+            if reached is not None and carried:
+                drops = _drops(self.case, step.load_factor, step.mechanism)
+                falling = fallen | (drops & _drops(self.case, reached.load_factor, reached.mechanism))
+            if not (falling & ~fallen).any() or self._ends_it(falling):
+                break
+            fallen = falling
+        if reached is None:
+            self.falls = self._ends_it(falling)
+            return None
+        return reached, _Normals.of(found.contacts, reached.forces)
+
+    def _reached(
+        self,
+        step: Step,
+        pose: Pose,
+        fallen: BoolArray,
+        led: float,
+        solids: Solids,
+        case: LoadCase,
+        found: MovedContacts,
+        normals: _Normals,
+    ) -> Step | None:
+        """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are."""
+        work, best = led, None
+        for _ in range(MOST_WORKS):
             solved = self._solved(solids, case, found, work, normals)
             if solved is None:  # what overlaps on two sides cannot be pushed apart: then it may not overlap more
                 apart = replace(found, gaps=np.maximum(found.gaps, 0.0))
                 solved = self._solved(solids, case, apart, work, normals)
-            carried = solved is not None and (solved.load_factor > 0.0 or self.case.settlement is not None)
-            falling = fallen if carried else fallen | self._falling(solids, case)
-            if solved is not None and carried:
-                drops = _drops(self.case, step.load_factor, step.mechanism)
-                falling = fallen | (
-                    drops & _drops(self.case, solved.load_factor, solids.block_motions(solved.mechanism))
-                )
-            if not (falling & ~fallen).any() or self._ends_it(falling):
+            if solved is None:
                 break
-            fallen = falling
-        if solved is None:
-            self.falls = self._ends_it(falling)
-            return None
-        moved = self.control.displacement(self.model, pose)
-        there = solids.block_motions(solved.mechanism)
-        forces = solved.contact_forces
-        return Step(moved, solved.load_factor, there, forces, pose, fallen, work), _Normals.of(found.contacts, forces)
+            there, moved = solids.block_motions(solved.mechanism), self.control.displacement(self.model, pose)
+            best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work)
+            asked, normals = self.work_of(best), _Normals.of(found.contacts, best.forces)
+            best = replace(best, work=min(asked, work))
+            if abs(asked / work - 1.0) <= OFF:
+                break
+            work = asked
+        return best
 
     def _ends_it(self, fallen: BoolArray) -> bool:
         """Whether too much has fallen to go on: of the control point, or of what a support that gives way carried."""
