@@ -85,6 +85,7 @@ TABLE = (
         "oppenheim_arch_push_x_forces", "benchmarks/published/oppenheim_arch.yaml", "push_x", ("--kind", "forces")
     ),
     DeckPicture("settling_wall_sinks", "tutorials/settling_wall.yaml", "sinks"),
+    DeckPicture("facade_of_stones_curve", "tutorials/facade_of_stones.yaml", "outwards", ("--kind", "curve")),
     DeckPicture("obj_wall_out_of_plane", "tutorials/obj_wall.yaml", "out_of_plane", SMALLER),
     DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x", SMALLER),
     DeckPicture("house_push_x", "structures/house.yaml", "push_x", SMALLER),

@@ -21,6 +21,7 @@ Row = dict[str, str]
 CASES = {
     "line": ("structure", "flow_rule"),
     "rivals": ("structure", "rival"),
+    "pushover": ("structure", "steps"),
     "sweep": ("sweep", "way", "points"),
 }
 """columns that tell the cases of a benchmark apart"""

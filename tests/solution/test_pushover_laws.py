@@ -164,7 +164,9 @@ def test_the_normal_is_that_of_the_face_stood_on() -> None:
     turned = np.arcsin(sunk / 1.5)
     cos, sin = np.cos(turned), np.sin(turned)
     closed = weight * (0.5 * cos + 0.15 * sin) / (1.5 * cos + 0.6 * sunk)
-    assert [row.reaction for row in case.solution.curve[1:]] == pytest.approx(closed[1:], rel=3e-6)
+    reaction = np.array([row.reaction for row in case.solution.curve])
+    assert reaction == pytest.approx(closed, rel=3e-4)  # up to a millimetre edges count as not having slipped
+    assert reaction[4:] == pytest.approx(closed[4:], rel=3e-6)
 
 
 @pytest.mark.parametrize("breadth", [0.6, 1.0])

@@ -16,7 +16,7 @@ MODELLED = (
 )
 OF_2019 = (
     "a_g,0 and a_g,d are found with F_0, T_C* and the soil of their limit state kept. What follows from the curve is "
-    "not verified, as the curve is not."
+    "as sure as its steps, and where it ends is what the run says."
 )
 OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
 

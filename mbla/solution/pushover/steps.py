@@ -48,16 +48,14 @@ from mbla.solution.pushover.control import Control
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics
 
-MOST_PAIRS = 12
-"""Pairs of programs of a step at most: one is usual, two where the mechanism changes."""
-
-FEW_PAIRS, MOST_RUN = 3, 60
-"""Pairs before an interior-point run from their best state, if they leave more than the residual; factorisations. In
+FEW_PAIRS, MORE_PAIRS, MOST_RUN = 3, 2, 60
+"""Pairs of programs before an interior-point run from their best state, which is made if they leave more than the
+residual ``ENOUGH``, pairs after it (twelve left as many steps rough), and factorisations of the run. In
 space there are these pairs alone: joints carry all force at the point about which they twist there, and whatever looks
 further finds other states, lower by a fifth, at the same place."""
 
-WANTED = 1e-5
-"""Residual of the joint law with which a step is done."""
+WANTED, ENOUGH = 1e-5, 1e-4
+"""Residual of the joint law with which a step is done, and with which what was found is enough."""
 
 OFF, MOST_WORKS = 0.2, 3
 """Share by which the live work of a step may differ from that for which it was solved before it is solved again, and
@@ -293,13 +291,13 @@ class Pushover:
         alternation = Alternation(part, slope, self.settings, self.log, [])
         found: list[LawState] = []
         start = _reduced(part, normals)
-        for most in (FEW_PAIRS, MOST_PAIRS):
+        for last, most in ((False, FEW_PAIRS), (True, MORE_PAIRS)):
             for state in islice(_states(alternation, start), 2 * most):
                 found.append(state)
                 if state.residual < WANTED:
                     break
             best = min(found, key=lambda state: state.residual, default=None)
-            if best is None or best.residual < WANTED or most == MOST_PAIRS or part.components == 3:
+            if best is None or best.residual < ENOUGH or last or part.components == 3:
                 break
             run = run_with_moving_anchor(stiffness_of(part), slope, best.forces, MOST_RUN, WANTED, lambda *each: None)
             if run.best is not None:
