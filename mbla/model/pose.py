@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
+from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
 
@@ -95,8 +96,22 @@ def _turned(load: FloatArray, levers: FloatArray, following: FloatArray, pose: P
 
 
 def moved_model(model: Model, pose: Pose) -> Model:
-    """The model with its blocks where a pose puts them; the guides of a support that gives way go along with it."""
+    """The model with its blocks where a pose puts them; guides go on to turn about the same line, or slide the same way.
+
+    Guides for which that is not the same are not followed (:func:`turns_and_slides`).
+    """
     guides, turn = model.guides, pose.rotation[model.guides.blocks]
-    velocities = np.einsum("mij,mjk->mik", turn, guides.motions[:, :3])
+    turns = np.any(guides.motions[:, 3:] != 0.0, axis=1, keepdims=True)
+    velocities = np.where(turns, np.einsum("mij,mjk->mik", turn, guides.motions[:, :3]), guides.motions[:, :3])
     motions = np.concatenate([velocities, guides.motions[:, 3:]], axis=1)
     return replace(model, blocks=pose.moved(model.blocks), interfaces=None, guides=replace(guides, motions=motions))
+
+
+def turns_and_slides(guides: Guides) -> bool:
+    """Whether guided bodies turn about something that moves: they have a way to turn, not about their own centroid, and
+    another way besides.
+    """
+    velocities, turns = guides.motions[:, :3], np.any(guides.motions[:, 3:] != 0.0, axis=1)
+    elsewhere = np.any(turns & np.any(velocities != 0.0, axis=1), axis=1)
+    ways = np.any(guides.motions != 0.0, axis=1).sum(axis=1)
+    return bool(np.any(elsewhere & (ways > 1)))

@@ -223,3 +223,21 @@ def test_the_error_is_of_the_size_of_the_change_with_the_step() -> None:
     assert known.sum() >= len(coarse) - 2
     assert missed[known].max() < 2.0 * claimed[known].max()
     assert claimed[known].max() < 10.0 * missed[known].max()
+
+
+def test_a_guided_slab_goes_along() -> None:
+    """A slab that slides up and down only, on a block that rocks under it: its weight and friction at the corner."""
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.8}}}}\ncontacts: {{joint: dry}}\nblocks:\n"
+        "  - box: {group: block, material: stone, min: [0, 0, 0], max: [0.2, 0.5, 1]}\n"
+        "  - box: {group: slab, material: stone, min: [-0.1, 0, 1], max: [0.3, 0.5, 1.1]}\n"
+        "supports: [{ground: {z: 0}}, {blocks: slab, slide: [0, 0, 1]}]\n"
+        "load_cases: {push: {live: [{acceleration: [1, 0, 0], on: block}], pushover: {step: 0.004, until: 0.1}}}\n"
+    )
+    solution = pushed_case(text).solution
+    moved, factors = columns(solution.curve)
+    alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+    turned = alpha - np.arcsin(np.sin(alpha) - moved / radius)
+    cos, sin = np.cos(turned), np.sin(turned)
+    slab = 0.2 * (0.2 * cos - sin + 0.8 * (cos + 0.2 * sin))
+    assert factors == pytest.approx((0.1 * cos - 0.5 * sin + slab) / (0.5 * cos + 0.1 * sin), rel=1e-4)

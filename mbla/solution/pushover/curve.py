@@ -24,7 +24,7 @@ from mbla.contacts.moved import MovedSearch
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.model.pose import Pose
+from mbla.model.pose import Pose, turns_and_slides
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.steps import Pushover, Step, moved_solids
@@ -92,13 +92,12 @@ def _greatest(case: LoadCase, steps: PushedSteps) -> float:
     return float(np.abs([settlement.reaction(each) / settlement.unit for each in steps.load_factors]).max())
 
 
-def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: Solution, solved: bool) -> str:
+def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
     crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
-    settling = 0 if case.settlement is None else len(case.settlement.blocks)
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
-        "blocks are guided": len(model.guides) > settling,
+        "guided blocks turn and move besides": turns_and_slides(model.guides),
         "it has planes of symmetry": len(model.mirrors) > 0,
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
@@ -121,7 +120,7 @@ def pushed(
 
     model : as it may move under the load case
     """
-    against = why_not_pushed(model, contacts, case, solution, solved)
+    against = why_not_pushed(model, solution, solved)
     if against or solution.mechanics is None or case.pushover is None:
         remark = Message("pushover-not-done", f"there is no pushover: {against}")
         return replace(solution, remarks=(*solution.remarks, remark))
