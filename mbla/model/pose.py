@@ -96,7 +96,7 @@ def _turned(load: FloatArray, levers: FloatArray, following: FloatArray, pose: P
 
 
 def moved_model(model: Model, pose: Pose) -> Model:
-    """The model with its blocks where a pose puts them; guides go on to turn about the same line, or slide the same way.
+    """The model with its blocks where a pose puts them; guides turn on about the same line, or slide the same way.
 
     Guides for which that is not the same are not followed (:func:`turns_and_slides`).
     """
