@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 
 import numpy as np
@@ -44,7 +44,7 @@ from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.moving_anchor import run_with_moving_anchor
 from mbla.solution.parts import assemble_parts
-from mbla.solution.pushover.control import Control
+from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics
 
@@ -71,8 +71,8 @@ SHORTER = (1.0, 0.5, 0.25, 0.125)
 """Shares of a step that are tried in turn where no forces are found: so sharply the end of a curve is known."""
 
 TAKEN = 0.2
-"""Weight of falling blocks over that of the control point, or of what a support that gives way carries, from which the
-curve is at its end."""
+"""Weight of falling blocks over that of the control point, or of what moves at first with a support that gives way,
+from which the curve is at its end."""
 
 DRIVEN, FAST = 3.0, 0.1
 """Power of the dead load over that of the live load in a motion in which blocks drop, and speed of these over the
@@ -140,6 +140,7 @@ class Pushover:
     late    : whether the time limit ended it
     falls   : whether the dead load alone brings the structure down there, as far as was tried last
     deep    : whether blocks overlap too much there
+    carried : (n_blocks,) masses of what moves at first with a support that gives way, without it
     """
 
     model: Model
@@ -154,6 +155,7 @@ class Pushover:
     late: bool = False
     falls: bool = False
     deep: bool = False
+    carried: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def steps(self, first: Mechanics) -> Iterator[Step]:
         """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
@@ -161,6 +163,9 @@ class Pushover:
         pose, normals = Pose.at_rest(len(still)), _Normals.of(self.contacts, first.contact_forces)
         step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf)
         step = replace(step, work=self.work_of(step))
+        speed = np.linalg.norm(first.mechanism[:, :3], axis=1)
+        self.carried = np.where(speed > MOVES * speed.max(), self.model.blocks.masses, 0.0)
+        self.carried[self.control.blocks] = 0.0
         while True:
             yield step
             if self.settings.deadline is not None and time.monotonic() > self.settings.deadline:
@@ -250,9 +255,7 @@ class Pushover:
         """Whether too much has fallen to go on: of the control point, or of what a support that gives way carried."""
         if self.case.settlement is None:
             return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
-        carried = np.where(self.model.fixed, 0.0, self.model.blocks.masses)
-        carried[self.control.blocks] = 0.0
-        return float(carried[fallen].sum()) > TAKEN * float(carried.sum())
+        return float(self.carried[fallen].sum()) > TAKEN * float(self.carried.sum())
 
     def _falling(self, solids: Solids, case: LoadCase) -> BoolArray:
         """Blocks that the dead load alone brings down there, (n_blocks,)."""
