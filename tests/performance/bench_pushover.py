@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from mbla.contacts.moved import MovedSearch
-from mbla.solution.pushover.steps import Pushover
+from mbla.solution.pushover.step_program import StepProgram
 from tests.line import HEAD
 from tests.performance.recording import record
 from tests.solution.test_pushover import pushover_of
@@ -55,7 +55,7 @@ def main(sides: list[int]) -> None:
     """A row for each wall."""
     for side in sides:
         seconds: dict[str, float] = {}
-        back = [timed(Pushover, "_solved", seconds), timed(MovedSearch, "at", seconds)]
+        back = [timed(StepProgram, "solved", seconds), timed(MovedSearch, "at", seconds)]
         with TemporaryDirectory() as folder:
             (path := Path(folder) / "wall.yaml").write_text(wall(side, SIDES[side]), encoding="utf-8")
             started = time.process_time()
@@ -68,7 +68,7 @@ def main(sides: list[int]) -> None:
             "structure": f"wall, planar, {side} x {side}",
             "blocks": solution.pushed.mechanisms.shape[1] if solution.pushed else 0,
         }
-        row |= {"steps": count, "seconds": whole, "solve_per_step": seconds["_solved"] / count}
+        row |= {"steps": count, "seconds": whole, "solve_per_step": seconds["solved"] / count}
         row |= {"contacts_per_step": seconds["at"] / (2 * count)}  # once to solve, once to verify
         record(
             "pushover", row | {"residual": max(each.residual for each in curve), "load_factor": curve[-1].load_factor}

@@ -27,7 +27,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, turns_and_slides
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.pushover.control import MOVES, Control
-from mbla.solution.pushover.steps import Pushover, Step, moved_solids
+from mbla.solution.pushover.step_program import StepProgram, moved_solids
+from mbla.solution.pushover.steps import Pushover, Step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -126,7 +127,7 @@ def pushed(
         return replace(solution, remarks=(*solution.remarks, remark))
     search, first = MovedSearch(model, contacts, section), solution.mechanics
     control = Control.of(model, case, first.mechanism)
-    push = Pushover(model, contacts, search, case, control, settings, log, case.pushover.step)
+    push = Pushover(model, contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
     steps, end = _followed(push, first)
     errors = np.full(len(steps), np.nan)
     if case.pushover.error:

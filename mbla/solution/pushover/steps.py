@@ -20,42 +20,19 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import islice
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
+from mbla.contacts.glue import Solids
 from mbla.contacts.moved import MovedContacts, MovedSearch
 from mbla.model.model import LoadCase, Model
-from mbla.model.pose import Pose, moved_case, moved_model
+from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
-from mbla.program.assemble import assemble
-from mbla.program.program import Program
-from mbla.program.reductions import reduce_program
-from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution.associative.certificate import steepest_fall
-from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.mechanics import mechanics_of, motion_of
-from mbla.solution.nonassociative.alternation import Alternation
-from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.nonassociative.moving_anchor import run_with_moving_anchor
-from mbla.solution.parts import assemble_parts
 from mbla.solution.pushover.control import MOVES, Control
-from mbla.solution.settings import SolverSettings
+from mbla.solution.pushover.step_program import Normals, StepProgram, moved_solids
 from mbla.solution.solution import Mechanics
-
-FEW_PAIRS, MORE_PAIRS, MOST_RUN = 3, 2, 60
-"""Pairs of programs before an interior-point run from their best state, which is made if they leave more than the
-residual ``ENOUGH``, pairs after it (twelve left as many steps rough), and factorisations of the run. In
-space there are these pairs alone: joints carry all force at the point about which they twist there, and whatever looks
-further finds other states, lower by a fifth, at the same place."""
-
-WANTED, ENOUGH = 1e-5, 1e-4
-"""Residual of the joint law with which a step is done, and with which what was found is enough."""
 
 OFF, MOST_WORKS = 0.2, 3
 """Share by which the live work of a step may differ from that for which it was solved before it is solved again, and
@@ -103,32 +80,6 @@ class Step:
     work: float = 0.0
 
 
-@dataclass(frozen=True)
-class _Normals:
-    """Normal forces of a step where they act: start for the next.
-
-    bodies, places, values : (n_points, 2), (n_points, 3) m, (n_points,) N
-    """
-
-    bodies: IntArray
-    places: FloatArray
-    values: FloatArray
-
-    @staticmethod
-    def of(contacts: Contacts, forces: FloatArray) -> _Normals:
-        return _Normals(contacts.bodies[contacts.interface_of_point], contacts.points, forces[:, 0])
-
-    def at(self, contacts: Contacts) -> FloatArray:
-        """Those of the nearest points of the same two bodies, (n_points,) N; none where these did not touch."""
-        bodies = contacts.bodies[contacts.interface_of_point]
-        _, pair = np.unique(np.vstack([self.bodies, bodies]), axis=0, return_inverse=True)
-        pair, mine = pair.ravel(), len(self.bodies)
-        size = float(np.ptp(contacts.points, axis=0).max()) or 1.0
-        tree = cKDTree(np.column_stack([self.places / size, 10.0 * pair[:mine]]))
-        distance, nearest = tree.query(np.column_stack([contacts.points / size, 10.0 * pair[mine:]]))
-        return np.asarray(np.where(distance < 5.0, self.values[nearest], 0.0))
-
-
 @dataclass
 class Pushover:
     """Steps of one load case by the flow rule of the analysis.
@@ -148,8 +99,7 @@ class Pushover:
     search: MovedSearch
     case: LoadCase
     control: Control
-    settings: SolverSettings
-    log: Log
+    program: StepProgram
     step: float
     most: float = 1.0
     late: bool = False
@@ -160,7 +110,7 @@ class Pushover:
     def steps(self, first: Mechanics) -> Iterator[Step]:
         """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
         still = np.zeros(len(self.model.blocks), dtype=bool)
-        pose, normals = Pose.at_rest(len(still)), _Normals.of(self.contacts, first.contact_forces)
+        pose, normals = Pose.at_rest(len(still)), Normals.of(self.contacts, first.contact_forces)
         step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf)
         step = replace(step, work=self.work_of(step))
         speed = np.linalg.norm(first.mechanism[:, :3], axis=1)
@@ -168,7 +118,7 @@ class Pushover:
         self.carried[self.control.blocks] = 0.0
         while True:
             yield step
-            if self.settings.deadline is not None and time.monotonic() > self.settings.deadline:
+            if self.program.settings.deadline is not None and time.monotonic() > self.program.settings.deadline:
                 self.late = True
                 return
             after = self._after(step, normals)
@@ -176,7 +126,7 @@ class Pushover:
                 return
             step, normals = after
 
-    def _after(self, step: Step, normals: _Normals) -> tuple[Step, _Normals] | None:
+    def _after(self, step: Step, normals: Normals) -> tuple[Step, Normals] | None:
         """The next step and its normal forces; None without any."""
         for share in SHORTER:
             solved = self._with_debris(step, share * step.work, normals)
@@ -195,7 +145,7 @@ class Pushover:
         speed = self.control.speed(self.model, step.pose, step.mechanism)
         return float(min(far / speed, most) if speed > 0.0 else most)
 
-    def _with_debris(self, step: Step, led: float, normals: _Normals) -> tuple[Step, _Normals] | None:
+    def _with_debris(self, step: Step, led: float, normals: Normals) -> tuple[Step, Normals] | None:
         """The step by a live work from another one, without the blocks that fall meanwhile."""
         fallen, pose = step.fallen, step.pose.after(led * step.mechanism)
         while True:
@@ -210,7 +160,7 @@ class Pushover:
             solids, case = moved_solids(self.model, found, self.case, pose, fallen)
             reached = self._reached(step, pose, fallen, led, solids, case, found, normals)
             carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
-            falling = fallen if carried else fallen | self._falling(solids, case)
+            falling = fallen if carried else fallen | self.program.falling(solids, case)
             if reached is not None and carried:
                 drops = _drops(self.case, step.load_factor, step.mechanism)
                 falling = fallen | (drops & _drops(self.case, reached.load_factor, reached.mechanism))
@@ -220,7 +170,7 @@ class Pushover:
         if reached is None:
             self.falls = self._ends_it(falling)
             return None
-        return reached, _Normals.of(found.contacts, reached.forces)
+        return reached, Normals.of(found.contacts, reached.forces)
 
     def _reached(
         self,
@@ -231,20 +181,20 @@ class Pushover:
         solids: Solids,
         case: LoadCase,
         found: MovedContacts,
-        normals: _Normals,
+        normals: Normals,
     ) -> Step | None:
         """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are."""
         work, best = led, None
         for _ in range(MOST_WORKS):
-            solved = self._solved(solids, case, found, work, normals)
+            solved = self.program.solved(solids, case, found, work, normals)
             if solved is None:  # what overlaps on two sides cannot be pushed apart: then it may not overlap more
                 apart = replace(found, gaps=np.maximum(found.gaps, 0.0))
-                solved = self._solved(solids, case, apart, work, normals)
+                solved = self.program.solved(solids, case, apart, work, normals)
             if solved is None:
                 break
             there, moved = solids.block_motions(solved.mechanism), self.control.displacement(self.model, pose)
             best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work)
-            asked, normals = self.work_of(best), _Normals.of(found.contacts, best.forces)
+            asked, normals = self.work_of(best), Normals.of(found.contacts, best.forces)
             best = replace(best, work=min(asked, work))
             if abs(asked / work - 1.0) <= OFF:
                 break
@@ -256,94 +206,6 @@ class Pushover:
         if self.case.settlement is None:
             return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
         return float(self.carried[fallen].sum()) > TAKEN * float(self.carried.sum())
-
-    def _falling(self, solids: Solids, case: LoadCase) -> BoolArray:
-        """Blocks that the dead load alone brings down there, (n_blocks,)."""
-        program = assemble(solids.model, solids.contacts, case, own=False)
-        falls = np.zeros(len(solids.model.blocks), dtype=bool)
-        for part in reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts:
-            motion = steepest_fall(part, self.settings, self.log)
-            if motion is not None:
-                falls |= np.any(motion_of(part, motion) != 0.0, axis=1)
-        return np.asarray(falls[solids.label])
-
-    def _solved(
-        self, solids: Solids, case: LoadCase, found: MovedContacts, work: float, normals: _Normals
-    ) -> Mechanics | None:
-        """Forces and mechanism there, of the solids; None without any."""
-        if not len(found.gaps):
-            return None
-        program = assemble(solids.model, solids.contacts, case, own=False)
-        scaling = program.scaling
-        program = replace(program, gaps=found.gaps / work * scaling.force * scaling.units / scaling.live)
-        parts = reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts
-        near = normals.at(found.contacts)
-        states = [self._state(part, near) if np.any(part.live_load) else None for part in parts]
-        known = [(state.load_factor, row) for row, state in enumerate(states) if state is not None]
-        if len(known) < sum(bool(np.any(part.live_load)) for part in parts) or not known:
-            return None
-        row = min(known)[1]
-        state = states[row]
-        assert state is not None  # it is among those known
-        whole = assemble_parts(parts, row, state, self.settings, self.log, states)
-        return mechanics_of(*(whole or (parts[row], state)))
-
-    def _state(self, part: Program, normals: FloatArray) -> LawState | None:
-        """The state of a part from the normal forces of the step before; from its motion it took half as long again."""
-        slope = self._slope(part)
-        alternation = Alternation(part, slope, self.settings, self.log, [])
-        found: list[LawState] = []
-        start = _reduced(part, normals)
-        for last, most in ((False, FEW_PAIRS), (True, MORE_PAIRS)):
-            for state in islice(_states(alternation, start), 2 * most):
-                found.append(state)
-                if state.residual < WANTED:
-                    break
-            best = min(found, key=lambda state: state.residual, default=None)
-            if best is None or best.residual < ENOUGH or last or part.components == 3:
-                break
-            run = run_with_moving_anchor(stiffness_of(part), slope, best.forces, MOST_RUN, WANTED, lambda *each: None)
-            if run.best is not None:
-                found.append(run.best)
-                start = run.best.forces[:, 0]
-        return best
-
-    def _slope(self, part: Program) -> FloatArray:
-        """Tangent of the dilatancy angle, (n_points,)."""
-        return part.limits.dilatancy_by(self.settings.analysis.flow_rule)
-
-
-def _states(alternation: Alternation, normal: FloatArray) -> Iterator[LawState]:
-    """States of a program of forces with the motion before it and with the one after it, in turn.
-
-    normal : (n_points,) normal forces to start from; those of associative flow where their friction does not hold
-    """
-    velocities = alternation.motion_for(normal)
-    if velocities is None:
-        held = alternation.forces_for(np.zeros_like(alternation.program.dead_load), 0.0)
-        velocities = None if held is None else alternation.motion_for(held[0][:, 0])
-    while velocities is not None:
-        found = alternation.forces_for(velocities, 0.0)
-        if found is None:
-            return
-        forces, load_factor = found
-        yield alternation.state(forces, velocities, load_factor)
-        velocities = alternation.motion_for(forces[:, 0])
-        if velocities is not None:
-            yield alternation.state(forces, velocities, load_factor)
-
-
-PLANE_AND_PARTS = ReductionSwitches(True, False, False)
-"""Planes and parts alone: halves and contact points cannot be left out where blocks move on."""
-
-
-def moved_solids(
-    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray
-) -> tuple[Solids, LoadCase]:
-    """The model that the solver sees there, debris fixed, and the loads on it."""
-    there = moved_model(model, pose)
-    solids = solids_of(replace(there, fixed=there.fixed | fallen, load_cases=()), found.contacts)
-    return solids, solids.load_case(moved_case(case, pose))
 
 
 def _drops(case: LoadCase, load_factor: float, mechanism: FloatArray) -> BoolArray:
@@ -365,18 +227,3 @@ def _hanging(model: Model, contacts: Contacts) -> BoolArray:
         pairs.append(np.column_stack([node[:n_blocks], node[first[contacts.solid_of_block]]]))
     label = connected_labels(np.vstack(pairs), len(held) + 1)
     return np.asarray(~held[:n_blocks] & (label[:n_blocks] != label[-1]))
-
-
-def _reduced(part: Program, normals: FloatArray) -> FloatArray:
-    """Normal forces of the points of a part, non-dimensional, from those of all points of the model, (n_points,) N."""
-    programs = [part]
-    while (reduction := programs[-1].reduction) is not None:
-        programs.append(reduction.full)
-    full = np.zeros((len(normals), programs[-1].components))
-    full[:, 0] = normals / part.scaling.force
-    values = full.ravel()
-    for program in reversed(programs[:-1]):
-        assert program.reduction is not None
-        forces = program.reduction.forces
-        values = (forces.T @ values) / np.maximum(np.asarray(forces.power(2).sum(axis=0)).ravel(), 1e-300)
-    return np.asarray(values.reshape(-1, part.components)[:, 0])
