@@ -11,6 +11,7 @@ import pytest
 from mbla.results.listing.pushover import energy_missing
 from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
+from mbla.solution.pushover.curve import poses_of
 from mbla.solution.solution import CurveEnd, Status
 from tests.line import case_of
 from tests.solution.test_pushover import DECKS, columns
@@ -241,3 +242,27 @@ def test_a_guided_slab_goes_along() -> None:
     cos, sin = np.cos(turned), np.sin(turned)
     slab = 0.2 * (0.2 * cos - sin + 0.8 * (cos + 0.2 * sin))
     assert factors == pytest.approx((0.1 * cos - 0.5 * sin + slab) / (0.5 * cos + 0.1 * sin), rel=1e-4)
+
+
+def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness() -> None:
+    """Two halves that turn by as much against each other, the upper one along a smooth stop: from 4 t/h to nothing."""
+    thick, high = 0.2, 3.0
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 0.8}}}}\nblocks:\n"
+        f"  - box: {{group: low, material: stone, min: [0, 0, 0], max: [{thick}, 0.5, {high / 2}]}}\n"
+        f"  - box: {{group: high, material: stone, min: [0, 0, {high / 2}], max: [{thick}, 0.5, {high}]}}\n"
+        f"  - box: {{group: stop, material: stone, min: [{thick}, 0, {high - 0.01}], max: [0.4, 0.5, {high + 0.5}]}}\n"
+        "contacts: {joint: dry, overrides: [{joint: frictionless, between: [high, stop]}]}\n"
+        "supports: [{ground: {z: 0}}, {blocks: stop}]\n"
+        "load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.002}}}\n"
+    )
+    case = pushed_case(text)
+    steps = case.solution.pushed
+    assert steps is not None
+    turned = np.array([pose.rotation_vectors[0, 1] for pose in poses_of(steps)])
+    cos, sin = np.cos(turned), np.sin(turned)
+    closed = (2 * thick * cos - high * sin) / (high / 2 * cos + thick * sin)
+    assert steps.load_factors == pytest.approx(closed, abs=0.015 * closed[0])  # held 10 mm lower
+    assert steps.load_factors[0] == pytest.approx(4 * thick / high, rel=0.01)
+    middle = thick - thick * cos + high / 2 * sin
+    assert middle[-1] == pytest.approx(thick, abs=0.005)
