@@ -57,7 +57,7 @@ def pushed_case(text: str, *overrides: str) -> CaseResult:
     return case_of(text, *overrides)[1]
 
 
-SPREADING = (DECKS / "tutorials" / "spreading_arch.yaml").read_text(encoding="utf-8")
+SPREADING = (DECKS / "tutorials" / "arch_that_spreads.yaml").read_text(encoding="utf-8")
 
 
 @pytest.mark.every(5)
