@@ -122,6 +122,7 @@ def test_the_thrust_of_an_arch_that_spreads_is_that_of_statics() -> None:
     assert max(row.residual for row in rows) < 1e-5
 
 
+@pytest.mark.long
 def test_a_support_is_followed_until_nothing_is_carried() -> None:
     """The two halves fall between their supports before these are as far apart as both halves are long."""
     case = pushed_case(SPREADING, "load_cases.spreads.settlement.amount=3", "load_cases.spreads.settlement.step=0.02")
@@ -207,6 +208,7 @@ def test_blocks_that_meet_do_not_overlap() -> None:
     assert held.curve[-1].displacement == pytest.approx(0.01, rel=0.01)  # 20 mm at the top
 
 
+@pytest.mark.long
 def test_the_error_is_of_the_size_of_the_change_with_the_step() -> None:
     """On an arch whose hinges move; at the end of its curve no longer step is known."""
     arch = "arch: {material: stone, shape: semicircular, span: 4, thickness: 0.5, width: 0.5, voussoirs: 9}"
@@ -244,6 +246,7 @@ def test_a_guided_slab_goes_along() -> None:
     assert factors == pytest.approx((0.1 * cos - 0.5 * sin + slab) / (0.5 * cos + 0.1 * sin), rel=1e-4)
 
 
+@pytest.mark.long
 def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness() -> None:
     """Two halves that turn by as much against each other, the upper one along a smooth stop: from 4 t/h to nothing."""
     thick, high = 0.2, 3.0
