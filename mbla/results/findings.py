@@ -51,6 +51,7 @@ REMARKS_THAT_WARN = frozenset(
         "path-not-seen",
         "peak-not-seen",
         "peak-not-examined",
+        "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
         "range-not-found",

@@ -238,14 +238,14 @@ def curve_residual(case: CaseResult) -> float:
 def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     """Displacement of the control point at which a pushover leaves no load factor, on the line between two steps.
 
-    That of the last step where it falls on from there under its dead load alone, or nothing carries it any more; nan
+    That of the last step where it goes on from there by itself, or nothing carries it any more; nan
     where the pushover did not come so far, where there is none, and unless ``sure`` is false where its steps are not
     verified.
     """
     curve = case.solution.curve
     if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
         return math.nan
-    if case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
+    if len(curve) > 1 and case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement
     if len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:
         return math.nan

@@ -120,11 +120,11 @@ class CurveEnd(StrEnum):
 
     NONE = ""
     NOTHING_LEFT = "the load factor is nothing"
-    FALLS = "it falls on under its dead load alone"
+    FALLS = "it goes on by itself at that load"
     NOT_CARRIED = "nothing carries it any more"
     REACHED = "the displacement asked for is reached"
     STEPS_DONE = "the steps asked for are done"
-    BLOCKED = "something blocks it: the load factor rises without end"
+    BLOCKED = "something blocks its way"
     DEEP = "blocks overlap, however short the step"
     STUCK = "no forces or no motion were found for the next step"
     LATE = "the time limit was reached"

@@ -41,6 +41,7 @@ from mbla.results.collapse.collapse import collapse_of, failure_of, kept
 from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.control import Control
+from mbla.solution.pushover.curve import dropped
 from mbla.solution.solution import Mechanics, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
@@ -309,6 +310,8 @@ def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
     curve = case.solution.curve
     if math.isnan(ultimate_displacement(case)):
         return "the pushover did not come to where the load factor is nothing"
+    if dropped(curve):
+        return "blocks drop on the way"
     if any(not row.residual <= SOLVED_RESIDUAL for row in curve):
         return f"steps of the pushover violate the joint law by more than {SOLVED_RESIDUAL:g}"
     if any(after.displacement <= before.displacement for before, after in pairwise(curve)):

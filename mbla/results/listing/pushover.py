@@ -14,6 +14,9 @@ from mbla.results.results import CaseResult
 from mbla.solution.solution import CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
+NOTABLE_MISS = 0.02
+"""share of the energy whose loss is said in words"""
+
 
 def curve_words(model: Model, case: CaseResult) -> str:
     """Greatest load factor, where it ends, and how well that is known; empty without a pushover."""
@@ -61,7 +64,11 @@ def curve_verdict(case: CaseResult, length: str) -> str:
     if not rough:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
-        return f"{says}, blocks overlap by {overlap:.1g} {length} at most."
+        says += f", blocks overlap by {overlap:.1g} {length} at most"
+        missing = abs(energy_missing(case.solution.curve))
+        return (
+            f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
+        )
     name = "Not verified" if not worst <= APPROXIMATE_RESIDUAL else "Approximate"
     steps = "step misses" if rough == 1 else "steps miss"
     return f"{name}: {rough} of {len(residuals)} {steps} equilibrium or the joint law by up to {worst:.1g}."

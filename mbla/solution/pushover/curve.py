@@ -11,9 +11,10 @@ is its difference from the curve of steps twice as long.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,8 +42,16 @@ BY_ITSELF, MOST_DROPPING = 100.0, 50
 and steps that it may do so until its blocks come to rest on others: the curve goes on from there, or ends where the
 fall began."""
 
-BLOCKED = 100.0
-"""Load factor over that of the structure as built from which something blocks its way."""
+BY_ITSELF_SHARE, NOTABLE_DROP = 3.0, 0.02
+"""Energy that the dead load loses in a step over its live work from which blocks drop in it, and over the greatest live
+work of the curve from which that is said."""
+
+BLOCKED, MOST_SHORT = 100.0, 10
+"""Load factor over that of the structure as built from which something blocks its way, and steps on end that can only
+be made shorter than asked for."""
+
+SUDDEN = 0.2
+"""Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there."""
 
 ALIKE = 0.9
 """Cosine between the motions of two steps below which they are two mechanisms."""
@@ -140,6 +149,10 @@ def pushed(
     solution = replace(solution, pushed=_record(steps, errors), curve_end=end)
     curve = curve_of(model, contacts, section, case, solution)
     remarks = (*solution.remarks, *_control_remarks(model, control, first))
+    if fall := dropped(curve):
+        words = f"blocks drop without the live load where the control point has moved by {fall[0]:.6g}, and lose "
+        words += f"{fall[1]:.2g} of the greatest live work: what is pushed on may fall there"
+        remarks = (*remarks, Message("pushover-drops", words))
     rough = [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
     if rough:
         worst = max(rough, key=lambda row: row.residual)
@@ -169,11 +182,16 @@ def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
             return steps, CurveEnd.BLOCKED
         steps.append(step)
         if step.load_factor <= 0.0 and not settles:
+            greatest = max(each.load_factor for each in steps)
+            if len(steps) > 1 and steps[-2].load_factor > SUDDEN * greatest:
+                return steps[:-1], CurveEnd.FALLS
             return steps, CurveEnd.NOTHING_LEFT
         if step.displacement >= asked.until * (1.0 - 1e-9):
             return steps, CurveEnd.REACHED
         if len(steps) > asked.steps:
             return steps, CurveEnd.STEPS_DONE
+        if push.short > MOST_SHORT:
+            break
         by_itself = float(np.vdot(push.case.dead_load, step.mechanism)) > BY_ITSELF * abs(step.load_factor)
         dropping = dropping + 1 if by_itself and not settles else 0
         if dropping > MOST_DROPPING:
@@ -182,6 +200,8 @@ def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
         return steps, CurveEnd.LATE
     if dropping:
         return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
+    if push.short > MOST_SHORT:
+        return steps, CurveEnd.BLOCKED
     if push.deep:
         return steps, CurveEnd.DEEP
     return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.FALLS if push.falls else CurveEnd.STUCK
@@ -255,7 +275,8 @@ def curve_of(
             of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
             dilatancy = step.limits.dilatancy_by(solution.flow_rule)
             residual, powers = residuals_of(step, of_solids, dilatancy).largest, _powers(step, of_solids)
-        work = work + 0.5 * (before + powers) * steps.work[number]
+        changed = number > 0 and _alike(model, steps.mechanisms[number - 1], mechanics.mechanism) < ALIKE
+        work = work + 0.5 * (before + (before if changed else powers)) * steps.work[number]
         row = CurveRow(
             step=number,
             displacement=control.displacement(model, pose),
@@ -267,12 +288,27 @@ def curve_of(
             live_work=float(work[0]),
             friction=float(work[1]),
             potential=float(work[2]),
-            new_mechanism=number > 0 and _alike(model, steps.mechanisms[number - 1], mechanics.mechanism) < ALIKE,
+            new_mechanism=changed,
             debris=int(fallen.sum()),
         )
         rows.append(row)
         before = powers
     return tuple(rows)
+
+
+def dropped(curve: Sequence[CurveRow]) -> tuple[float, float] | None:
+    """Where blocks first drop by a notable energy of the dead load without live work, and all that is lost so.
+
+    Displacement of the control point, m, and energy over the greatest live work; None where nothing does.
+    """
+    size = max((abs(row.live_work) for row in curve), default=0.0)
+    falls = [
+        (before.displacement, before.potential - after.potential)
+        for before, after in pairwise(curve)
+        if before.potential - after.potential > BY_ITSELF_SHARE * abs(after.live_work - before.live_work)
+    ]
+    lost = sum(energy for _, energy in falls)
+    return (falls[0][0], lost / size) if lost > NOTABLE_DROP * size else None
 
 
 def _mechanics_of(steps: PushedSteps, number: int) -> Mechanics:

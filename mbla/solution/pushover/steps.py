@@ -91,6 +91,7 @@ class Pushover:
     late    : whether the time limit ended it
     falls   : whether the dead load alone brings the structure down there, as far as was tried last
     deep    : whether blocks overlap too much there
+    short   : steps on end that were made shorter than asked for
     carried : (n_blocks,) masses of what moves at first with a support that gives way, without it
     """
 
@@ -105,6 +106,7 @@ class Pushover:
     late: bool = False
     falls: bool = False
     deep: bool = False
+    short: int = 0
     carried: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def steps(self, first: Mechanics) -> Iterator[Step]:
@@ -131,6 +133,8 @@ class Pushover:
         for share in SHORTER:
             solved = self._with_debris(step, share * step.work, normals)
             if solved is not None:
+                whole = share == 1.0 and solved[0].work > 0.5 * self.work_of(solved[0])
+                self.short = 0 if whole else self.short + 1
                 return solved
         return None
 
