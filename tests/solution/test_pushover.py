@@ -161,7 +161,7 @@ def test_what_cannot_be_followed_is_said(tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_blocks_that_drop_on_the_way_are_said() -> None:
-    """Stones of a wall lose their seat: the curve goes on, with a warning, and ends where the wall goes on by itself."""
+    """Stones of a wall lose their seat: the curve goes on, with a warning, until the wall goes on by itself."""
     solution = pushover_of(WALL_1, "load_cases.push_x.pushover={step: 0.005}")
     assert "pushover-drops" in {remark.identifier for remark in solution.remarks}
     assert solution.curve_end is CurveEnd.FALLS
