@@ -269,3 +269,17 @@ def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness(
     assert steps.load_factors[0] == pytest.approx(4 * thick / high, rel=0.01)
     middle = thick - thick * cos + high / 2 * sin
     assert middle[-1] == pytest.approx(thick, abs=0.005)
+
+
+def test_a_half_with_its_plane_of_symmetry_moves_as_the_whole() -> None:
+    """A wall pushed out of its plane, by steps that follow on from symmetric ones."""
+    head = (
+        f"{HEAD}joints: {{dry: {{friction: 0.7}}}}\ncontacts: {{joint: dry}}\nsupports: [{{ground: {{z: 0}}}}]\n"
+        "load_cases: {push: {live: [{acceleration: [0, 1, 0]}], pushover: {step: 0.01, steps: 4, control: {on: wall}}}}\n"
+    )
+    item = "blocks: [{{wall: {{group: wall, material: stone, unit: [0.8, 0.3, 0.4], length: {}, courses: 4}}}}]\n"
+    cut = "[{group: wall, course: 1, unit: 2}, {group: wall, course: 3, unit: 2}]"
+    whole = pushed_case(head + item.format(3.2)).solution
+    half = pushed_case(head + item.format(1.6) + f"symmetry: [{{x: 1.6, halves: {cut}}}]\n").solution
+    assert columns(half.curve)[0] == pytest.approx(columns(whole.curve)[0], rel=1e-6)
+    assert columns(half.curve)[1] == pytest.approx(columns(whole.curve)[1], rel=1e-6)

@@ -108,7 +108,6 @@ def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
         "guided blocks turn and move besides": turns_and_slides(model.guides),
-        "it has planes of symmetry": len(model.mirrors) > 0,
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
         "contact_model: convex": solution.conditions_on_interfaces,

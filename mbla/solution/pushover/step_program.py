@@ -43,8 +43,10 @@ further finds other states, lower by a fifth, at the same place."""
 WANTED, ENOUGH = 1e-5, 1e-4
 """Residual of the joint law with which a step is done, and with which what was found is enough."""
 
-PLANE_AND_PARTS = ReductionSwitches(True, False, False)
-"""Planes and parts alone: halves and contact points cannot be left out where blocks move on."""
+
+def _switches(model: Model) -> ReductionSwitches:
+    """Planes and parts; halves where the deck gives a plane of symmetry, about which blocks move on alike."""
+    return ReductionSwitches(on=True, mirror=bool(model.mirrors), points=False)
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ class StepProgram:
         program = assemble(solids.model, solids.contacts, case, own=False)
         scaling = program.scaling
         program = replace(program, gaps=found.gaps / work * scaling.force * scaling.units / scaling.live)
-        parts = reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts
+        parts = reduce_program(solids.model, solids.contacts, program, _switches(solids.model), associative=False).parts
         near = normals.at(found.contacts)
         states = [self._state(part, near) if np.any(part.live_load) else None for part in parts]
         known = [(state.load_factor, row) for row, state in enumerate(states) if state is not None]
@@ -130,7 +132,9 @@ class StepProgram:
         """Blocks that the dead load alone brings down there, (n_blocks,)."""
         program = assemble(solids.model, solids.contacts, case, own=False)
         falls = np.zeros(len(solids.model.blocks), dtype=bool)
-        for part in reduce_program(solids.model, solids.contacts, program, PLANE_AND_PARTS, associative=False).parts:
+        for part in reduce_program(
+            solids.model, solids.contacts, program, _switches(solids.model), associative=False
+        ).parts:
             motion = steepest_fall(part, self.settings, self.log)
             if motion is not None:
                 falls |= np.any(motion_of(part, motion) != 0.0, axis=1)
