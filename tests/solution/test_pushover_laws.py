@@ -275,7 +275,8 @@ def test_a_half_with_its_plane_of_symmetry_moves_as_the_whole() -> None:
     """A wall pushed out of its plane, by steps that follow on from symmetric ones."""
     head = (
         f"{HEAD}joints: {{dry: {{friction: 0.7}}}}\ncontacts: {{joint: dry}}\nsupports: [{{ground: {{z: 0}}}}]\n"
-        "load_cases: {push: {live: [{acceleration: [0, 1, 0]}], pushover: {step: 0.01, steps: 4, control: {on: wall}}}}\n"
+        "load_cases:\n  push:\n    live: [{acceleration: [0, 1, 0]}]\n"
+        "    pushover: {step: 0.01, steps: 4, control: {on: wall}}\n"
     )
     item = "blocks: [{{wall: {{group: wall, material: stone, unit: [0.8, 0.3, 0.4], length: {}, courses: 4}}}}]\n"
     cut = "[{group: wall, course: 1, unit: 2}, {group: wall, course: 3, unit: 2}]"
