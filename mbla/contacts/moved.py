@@ -188,8 +188,8 @@ class MovedSearch:
         a, b = a[facing], b[facing]
         near = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
         between = build_overlays(
-            np.column_stack([facets.blocks[a], facets.blocks[b]]),
-            np.column_stack([a, b]),
+            bodies[facing],
+            pairs[facing],
             Planes(facets.origins[a], facets.normals[a]),
             Planes(facets.origins[b], facets.normals[b]),
             near,

@@ -12,15 +12,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
-
-SMALL_ANGLE = 1e-4
-"""rad, below which the factors of the screw are their series: the next terms are 1e-18 of the first"""
 
 
 @dataclass(frozen=True)
@@ -42,20 +38,14 @@ class Pose:
     @property
     def rotation_vectors(self) -> FloatArray:
         """(n_blocks, 3) rad."""
+        from scipy.spatial.transform import Rotation  # late: it takes 60 ms to import, and few load cases are pushed
+
         return np.asarray(Rotation.from_matrix(self.rotation).as_rotvec())
 
     def after(self, twists: FloatArray) -> Pose:
         """After twists about the centroids, velocity and rotation vector times the time they act, (n_blocks, 6)."""
-        moved, turned = twists[:, :3], twists[:, 3:]
-        angle = np.linalg.norm(turned, axis=1)
-        small = angle < SMALL_ANGLE
-        safe = np.where(small, 1.0, angle)
-        first = np.where(small, 0.5 - angle**2 / 24, (1.0 - np.cos(safe)) / safe**2)
-        second = np.where(small, 1.0 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
-        across = np.cross(turned, moved)
-        screw = moved + first[:, None] * across + second[:, None] * np.cross(turned, across)
-        turn = Rotation.from_rotvec(turned).as_matrix()
-        return Pose(self.shift + screw, turn @ self.rotation)
+        turn, travel = screws(twists)
+        return Pose(self.shift + travel, turn @ self.rotation)
 
     def moved(self, blocks: Blocks) -> Blocks:
         """The blocks there; those are given as built."""
@@ -115,3 +105,26 @@ def turns_and_slides(guides: Guides) -> bool:
     elsewhere = np.any(turns & np.any(velocities != 0.0, axis=1), axis=1)
     ways = np.any(guides.motions != 0.0, axis=1).sum(axis=1)
     return bool(np.any(elsewhere & (ways > 1)))
+
+
+def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
+
+    With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K² (Rodrigues; scipy's rotations take 60 ms
+    to import), V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
+    """
+    rotations, paths = paths_of(motion[:, 3:])
+    return rotations, np.einsum("nij,nj->ni", paths, motion[:, :3])
+
+
+def paths_of(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """R and V of rotation vectors, (n, 3, 3) each."""
+    angles = np.linalg.norm(vectors, axis=1)
+    axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
+    cross = np.cross(axes[:, None, :], np.eye(3)).transpose(0, 2, 1)
+    half = angles[:, None, None] / 2
+    # (1 − cos θ)/θ and sin θ/θ without loss of digits near zero
+    lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(2 * half / np.pi)
+    twice = cross @ cross
+    rotations = np.eye(3) + np.sin(2 * half) * cross + 2 * np.sin(half) ** 2 * twice
+    return rotations, np.asarray(np.eye(3) + lag * cross + (1 - share) * twice)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Message
+from mbla.model.pose import Pose
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
 
@@ -186,6 +188,15 @@ class PushedSteps:
 
     def __len__(self) -> int:
         return len(self.work)
+
+    @property
+    def poses(self) -> Iterator[Pose]:
+        """Where the blocks are at every step, from its mechanisms."""
+        pose = Pose.at_rest(self.mechanisms.shape[1])
+        yield pose
+        for work, mechanism in zip(self.work[1:], self.mechanisms[:-1], strict=True):
+            pose = pose.after(work * mechanism)
+            yield pose
 
 
 @dataclass(frozen=True)

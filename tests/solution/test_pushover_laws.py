@@ -11,7 +11,6 @@ import pytest
 from mbla.results.listing.pushover import energy_missing
 from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.curve import poses_of
 from mbla.solution.solution import CurveEnd, Status
 from tests.line import case_of
 from tests.solution.test_pushover import DECKS, columns
@@ -262,7 +261,7 @@ def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness(
     case = pushed_case(text)
     steps = case.solution.pushed
     assert steps is not None
-    turned = np.array([pose.rotation_vectors[0, 1] for pose in poses_of(steps)])
+    turned = np.array([pose.rotation_vectors[0, 1] for pose in steps.poses])
     cos, sin = np.cos(turned), np.sin(turned)
     closed = (2 * thick * cos - high * sin) / (high / 2 * cos + thick * sin)
     assert steps.load_factors == pytest.approx(closed, abs=0.015 * closed[0])  # held 10 mm lower

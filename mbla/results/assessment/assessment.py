@@ -40,8 +40,6 @@ from mbla.results.assessment.spectra import (
 from mbla.results.collapse.collapse import collapse_of, failure_of, kept
 from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.control import Control
-from mbla.solution.pushover.curve import dropped
 from mbla.solution.solution import Mechanics, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
@@ -201,6 +199,8 @@ def _control_speed(model: Model, case: LoadCase, motion: FloatArray, along: Floa
     """Of the control point of a pushover, along the live load; nan where there is none or it counts another way."""
     if case.pushover is None:
         return math.nan
+    from mbla.solution.pushover.control import Control  # late, as few load cases are pushed
+
     control = Control.of(model, case, motion)
     speed = control.speed(model, Pose.at_rest(len(model.blocks)), motion)
     return speed if float(control.direction @ along) > 1.0 - 1e-9 and speed > 0.0 else math.nan
@@ -307,6 +307,8 @@ def _source(section: SpectrumSection) -> str:
 
 def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
     """What keeps the curve of a pushover from a verdict, in words; empty where nothing does."""
+    from mbla.solution.pushover.curve import dropped  # late, as few load cases are pushed
+
     curve = case.solution.curve
     if math.isnan(ultimate_displacement(case)):
         return "the pushover did not come to where the load factor is nothing"

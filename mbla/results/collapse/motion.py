@@ -11,9 +11,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
+from mbla.model.pose import paths_of, screws
 from mbla.model.solids.blocks import Blocks
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.curve import poses_of
 
 SHARE_OF_SIZE = 0.1
 """largest displacement over the diagonal of the box around the free blocks"""
@@ -109,31 +109,8 @@ def pushed_motions(case: CaseResult) -> list[FloatArray]:
     """Twist of each block from where it was built to where it is at each step of a pushover, (n_blocks, 6) each."""
     steps = case.solution.pushed
     found = []
-    for pose in poses_of(steps) if steps is not None else ():
+    for pose in steps.poses if steps is not None else ():
         turned = pose.rotation_vectors
-        paths = _paths(turned)[1]
+        paths = paths_of(turned)[1]
         found.append(np.hstack([np.linalg.solve(paths, pose.shift[:, :, None])[:, :, 0], turned]))
     return found
-
-
-def screws(motion: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices R, (n, 3, 3), and displacements V u of the centroids, (n, 3), of finite motions.
-
-    With the angle θ and K of the unit axis: R = I + sin θ K + (1 − cos θ) K² (Rodrigues; scipy's rotations take 60 ms
-    to import), V = I + (1 − cos θ)/θ K + (1 − sin θ/θ) K².
-    """
-    rotations, paths = _paths(motion[:, 3:])
-    return rotations, np.einsum("nij,nj->ni", paths, motion[:, :3])
-
-
-def _paths(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """R and V of rotation vectors, (n, 3, 3) each."""
-    angles = np.linalg.norm(vectors, axis=1)
-    axes = vectors / np.where(angles > 0, angles, 1.0)[:, None]
-    cross = np.cross(axes[:, None, :], np.eye(3)).transpose(0, 2, 1)
-    half = angles[:, None, None] / 2
-    # (1 − cos θ)/θ and sin θ/θ without loss of digits near zero
-    lag, share = np.sin(half) * np.sinc(half / np.pi), np.sinc(2 * half / np.pi)
-    twice = cross @ cross
-    rotations = np.eye(3) + np.sin(2 * half) * cross + 2 * np.sin(half) ** 2 * twice
-    return rotations, np.asarray(np.eye(3) + lag * cross + (1 - share) * twice)

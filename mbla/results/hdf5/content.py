@@ -21,7 +21,6 @@ from mbla.results.outcome import least_and_greatest
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
-from mbla.solution.pushover.curve import poses_of
 from mbla.solution.solution import (
     Checks,
     CurveRow,
@@ -238,7 +237,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
 
 def _pushed(steps: PushedSteps) -> Content:
     """Poses, mechanisms and forces of a pushover."""
-    poses = list(poses_of(steps))
+    poses = list(steps.poses)
     return {
         "shift": np.stack([pose.shift for pose in poses]),
         "rotation": np.stack([pose.rotation_vectors for pose in poses]),

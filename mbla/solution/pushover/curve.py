@@ -11,7 +11,7 @@ is its difference from the curve of steps twice as long.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -233,15 +233,6 @@ def begun_by(solution: Solution) -> Solution:
     return replace(solution, pushed=replace(steps, load_factors=factors, mechanisms=mechanisms, forces=forces))
 
 
-def poses_of(steps: PushedSteps) -> Iterator[Pose]:
-    """Where the blocks are at every step, from its mechanisms."""
-    pose = Pose.at_rest(steps.mechanisms.shape[1])
-    yield pose
-    for work, mechanism in zip(steps.work[1:], steps.mechanisms[:-1], strict=True):
-        pose = pose.after(work * mechanism)
-        yield pose
-
-
 def curve_of(
     model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, solution: Solution
 ) -> tuple[CurveRow, ...]:
@@ -258,7 +249,7 @@ def curve_of(
     rows: list[CurveRow] = []
     greatest = _greatest(case, steps)
     work, before = np.zeros(3), np.zeros(3)
-    for number, pose in enumerate(poses_of(steps)):
+    for number, pose in enumerate(steps.poses):
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
             found = search.at(pose, fallen)
