@@ -51,6 +51,12 @@ def row_of_item(start: IntArray) -> IntArray:
     return np.repeat(np.arange(len(start) - 1), np.diff(start))
 
 
+def evenly(count: int, most: int) -> list[int]:
+    """At most so many of the rows 0 to count - 1, evenly chosen, the first and the last among them."""
+    chosen: list[int] = np.unique(np.linspace(0, count - 1, most).astype(int)).tolist()
+    return chosen
+
+
 def distinct(values: IntArray) -> IntArray:
     """The different values of an array of one dimension, ascending.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mbla.arrays import evenly
 from mbla.model.model import Model
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small
 from mbla.results.listing.verdict_words import load_factor_words
@@ -80,7 +81,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     if not curve:
         return []
     settles = case.load_case.settlement is not None
-    shown = [curve[row] for row in np.unique(np.linspace(0, len(curve) - 1, MOST_ROWS).astype(int)).tolist()]
+    shown = [curve[row] for row in evenly(len(curve), MOST_ROWS)]
     rows = [
         [
             str(row.step),

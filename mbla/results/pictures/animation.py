@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from mbla.arrays import evenly
 from mbla.errors import FileError, UsageError
 from mbla.results.collapse.motion import pushed_motions
 from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
@@ -70,7 +71,7 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
         )
     pushed = pushed_motions(case) if "curve" in options.kinds else []
     if pushed:
-        shown = np.unique(np.linspace(0, len(pushed) - 1, MOST_FRAMES).astype(int)).tolist()
+        shown = evenly(len(pushed), MOST_FRAMES)
         scenes = [replace(widest, drawn=pushed[step]) for step in shown]
         film = list(_frames([widest, *scenes[-1:]], scenes, options))
         film += film[-1:] * (FRAMES_PER_SECOND // 2)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, evenly
 from mbla.results.collapse.motion import pushed_motions
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
@@ -92,7 +92,7 @@ def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) ->
     _write_frames(scene, f"{stem}_frame", stem, {time: time * scene.motion for time in times}, out)
     pushed = [] if scene.case is None else pushed_motions(scene.case)
     if pushed:
-        steps = np.unique(np.linspace(0, len(pushed) - 1, MOST_STEPS).astype(int)).tolist()
+        steps = evenly(len(pushed), MOST_STEPS)
         name = f"{stem}_pushed"
         _write_frames(scene, name, name, {float(step): pushed[step] for step in steps}, out)
     return bool(pushed)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from mbla.model.pose import screws
 from mbla.results.collapse.motion import (
     LARGEST_ROTATION,
     SHARE_OF_SIZE,
@@ -14,7 +15,6 @@ from mbla.results.collapse.motion import (
     motion_scale,
     movable_size,
     moved_vertices,
-    screws,
     vertex_displacements,
 )
 from mbla.results.results import Results
