@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts, summed
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.contacts.glue import Solids
 from mbla.contacts.outlines.overlay import frames_from_normals
@@ -141,19 +141,19 @@ def _tie_contacts(
     )
 
 
-def _out_of_line(of_tie: IntArray, bodies: IntArray, arms: FloatArray, forces: FloatArray) -> FloatArray:
-    """Ties whose further forces do not cancel on each of their bodies, (k,) bool."""
+def _out_of_line(of_tie: IntArray, bodies: IntArray, arms: FloatArray, forces: FloatArray) -> BoolArray:
+    """Ties whose further forces do not cancel on each of their bodies, (k,)."""
     pair, owner = np.unique(np.column_stack([of_tie, bodies]), axis=0, return_inverse=True)
     size = np.zeros(int(of_tie.max()) + 1)
     np.maximum.at(size, of_tie, np.linalg.norm(arms, axis=1))
     net = np.abs(summed(owner.ravel(), forces, len(pair))).max(axis=1)
     moment = np.abs(summed(owner.ravel(), np.cross(arms, forces), len(pair))).max(axis=1)
     off = (net > IN_LINE) | (moment > IN_LINE * np.maximum(size[pair[:, 0]], 1e-300))
-    return np.bincount(pair[off, 0], minlength=len(size)) > 0
+    return np.asarray(np.bincount(pair[off, 0], minlength=len(size)) > 0)
 
 
 def _fitted(model: Model, contacts: Contacts) -> FloatArray | None:
-    """Forces and moments of ties about the centroids that act as dead loads, (n_solids, 6); None where there are none."""
+    """Forces and moments about centroids of ties that act as dead loads, (n_solids, 6); None where there are none."""
     own = contacts.ties
     assert own is not None  # who calls has made them
     if not own.offsets.any():

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.deck.references import GROUND
-from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.section import given
+from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
@@ -236,7 +237,7 @@ def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) 
     if roster.partial:
         return
     crossings = 0
-    for begin, end in zip(places[:-1], places[1:], strict=True):
+    for begin, end in pairwise(places):
         along = (end - begin) / np.linalg.norm(end - begin)
         cuts = _cuts(begin, end, roster.blocks)
         middles = begin + 0.5 * (cuts[:-1] + cuts[1:])[:, None] * (end - begin)

@@ -66,7 +66,7 @@ class Ties:
         """Of the lines of ties, (n,) m; nothing where a strip crosses a joint."""
         ends = self.stretches
         length = np.linalg.norm(self.places[ends[:, 1]] - self.places[ends[:, 0]], axis=1)
-        return np.bincount(self.tie_of_point[ends[:, 0]], length, len(self))
+        return np.asarray(np.bincount(self.tie_of_point[ends[:, 0]], length, len(self)), dtype=np.float64)
 
     @property
     def stretches(self) -> IntArray:
@@ -77,6 +77,17 @@ class Ties:
             [np.column_stack([first, first + 1]), np.column_stack([self.start[1:][back] - 1, self.start[back]])]
         )
         return np.asarray(pairs[np.argsort(self.tie_of_point[pairs[:, 0]], kind="stable")], dtype=np.int64)
+
+    def links(self, outside: int) -> IntArray:
+        """Pairs of bodies that ties link, (n, 2); ``outside`` is the number of what does not move."""
+        bodies = np.where(self.bodies == OUTSIDE, outside, self.bodies)
+        return np.column_stack([bodies[self.start[:-1]][self.tie_of_point], bodies])
+
+    @property
+    def lines(self) -> Ties:
+        """The same without their forces: what the search for contacts goes by."""
+        none = np.zeros(len(self))
+        return replace(self, least=none, greatest=none, prestress=none, breaks_at=none)
 
     def take(self, rows: IntArray) -> Ties:
         """Some of the ties, (k,), in that order."""

@@ -74,7 +74,10 @@ def yield_limits(model: Model, contacts: Contacts) -> YieldLimits:
         compression = np.where(np.isinf(compression), np.inf, compression * areas)
     tension = per_point([law.tensile_strength for law in laws]) * areas
     if contacts.ties is not None:
-        tension[contacts.tie_points], compression[contacts.tie_points] = contacts.ties.tension, contacts.ties.compression
+        tension[contacts.tie_points], compression[contacts.tie_points] = (
+            contacts.ties.tension,
+            contacts.ties.compression,
+        )
     return YieldLimits(
         friction=per_point([law.friction for law in laws]),
         dilatancy=per_point([law.dilatancy for law in laws]),

@@ -102,7 +102,7 @@ def ties_apart(solution: Solution, solids: Solids) -> Solution:
 
 def ties_among_contacts(solution: Solution, solids: Solids) -> Solution:
     """The way back from ``ties_apart``; what it left out of ties is nothing."""
-    contacts, ties = solids.contacts, solids.contacts.ties
+    ties = solids.contacts.ties
     if ties is None:
         return solution
     n = len(ties.rows)

@@ -2,7 +2,7 @@
 
 The solid angle of the faces of a block, seen from a point, is 4 π inside and 0 outside of it (van Oosterom and Strackee
 1983, doi:10.1109/TBME.1983.325207). Faces are taken as fans of triangles from their first corners, whose signs add up
-for outlines that are not convex too. A point on a block is inside of it when it is moved a little: eight ways are tried.
+for outlines that are not convex too. A point on a block is inside when it is moved a little, in one of eight ways.
 """
 
 from __future__ import annotations
@@ -29,10 +29,9 @@ def touched_blocks(point: FloatArray, blocks: Blocks, chosen: IntArray, toleranc
     start = blocks.vertex_start
     low, high = -row_maxima(-blocks.vertices, start), row_maxima(blocks.vertices, start)
     room = tolerance * blocks.sizes[:, None]
-    near = ((point >= low - room) & (point <= high + room)).all(axis=1)
-    return np.array(
-        [block for block in chosen.tolist() if near[block] and _touches(point, blocks, block, tolerance)], dtype=np.int64
-    )
+    near = np.all((point >= low - room) & (point <= high + room), axis=1)
+    around = chosen[near[chosen]].tolist()
+    return np.array([block for block in around if _touches(point, blocks, block, tolerance)], dtype=np.int64)
 
 
 def _touches(point: FloatArray, blocks: Blocks, block: int, tolerance: float) -> bool:
