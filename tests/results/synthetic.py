@@ -274,8 +274,8 @@ def full_solution(solution: Solution) -> Solution:
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         curve=(
-            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0),
-            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.8, new_mechanism=True, debris=1),
+            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0, broken=0),
+            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, new_mechanism=True, debris=1, broken=1),
         ),
         curve_end=CurveEnd.STEPS_DONE,
         pushed=PushedSteps(
