@@ -331,10 +331,9 @@ def _powers(step: MovedCase, mechanics: Mechanics) -> FloatArray:
     v, limits = Case.velocities(step, mechanics.mechanism), step.limits
     strength = limits.friction * mechanics.contact_forces[:, 0] + limits.cohesion
     dead, live = step.powers(mechanics.mechanism)
-    friction, tied = float(strength @ np.hypot(v[:, 1], v[:, 2])), step.contacts.tie_points
-    return np.array(
-        [mechanics.load_factor * live, friction, -float(mechanics.contact_forces[tied, 0] @ v[tied, 0]), -dead]
-    )
+    tied = step.contacts.tie_points
+    friction, of_ties = float(strength @ np.hypot(v[:, 1], v[:, 2])), -mechanics.contact_forces[tied, 0] @ v[tied, 0]
+    return np.array([mechanics.load_factor * live, friction, float(of_ties), -dead])
 
 
 def _alike(model: Model, one: FloatArray, other: FloatArray) -> float:
