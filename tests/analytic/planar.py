@@ -32,7 +32,7 @@ class PlanarJoint:
 
 @dataclass(frozen=True)
 class PlanarTie:
-    """A line through points on bodies (GROUND or a block) with one force between least and greatest, tension positive."""
+    """A line through points on bodies (GROUND or a block) with one force within limits, tension positive."""
 
     bodies: tuple[int, ...]
     points: tuple[tuple[float, float], ...]
@@ -115,7 +115,7 @@ def _equilibrium(joints: Sequence[PlanarJoint], centroids: Array) -> sp.csr_arra
 
 
 def _pulls(ties: Sequence[PlanarTie], centroids: Array) -> sp.csr_array:
-    """Forces and moments on the blocks, (3 n,), by the tension of each tie: at each point along both of its stretches."""
+    """Forces and moments on the blocks, (3 n,), by the tension of each tie: along both stretches at each point."""
     columns = np.zeros((3 * len(centroids), len(ties)))
     for k, tie in enumerate(ties):
         points = np.array(tie.points)

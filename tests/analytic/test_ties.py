@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.analytic.planar import GROUND, PlanarTie, Rectangle, load_factor, rectangles_in_contact, wall
 from mbla.solution.solution import Status
-from tests.line import BLOCK, HEAD
-from tests.line import case_of
+from tests.analytic.planar import GROUND, PlanarTie, Rectangle, load_factor, rectangles_in_contact, wall
+from tests.line import BLOCK, HEAD, case_of
 from tests.line import factor_of as mbla_load_factor
 
 DENSITY, GRAVITY, DEPTH = 2000.0, 9.81, 0.5
@@ -32,12 +31,13 @@ def test_a_wall_that_overturns_is_held_by_its_tie(flow: str, contact: str) -> No
 
 
 def test_the_load_factor_rises_with_the_capacity_less_and_less_up_to_that_of_a_support() -> None:
-    """Concave in T: nothing at T = 0; where T is large a support in its place, about which friction and weight turn it."""
+    """Concave in T: nothing at T = 0; where T is large a support, about which friction and weight turn the wall."""
     capacities = [1e-9, 2e3, 1e4, 2e4, 4e4, 1e5, 1e9]
     factors = np.array([mbla_load_factor(SLENDER, f"parameters.T={t}") for t in capacities])
     slopes = np.diff(factors) / np.diff(capacities)
     assert factors[0] == pytest.approx(0.2, rel=1e-6)
-    assert (np.diff(factors) >= -1e-9).all() and (np.diff(slopes) <= 1e-12).all()
+    assert (np.diff(factors) >= -1e-9).all()
+    assert (np.diff(slopes) <= 1e-12).all()
     assert factors[-1] == pytest.approx((5 * 1.6 + 0.2) / (1.6 - 1.0), rel=1e-6)
 
 
@@ -80,8 +80,8 @@ def test_a_rope_over_a_block_presses_it_down_and_has_one_force() -> None:
         "ties:\n  - {through: [[-1, 0.5, 0], [1, 0.5, 1], [3, 0.5, 0]], on: [ground, block, ground], capacity: 10000}\n"
     )
     weight, sine, cosine = 2 * DENSITY * GRAVITY, 1 / np.sqrt(5), 2 / np.sqrt(5)
-    # the rope runs over the block without friction: it does not hold it sideways, but gets longer by no first-order term
-    assert mbla_load_factor(deck, "analysis.flow_rule=non_associative") >= 0.3 - 1e-9
+    # where it passes without friction it does not get longer, but presses: its force may be any
+    assert 0.3 - 1e-9 <= mbla_load_factor(deck, "analysis.flow_rule=non_associative") <= 0.3 * (1 + 2e4 * sine / weight)
     fixed = deck.replace("capacity", "points: fixed, capacity")
     # one stretch yields, the other is slack: T cos a back, T sin a down
     expected = (0.3 * (weight + 10000 * sine) + 10000 * cosine) / weight
