@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from mbla import __version__
-from mbla.cli import decks, export, reference, show, study_commands, sweep_commands
+from mbla.cli import decks, export, reference, show, strengthen, study_commands, sweep_commands
 from mbla.cli.terminal import drop_output, prepare_streams
 from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
@@ -33,6 +33,7 @@ COMMANDS = (
     export.add_sweep_plot,
     study_commands.add_interact,
     study_commands.add_tradeoff,
+    strengthen.add_strengthen,
     reference.add_explain,
     reference.add_schema,
     reference.add_new,

@@ -22,6 +22,7 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.strengthen import StrengthenSection
 from mbla.deck.sections.supports import Support, SymmetryPlane
 from mbla.deck.sections.ties import TieSection
 from mbla.deck.text.include import MAX_FILES
@@ -115,6 +116,7 @@ class DeckContent(Section):
     )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
+    strengthen: StrengthenSection | None = Field(None, description="what `mbla strengthen` may add, and for what")
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")
     expected: dict[Name, Expectation] = Field(
         default_factory=dict, description="figures that `mbla run --expected` compares"

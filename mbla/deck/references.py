@@ -43,9 +43,13 @@ SELECTORS = (
     "symmetry.#.halves",
     "ties.#.on",
     "ties.#.ring.around",
+    "strengthen.candidates.#.across.between.#",
+    "strengthen.candidates.#.ring.around",
+    "strengthen.candidates.#.vertical.down",
+    "strengthen.candidates.#.on",
 )
 """Where blocks are chosen."""
-WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on")
+WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on", "strengthen.candidates.#.on")
 """Where ground may be meant."""
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),

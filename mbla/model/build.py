@@ -137,6 +137,7 @@ def _bare(deck: Deck) -> Deck:
             "ties": [],
             "load_cases": {},
             "analysis": AnalysisSection(),
+            "strengthen": None,
             "output": OutputSection(),
             "expected": {},
         }

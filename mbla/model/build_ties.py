@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -30,7 +30,7 @@ ALIKE = 1e-9
 
 
 @dataclass(frozen=True)
-class _Line:
+class Line:
     """One run of points with one force; ``bodies`` (m,), ``places`` and ``pulls`` (m, 3)."""
 
     bodies: IntArray
@@ -48,10 +48,8 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
     parts, counts = list[Ties](), dict[str, int]()
     for number, section in enumerate(sections):
         path: KeyPath = ("ties", number)
-        lines = [
-            line for copy in repetitions(section.repeat) for line in _lines(section, copy, path, roster, tolerance)
-        ]
-        idle = sum(not _can_move(line.bodies, fixed) for line in lines)
+        lines = list(build_lines(section, path, roster, tolerance))
+        idle = sum(not can_move(line.bodies, fixed) for line in lines)
         if idle and not roster.faults:
             words = f"{idle} of {counted(len(lines), 'tie')} hold nothing: no two blocks that can move apart"
             roster.refuse(Finding("tie-without-effect", words, *path))
@@ -59,21 +57,31 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
     return joined_ties(parts)
 
 
-def _can_move(bodies: IntArray, fixed: BoolArray) -> bool:
+def can_move(bodies: IntArray, fixed: BoolArray) -> bool:
     """Whether points of a tie are on blocks, at least two or one and the ground, of which one moves."""
     still = np.append(fixed, True)[bodies]  # OUTSIDE takes the last entry
     return bool((~still).any()) and len(np.unique(np.where(still, OUTSIDE, bodies))) > 1
 
 
-def _ties(section: TieSection, lines: Sequence[_Line], counts: dict[str, int]) -> Ties:
-    """Lines with the forces that a section allows; names count on where several sections have the same."""
+def _ties(section: TieSection, lines: Sequence[Line], counts: dict[str, int]) -> Ties:
+    """Lines with the forces that a section allows."""
+    form = {"compression": "strut", "both": "bar"}.get(section.acts, _form(section))
+    n, capacity = len(lines), capacity_of(section)
+    return replace(
+        ties_of(form, section.name or form, lines, counts),
+        least=np.full(n, 0.0 if section.acts == "tension" else -capacity),
+        greatest=np.full(n, 0.0 if section.acts == "compression" else capacity),
+        prestress=np.full(n, section.prestress or 0.0),
+        breaks_at=np.full(n, math.inf if section.breaks_at is None else section.breaks_at),
+    )
+
+
+def ties_of(form: str, name: str, lines: Sequence[Line], counts: dict[str, int]) -> Ties:
+    """Lines as ties that may have any tension; names count on where several sections have the same, in ``counts``."""
     if not lines:
         return NO_TIES
-    form = {"compression": "strut", "both": "bar"}.get(section.acts, _form(section))
-    name = section.name or form
-    first = counts.get(name, 0)
-    counts[name] = first + len(lines)
-    n, capacity = len(lines), capacity_of(section)
+    first, n = counts.get(name, 0), len(lines)
+    counts[name] = first + n
     return Ties(
         names=tuple(f"{name}[{first + row}]" for row in range(n)),
         forms=(form,) * n,
@@ -82,10 +90,10 @@ def _ties(section: TieSection, lines: Sequence[_Line], counts: dict[str, int]) -
         bodies=np.concatenate([line.bodies for line in lines]),
         places=np.concatenate([line.places for line in lines]),
         pulls=np.concatenate([line.pulls for line in lines]),
-        least=np.full(n, 0.0 if section.acts == "tension" else -capacity),
-        greatest=np.full(n, 0.0 if section.acts == "compression" else capacity),
-        prestress=np.full(n, section.prestress or 0.0),
-        breaks_at=np.full(n, math.inf if section.breaks_at is None else section.breaks_at),
+        least=np.zeros(n),
+        greatest=np.full(n, math.inf),
+        prestress=np.zeros(n),
+        breaks_at=np.full(n, math.inf),
     )
 
 
@@ -112,7 +120,13 @@ def plate_capacities(plate: Plate) -> list[float]:
     return [surface * strength for strength in (plate.shear_strength, plate.tensile_strength) if strength is not None]
 
 
-def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[_Line]:
+def build_lines(section: TieSection, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+    """The lines of a section and of its copies; faults go to the roster."""
+    for copy in repetitions(section.repeat):
+        yield from _lines(section, copy, path, roster, tolerance)
+
+
+def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
     """The lines of one copy of a tie."""
     if section.ring is not None:
         for number, z in enumerate(section.ring.z):
@@ -134,7 +148,7 @@ def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, 
 
 def _through(
     section: TieSection, places: FloatArray, path: KeyPath, roster: Roster, tolerance: float
-) -> Iterator[_Line]:
+) -> Iterator[Line]:
     """A line through points: one force, or one in each stretch."""
     closed = bool(np.linalg.norm(places[-1] - places[0]) <= CLOSES * np.ptp(places, axis=0).max()) and len(places) > 3
     if closed:
@@ -144,11 +158,11 @@ def _through(
     if len(bodies) < len(places):
         return
     if section.points == "passes":
-        yield _Line(bodies, places, pulls_along(places, closed=closed), closed)
+        yield Line(bodies, places, pulls_along(places, closed=closed), closed)
         return
     for first in range(len(places) - (0 if closed else 1)):
         pair = np.array([first, (first + 1) % len(places)])
-        yield _Line(bodies[pair], places[pair], pulls_along(places[pair], closed=False))
+        yield Line(bodies[pair], places[pair], pulls_along(places[pair], closed=False))
 
 
 def _block_at(
@@ -183,7 +197,7 @@ def _ring(
     number: int,
     roster: Roster,
     tolerance: float,
-) -> Iterator[_Line]:
+) -> Iterator[Line]:
     """A closed line along the convex outline of the plan of some blocks at a height."""
     from scipy.spatial import ConvexHull, QhullError
 
@@ -203,7 +217,7 @@ def _ring(
     bodies = [touched_blocks(place, roster.blocks, chosen, tolerance) for place in places]
     owners = np.array([found[0] for found in bodies if len(found)], dtype=np.int64)
     if len(owners) == len(places):
-        yield _Line(owners, places, pulls_along(places, closed=True), closed=True)
+        yield Line(owners, places, pulls_along(places, closed=True), closed=True)
 
 
 def _corners_of(outline: FloatArray) -> FloatArray:
@@ -229,20 +243,20 @@ def _plan(blocks: Blocks, chosen: IntArray, z: float) -> FloatArray:
     return np.asarray((one + share[:, None] * (other - one))[:, :2])
 
 
-def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[_Line]:
+def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
     """A force along the strip at each place where it crosses from one block to the next."""
     if roster.partial:
         return
     crossings = 0
     for begin, end in pairwise(places):
         along = (end - begin) / np.linalg.norm(end - begin)
-        cuts = _cuts(begin, end, roster.blocks)
+        cuts = cuts_of(begin, end, roster.blocks)
         middles = begin + 0.5 * (cuts[:-1] + cuts[1:])[:, None] * (end - begin)
         under = [touched_blocks(middle, roster.blocks, np.arange(len(roster.blocks)), tolerance) for middle in middles]
         chosen = _followed(under)
         for row in np.flatnonzero((np.diff(chosen) != 0) & (chosen[:-1] >= 0) & (chosen[1:] >= 0)).tolist():
             place = begin + cuts[row + 1] * (end - begin)
-            yield _Line(chosen[[row, row + 1]], np.stack([place, place]), np.stack([along, -along]))
+            yield Line(chosen[[row, row + 1]], np.stack([place, place]), np.stack([along, -along]))
             crossings += 1
     if not crossings:
         roster.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
@@ -257,7 +271,7 @@ def _followed(under: Sequence[IntArray]) -> IntArray:
     return chosen
 
 
-def _cuts(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:
+def cuts_of(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:
     """Shares of a stretch, from 0 to 1, at which it may leave a block: where it crosses planes of faces nearby."""
     step = end - begin
     vertices = blocks.vertices[blocks.loops[blocks.loop_start[:-1]]]

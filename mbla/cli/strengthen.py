@@ -1,0 +1,49 @@
+"""``mbla strengthen``: call what does the work, print, return the exit status; nothing else."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from mbla.cli.decks import read_given_deck, refuse_unfit_name, run_options
+from mbla.cli.options import add_analysis_options, add_deck_options, seconds
+from mbla.process.collector import loading
+
+
+def add_strengthen(commands: Any) -> None:
+    """``mbla strengthen``."""
+    command = commands.add_parser(
+        "strengthen",
+        help="the cheapest ties with which a structure carries what it has to",
+        description="Find the cheapest capacities of the candidates of the section strengthen with which each load "
+        "case carries its required load factor: one program of all load cases, whose mechanisms prove what they cost "
+        "at least. Then the strengthened structure is analysed by the deck's own flow rule, and capacities are raised "
+        "together while that falls short. Writes DECK_strengthened.yaml, its table as CSV and its results, with "
+        "pictures where the extra mbla[pictures] is installed.",
+        epilog="Exit status 0: strengthened, and every load factor is verified; 4: not verified, or still short; 5: no "
+        "capacities of these candidates suffice.",
+    )
+    command.set_defaults(action=strengthen, about={"deck": "deck"})
+    command.add_argument("deck", type=Path, metavar="DECK")
+    add_deck_options(command)
+    command.add_argument("--time-limit", type=seconds, metavar="S", help="instead of analysis.time_limit")
+    add_analysis_options(command)
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def strengthen(options: argparse.Namespace) -> int:
+    """Find, analyse and write; table and sentences go to standard output, with ``--json`` the object alone."""
+    refuse_unfit_name(options.deck)
+    chosen = run_options(options)
+    content, _ = read_given_deck(options.deck, chosen)
+    with loading():
+        from mbla.results.record.json_values import json_line
+        from mbla.sweeps.strengthen.report import lines_of, record_of
+        from mbla.sweeps.strengthen.study import strengthen as study
+    answer = study(content, chosen, lambda record: None)
+    if options.json:
+        print(json_line(record_of(answer)), flush=True)
+    elif not options.quiet:
+        print("\n".join(lines_of(answer)), flush=True)
+    return answer.exit_code

@@ -1,0 +1,96 @@
+"""Section `strengthen`: what ``mbla strengthen`` may add to a structure, and what it has to carry then."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mbla.deck.quantities import (
+    Direction,
+    Length,
+    Name,
+    NonNegativeNumber,
+    Point,
+    PositiveForce,
+    PositiveLength,
+    PositiveNumber,
+)
+from mbla.deck.section import Section, exactly_one_of, rule
+from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.ties import Anchor, Ring
+from mbla.errors import Finding
+
+PATTERNS = ("across", "ring", "vertical", "through")
+"""what lays out candidates"""
+
+
+class Across(Section):
+    """Ties from wall to wall through a room, from outer face to outer face, on a grid over both walls."""
+
+    between: tuple[Selector, Selector] = Field(description="the two walls")
+    along: Direction | None = Field(
+        None, description="their way; unless given along the axis on which the walls lie apart the most"
+    )
+    z: Annotated[list[Length], Field(min_length=1)] = Field(description="heights, such as those of floors")
+    every: PositiveLength = Field(description="distance between them along the walls; none where they miss a block")
+    pairs: Literal["opposite", "all"] = Field(
+        "opposite", description="opposite: straight across; all: from each place at one wall to each at the other"
+    )
+
+
+class Vertical(Section):
+    """Bars from the tops of walls down to their foundations."""
+
+    down: Selector = Field(description="the blocks that they go through, from the highest at each place")
+    every: PositiveLength = Field(description="distance between them, along x and y")
+
+
+@exactly_one_of(*PATTERNS)
+class Candidate(Section):
+    """Ties that may be added, each with a capacity from nothing to `most`."""
+
+    name: Name | None = Field(None, description="of the ties; the pattern unless given")
+    across: Across | None = Field(None, description="from wall to wall")
+    ring: Ring | None = Field(None, description="round a building, one at each height")
+    vertical: Vertical | None = Field(None, description="down to the foundation")
+    through: Annotated[list[Point], Field(min_length=2, max_length=1000)] | None = Field(
+        None, description="one tie, as of ties"
+    )
+    on: Annotated[list[Anchor], Field(min_length=2, max_length=1000)] | None = Field(
+        None, description="through: the block of each point, or ground, as of ties"
+    )
+    cost: PositiveNumber = Field(1.0, description="of a unit of capacity over a unit of length, in any currency")
+    most: PositiveForce | None = Field(None, description="greatest capacity; any unless given")
+
+
+class StrengthenSection(Section):
+    """What ``mbla strengthen`` looks for: the cheapest capacities with which all load cases are carried."""
+
+    required: dict[Name, NonNegativeNumber] = Field(
+        min_length=1, description="load factor that each load case has to carry"
+    )
+    candidates: list[Candidate] = Field(min_length=1, description="what may be added")
+    catalogue: Annotated[list[PositiveForce], Field(min_length=1)] | None = Field(
+        None, description="capacities that there are, to which those found are rounded up; any unless given"
+    )
+
+
+@rule(Candidate)
+def candidate(item: Candidate) -> Iterator[Finding]:
+    """Blocks by points go with points."""
+    if item.on is not None and item.through is None:
+        yield Finding("key-of-another-choice", "applies to through only", "on")
+    elif item.on is not None and item.through is not None and len(item.on) != len(item.through):
+        words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
+        yield Finding("tie-misfit", words, "on")
+
+
+@rule(StrengthenSection)
+def catalogue(section: StrengthenSection) -> Iterator[Finding]:
+    """Capacities ascend."""
+    values = section.catalogue or []
+    for number in range(1, len(values)):
+        if values[number] <= values[number - 1]:
+            yield Finding("out-of-bounds", f"must be > {values[number - 1]:g}, the one before", "catalogue", number)

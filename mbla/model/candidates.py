@@ -1,0 +1,159 @@
+"""Candidates for a strengthening: ties laid out over a structure by patterns, with what they cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise, product
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.section import given
+from mbla.deck.sections.strengthen import PATTERNS, Across, Candidate, Vertical
+from mbla.deck.sections.ties import TieSection
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Finding
+from mbla.model.build_ties import Line, build_lines, can_move, cuts_of, ties_of
+from mbla.model.selectors import Roster, select_blocks
+from mbla.model.solids.plane import plane_axes, unit
+from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.touching import touched_blocks
+from mbla.model.ties import OUTSIDE, Ties, joined_ties, pulls_along
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Ties that may be added, k of them, and what they are worth.
+
+    costs : (k,) of a unit of capacity, which is that over the length
+    most  : (k,) greatest capacity, inf where it is not limited
+    """
+
+    ties: Ties
+    costs: FloatArray
+    most: FloatArray
+
+
+def build_candidates(sections: Sequence[Candidate], roster: Roster, fixed: BoolArray, tolerance: float) -> Candidates:
+    """The candidates of a deck; faults go to the roster.
+
+    fixed     : (n_blocks,) blocks that do not move
+    tolerance : of contacts, relative to block size
+    """
+    parts, counts = list[Ties](), dict[str, int]()
+    costs, most = [np.zeros(0)], [np.zeros(0)]
+    for number, section in enumerate(sections):
+        path: KeyPath = ("strengthen", "candidates", number)
+        lines = [line for line in _lines(section, path, roster, tolerance) if can_move(line.bodies, fixed)]
+        if not lines and not roster.faults:
+            words = "lays out no tie: none of its lines meets blocks that can move apart"
+            roster.refuse(Finding("tie-without-effect", words, *path))
+        made = ties_of("tie", section.name or given(section, PATTERNS)[0], lines, counts)
+        parts.append(made)
+        costs.append(section.cost * made.lengths)
+        most.append(np.full(len(made), np.inf if section.most is None else section.most))
+    return Candidates(joined_ties(parts), np.concatenate(costs), np.concatenate(most))
+
+
+def _lines(section: Candidate, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+    if section.across is not None:
+        yield from _across(section.across, (*path, "across"), roster, tolerance)
+    elif section.vertical is not None:
+        yield from _vertical(section.vertical, (*path, "vertical"), roster, tolerance)
+    else:
+        keys = section.model_dump(include={"ring", "through", "on"}, exclude_none=True, by_alias=True)
+        yield from build_lines(TieSection.model_validate({**keys, "capacity": 1.0}), path, roster, tolerance)
+
+
+@dataclass(frozen=True)
+class _Wall:
+    """Blocks of a wall that lines may meet; ``low`` and ``high`` corners of their box."""
+
+    roster: Roster
+    chosen: IntArray
+    tolerance: float
+    low: FloatArray
+    high: FloatArray
+
+    @staticmethod
+    def of(roster: Roster, chosen: IntArray, tolerance: float) -> _Wall:
+        blocks = roster.blocks
+        vertices = blocks.vertices[items_of_rows(blocks.vertex_start, chosen)]
+        return _Wall(roster, chosen, tolerance, vertices.min(axis=0), vertices.max(axis=0))
+
+    def met_by(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, int] | None:
+        """Where a line first comes to the wall, (3,) m, and the block there; None where it misses it."""
+        cuts = cuts_of(begin, end, self.roster.blocks)
+        for first, last in pairwise(cuts):
+            middle = begin + 0.5 * (first + last) * (end - begin)
+            found = touched_blocks(middle, self.roster.blocks, self.chosen, self.tolerance)
+            if len(found):
+                return begin + first * (end - begin), int(found[0])
+        return None
+
+
+def _across(section: Across, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+    """Lines from the outer face of one wall to that of the other."""
+    chosen = [select_blocks(each, (*path, "between", side), roster) for side, each in enumerate(section.between)]
+    if any(each is None for each in chosen):
+        return
+    one, other = (_Wall.of(roster, each, tolerance) for each in chosen if each is not None)
+    apart = (other.low + other.high - one.low - one.high) / 2.0
+    along = np.eye(3)[np.abs(apart[:2]).argmax()] if section.along is None else unit(np.array(section.along))
+    along = along * (1.0 if along @ apart >= 0.0 else -1.0)
+    aside = unit(np.cross(UP, along)) if abs(along @ UP) < 1.0 else plane_axes(along[None])[0][0]
+    reach = np.array([_reach(wall, along) for wall in (one, other)])
+    margin = 0.01 * float(np.ptp(reach))
+    begins, ends = (reach.min() - margin) * along, (reach.max() + margin) * along
+    for z in section.z:
+        across = [s * aside + (z - s * aside[2]) * UP for s in _places(one, other, aside, section.every)]
+        across = [each - (each @ along) * along for each in across]
+        starts_at = [one.met_by(each + begins, each + ends) for each in across]
+        stops_at = [other.met_by(each + ends, each + begins) for each in across]
+        pairs = zip(starts_at, stops_at, strict=True) if section.pairs == "opposite" else product(starts_at, stops_at)
+        for start, stop in pairs:
+            if start is not None and stop is not None:
+                line = np.stack([start[0], stop[0]])
+                yield Line(np.array([start[1], stop[1]]), line, pulls_along(line, closed=False))
+
+
+def _reach(wall: _Wall, way: FloatArray) -> tuple[float, float]:
+    """Least and greatest coordinate of the box of a wall along a unit vector."""
+    ends = np.where(way > 0.0, wall.low, wall.high), np.where(way > 0.0, wall.high, wall.low)
+    return float(ends[0] @ way), float(ends[1] @ way)
+
+
+def _places(one: _Wall, other: _Wall, aside: FloatArray, every: float) -> FloatArray:
+    """Coordinates along two walls where they lie across from each other, evenly from their middle."""
+    ends = np.array([_reach(one, aside), _reach(other, aside)])
+    low, high = ends[:, 0].max(), ends[:, 1].min()
+    count = max(int((high - low) // every), 0)
+    return np.asarray((low + high) / 2.0 + every * (np.arange(count) - (count - 1) / 2.0))
+
+
+def _vertical(section: Vertical, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+    """Lines from the highest block at each place of a grid down to below the lowest."""
+    chosen = select_blocks(section.down, (*path, "down"), roster)
+    if chosen is None:
+        return
+    wall = _Wall.of(roster, chosen, tolerance)
+    grid = []
+    for axis in (0, 1):
+        count = max(int((wall.high[axis] - wall.low[axis]) // section.every), 1)
+        middle = (wall.low[axis] + wall.high[axis]) / 2.0
+        grid.append(middle + section.every * (np.arange(count) - (count - 1) / 2.0))
+    margin = 0.01 * (wall.high[2] - wall.low[2])
+    for x, y in product(*grid):
+        top, foot = np.array([x, y, wall.high[2] + margin]), np.array([x, y, wall.low[2] - margin])
+        met = wall.met_by(top, foot)
+        if met is not None:
+            line = np.stack([met[0], np.array([x, y, wall.low[2]])])
+            yield Line(np.array([met[1], OUTSIDE]), line, pulls_along(line, closed=False))
+
+
+def with_capacities(ties: Ties, capacities: FloatArray) -> Ties:
+    """Candidates as ties of given capacities, (k,) N."""
+    return replace(ties, least=np.zeros(len(ties)), greatest=capacities)

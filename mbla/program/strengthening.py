@@ -1,0 +1,200 @@
+"""The cheapest capacities of ties with which a structure carries every load case: one cone program, in velocities.
+
+With the loads q_c = f_D + λ_c f_L of case c at its required load factor, forces x_c of its joints and tensions τ_c::
+
+    min Σ w_j T_j    s.t.  A x_c + C τ_c + q_c = 0,  x_c within its yield conditions,  0 ≤ τ_c ≤ T,  T ≤ T̄
+
+w_j is the cost of a unit of capacity of tie j. Its dual has velocities u_c and elongation rates e_cj; T are the dual
+variables of its last rows, which price every candidate::
+
+    max Σ_c [q_c·u_c − dissipation of the joints(u_c)] − Σ T̄_j t_j
+    s.t. e_cj ≥ −(Cᵀu_c)_j,  e_cj ≥ 0,  Σ_c e_cj ≤ w_j + t_j,  t_j ≥ 0
+
+Where it has no upper bound no capacities suffice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.glue import Solids
+from mbla.model.model import LoadCase
+from mbla.program.assemble import assemble
+from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
+from mbla.program.program import Program
+from mbla.program.reductions.restrict import chosen_limits
+from mbla.program.yield_conditions.limits import YieldLimits
+
+
+@dataclass(frozen=True)
+class StrengthenedCase:
+    """One load case, non-dimensional, its loads those at the required load factor.
+
+    program    : of the joints, and of the ties that are there; its dead load is q, its live load nothing
+    pulls      : (n_rows, k) C, of candidates
+    joints     : (n,) their contact points among those of the solids
+    candidates : (m,) contact points of candidates, and which ones these are, (m,)
+    ways       : from the velocities of the program to those of the free blocks, where guides leave fewer; else None
+    """
+
+    program: Program
+    pulls: sp.csr_array
+    joints: IntArray
+    candidates: IntArray
+    numbers: IntArray
+    ways: sp.csr_array | None
+
+    def motion(self, velocities: FloatArray) -> FloatArray:
+        """Of all blocks, (n_blocks, 6), for which a unit of power is one of the program, from (n_rows,)."""
+        program = self.program
+        free = velocities if self.ways is None else self.ways @ velocities
+        full = np.zeros((program.n_blocks, 6))
+        full[program.free] = (free * program.scaling.row).reshape(-1, 6)
+        return full
+
+
+def strengthened_case(
+    solids: Solids, load_case: LoadCase, required: float, first: int, count: int, unit: float
+) -> StrengthenedCase:
+    """A load case at a load factor.
+
+    solids : with all candidates among its contacts
+    first  : number of the first candidate among the ties of the model; ``count`` of them
+    unit   : of force of the program, N
+    """
+    contacts = solids.contacts
+    program = assemble(solids.model, contacts, solids.load_case(load_case), own=False)
+    program = program.in_unit_of_force(unit / program.scaling.force)
+    ties, n_points = contacts.ties, len(contacts.points)
+    rows = np.zeros(0, dtype=np.int64) if ties is None else ties.rows
+    points = n_points - len(rows) + np.flatnonzero(rows >= first)
+    numbers = rows[rows >= first] - first
+    joints = np.setdiff1d(np.arange(n_points), points)
+    matrix = sp.csc_array(program.equilibrium_matrix)
+    pulls = sp.csc_array((matrix.shape[0], count))
+    if len(points):
+        place = sp.csr_array((np.ones(len(points)), (np.arange(len(points)), numbers)), shape=(len(points), count))
+        pulls = matrix[:, 3 * points] @ place
+    own = (3 * joints[:, None] + np.arange(3)).ravel()
+    loads = program.dead_load + required / program.scaling.live * program.live_load
+    alone = replace(
+        program,
+        equilibrium_matrix=sp.csr_array(matrix[:, own]),
+        limits=chosen_limits(program.limits, joints),
+        dead_load=loads,
+        live_load=np.zeros_like(loads),
+        reduction=None,
+    )
+    ways = None if program.reduction is None else program.reduction.velocities
+    return StrengthenedCase(alone, sp.csr_array(pulls), joints, points, numbers, ways)
+
+
+@dataclass(frozen=True)
+class StrengtheningForm:
+    """The cone program of several cases, and how its solution is read.
+
+    forms   : of the joints of each case
+    columns : first unknown of each case, then of e, of t and the end of these
+    costs   : (k,) w in the unit of the program
+    """
+
+    cases: tuple[StrengthenedCase, ...]
+    forms: tuple[KinematicForm, ...]
+    columns: IntArray
+    costs: FloatArray
+    cone_program: ConeProgram
+
+    def velocities(self, x: FloatArray) -> list[FloatArray]:
+        """Of each case, (n_rows,)."""
+        both = zip(self.columns, self.cases, strict=False)
+        return [x[first : first + len(case.program.dead_load)] for first, case in both]
+
+    def capacities(self, z: FloatArray) -> FloatArray:
+        """T, (k,), in the unit of force of the program."""
+        first = self._coupling
+        return np.maximum(z[first : first + len(self.costs)], 0.0)
+
+    def use(self, x: FloatArray) -> FloatArray:
+        """Σ e over the cost of each candidate, (k,): 1 where it is worth its cost, less where it is not."""
+        k, n = len(self.costs), len(self.cases)
+        first = self.columns[n]
+        return np.asarray(x[first : first + n * k].reshape(n, k).sum(axis=0) / self.costs)
+
+    def forces(self, z: FloatArray) -> list[FloatArray]:
+        """Forces of the joints of each case, (n_points, 3)."""
+        found, line, cone = [], 0, self.cone_program.n_half_lines
+        for form in self.forms:
+            own = form.cone_program
+            n = 3 * own.n_cones
+            parts = [np.zeros(1), z[line : line + own.n_half_lines], z[cone : cone + n]]
+            found.append(form.contact_forces(np.concatenate(parts)))
+            line, cone = line + own.n_half_lines, cone + n
+        return found
+
+    @property
+    def _coupling(self) -> int:
+        lines = sum(form.cone_program.n_half_lines for form in self.forms)
+        return lines + 2 * len(self.cases) * len(self.costs)
+
+
+def strengthening_form(
+    cases: Sequence[StrengthenedCase], limits: Sequence[YieldLimits], costs: FloatArray, most: FloatArray
+) -> StrengtheningForm:
+    """The program of all cases.
+
+    limits : of the joints of each: its own, or others
+    costs  : (k,) of a unit of capacity; most : (k,) in the unit of force of the programs, inf without a limit
+    """
+    n, k = len(cases), len(costs)
+    forms = tuple(kinematic_form(case.program, own) for case, own in zip(cases, limits, strict=True))
+    limited = np.flatnonzero(np.isfinite(most))
+    sizes = [len(case.program.dead_load) for case in cases]
+    local = [form.cone_program.matrix.shape[1] - size for form, size in zip(forms, sizes, strict=True)]
+    columns = np.concatenate([[0], np.cumsum([*sizes, n * k, len(limited)])])
+    halves = [sp.csr_array(form.cone_program.matrix)[1 : 1 + form.cone_program.n_half_lines] for form in forms]
+    cones = [sp.csr_array(form.cone_program.matrix)[1 + form.cone_program.n_half_lines :] for form in forms]
+    rows: list[list[sp.csr_array]] = []
+
+    def row(**parts: sp.csr_array) -> None:
+        names = [*(f"u{c}" for c in range(n)), *(f"e{c}" for c in range(n)), "t", *(f"m{c}" for c in range(n))]
+        widths = [*sizes, *[k] * n, len(limited), *local]
+        height = next(iter(parts.values())).shape[0]
+        rows.append([parts.get(name, sp.csr_array((height, width))) for name, width in zip(names, widths, strict=True)])
+
+    one = sp.eye_array(k, format="csr")
+    for c in range(n):
+        row(**{f"u{c}": halves[c][:, : sizes[c]], f"m{c}": halves[c][:, sizes[c] :]})
+    for c, case in enumerate(cases):
+        row(**{f"u{c}": -sp.csr_array(case.pulls.T), f"e{c}": -one})
+    for c in range(n):
+        row(**{f"e{c}": -one})
+    row(**{f"e{c}": one for c in range(n)}, t=-one[:, limited])
+    if len(limited):
+        row(t=-sp.eye_array(len(limited), format="csr"))
+    n_lines = sum(each[0].shape[0] for each in rows)
+    for c in range(n):
+        row(**{f"u{c}": cones[c][:, : sizes[c]], f"m{c}": cones[c][:, sizes[c] :]})
+    matrix = sp.csc_array(sp.block_array(rows))
+    matrix.eliminate_zeros()
+    matrix.sort_indices()
+    parts = [form.cone_program.cost for form in forms]
+    cost = [own[:size] for own, size in zip(parts, sizes, strict=True)]
+    cost += [np.zeros(n * k), most[limited]] + [own[size:] for own, size in zip(parts, sizes, strict=True)]
+    lines = sum(form.cone_program.n_half_lines for form in forms)
+    rhs = np.zeros(matrix.shape[0])
+    rhs[lines + 2 * n * k : lines + 2 * n * k + k] = costs
+    program = ConeProgram(
+        cost=np.concatenate(cost),
+        matrix=matrix,
+        rhs=rhs,
+        n_half_lines=n_lines,
+        n_cones=sum(form.cone_program.n_cones for form in forms),
+        n_equations=0,
+        n_local=sum(local),
+    )
+    return StrengtheningForm(tuple(cases), forms, columns, costs, program)

@@ -1,0 +1,189 @@
+"""The cheapest capacities of ties: found by one cone program of all load cases, and what its mechanisms prove.
+
+Without normality the program is repeated with the friction of each joint held at what the normal forces of the program
+before give it. Where that comes to rest its capacities are a start, else those with normality are; analysis of the
+strengthened structure decides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import Solids, solids_of
+from mbla.contacts.tied import tied
+from mbla.model.model import LoadCase, Model
+from mbla.model.moved_ties import elongations
+from mbla.program.strengthening import StrengtheningForm, strengthened_case, strengthening_form
+from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import WITH_VALUE, Status
+from mbla.solution.verification.case import Case
+
+MOST_REPEATS, SAME = 8, 1e-3
+"""Programs with friction held, and change of the cost from one to the next at which they have come to rest."""
+
+NEGLIGIBLE = 1e-6
+"""Capacity over the greatest that is rounding of the program."""
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A load case and the load factor that it has to carry."""
+
+    load_case: LoadCase
+    load_factor: float
+
+
+@dataclass(frozen=True)
+class Cheapest:
+    """Answer of the program.
+
+    status     : SOLVED, or why there are no capacities: NO_EQUILIBRIUM where none suffice
+    capacities : (k,) N
+    use        : (k,) worth of a candidate over its cost: 1 of those that are used
+    cost       : of the capacities
+    least_cost : proved by the mechanisms: no capacities cost less by associative flow; nan where they prove nothing
+    repeats    : programs with friction held
+    """
+
+    status: Status
+    capacities: FloatArray
+    use: FloatArray
+    cost: float
+    least_cost: float
+    repeats: int
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Strengthening:
+    """What may be added to a structure.
+
+    model : with candidates behind its own ties, whose number is ``first``
+    costs : (k,) of a unit of capacity; most : (k,) greatest capacity, N
+    """
+
+    model: Model
+    contacts: Contacts
+    first: int
+    costs: FloatArray
+    most: FloatArray
+    requirements: tuple[Requirement, ...]
+    settings: SolverSettings
+    log: Log
+
+    def solids(self, load_case: LoadCase) -> Solids:
+        """With all candidates among the contacts."""
+        return tied(solids_of(self.model.of_case(load_case), self.contacts))
+
+    @property
+    def unit(self) -> float:
+        """Of force: mean dead load of a free block of the first case, or live load where there is none."""
+        case = self.requirements[0].load_case
+        for load in (case.dead_load, case.live_load):
+            sizes = np.linalg.norm(load[self.model.free, :3], axis=1)
+            if sizes.any():
+                return float(sizes[sizes > 0].mean())
+        return 1.0
+
+
+def cheapest(strengthening: Strengthening, *, friction_held: bool) -> Cheapest:
+    """The cheapest capacities with which all requirements are met.
+
+    friction_held : by repeated programs without normality, from that with it
+    """
+    unit, scale = strengthening.unit, float(strengthening.costs.mean())
+    count = len(strengthening.costs)
+    cases = [
+        strengthened_case(
+            strengthening.solids(each.load_case), each.load_case, each.load_factor, strengthening.first, count, unit
+        )
+        for each in strengthening.requirements
+    ]
+    costs, most = strengthening.costs / scale, strengthening.most / unit
+    form = strengthening_form(cases, [case.program.limits for case in cases], costs, most)
+    solution = _solved(form, strengthening, 1)
+    found = _answer(strengthening, form, solution, unit, scale, 0)
+    if found.status not in WITH_VALUE:
+        return found
+    least = proved_least_cost(strengthening, form, solution)
+    found = with_normality = replace(found, least_cost=least)
+    if not friction_held or not found.capacities.any():
+        return found
+    for repeat in range(1, MOST_REPEATS + 1):
+        held = [
+            replace(
+                case.program.limits,
+                friction=np.zeros(len(forces)),
+                cohesion=case.program.limits.cohesion + case.program.limits.friction * np.maximum(forces[:, 0], 0.0),
+            )
+            for case, forces in zip(cases, form.forces(solution.z), strict=True)
+        ]
+        form = strengthening_form(cases, held, costs, most)
+        solution = _solved(form, strengthening, repeat + 1)
+        after = replace(_answer(strengthening, form, solution, unit, scale, repeat), least_cost=least)
+        if after.status not in WITH_VALUE:
+            break
+        if abs(after.cost - found.cost) <= SAME * after.cost:
+            return after
+        found = after
+    return with_normality
+
+
+def _solved(form: StrengtheningForm, strengthening: Strengthening, number: int) -> ConeSolution:
+    return cone_solver(form.cone_program, strengthening.settings, strengthening.log).solve(number, -1.0)
+
+
+def _answer(
+    strengthening: Strengthening,
+    form: StrengtheningForm,
+    solution: ConeSolution,
+    unit: float,
+    scale: float,
+    repeats: int,
+) -> Cheapest:
+    none = np.zeros(len(strengthening.costs))
+    if solution.status not in WITH_VALUE:
+        reason = f"the program was not solved: {solution.shortfall}"
+        if solution.status is Status.NO_EQUILIBRIUM:
+            reason = "no capacities of these candidates suffice: a mechanism does not stretch them enough"
+        return Cheapest(solution.status, none, none, np.nan, np.nan, repeats, reason)
+    capacities = unit * form.capacities(solution.z)
+    capacities[capacities <= NEGLIGIBLE * capacities.max(initial=0.0)] = 0.0
+    cost = float(capacities @ strengthening.costs)
+    return Cheapest(solution.status, capacities, form.use(solution.x), cost, np.nan, repeats)
+
+
+def proved_least_cost(strengthening: Strengthening, form: StrengtheningForm, solution: ConeSolution) -> float:
+    """What capacities cost at least by associative flow, from the mechanisms alone; nan where they prove nothing.
+
+    Virtual work: loads that do more work than the joints dissipate need ties that take the rest, and what these take is
+    no more than their capacities times the elongations; see :mod:`mbla.program.strengthening`. Rounding by which joints
+    close is charged with twice the largest normal force.
+    """
+    unit = strengthening.unit * float(strengthening.costs.mean())
+    gain, stretched = 0.0, np.zeros(len(strengthening.costs))
+    forces, own = form.forces(solution.z), np.arange(strengthening.first)
+    without = replace(strengthening.model, ties=strengthening.model.ties.take(own))
+    for number, (each, case) in enumerate(zip(strengthening.requirements, form.cases, strict=True)):
+        motion = case.motion(form.velocities(solution.x)[number])
+        joints = tied(solids_of(without.of_case(each.load_case), strengthening.contacts))
+        judged = Case(joints.model, joints.contacts, joints.load_case(each.load_case))
+        dissipated, lack = judged.dissipation((motion, None))
+        dead, live = judged.powers(motion)
+        largest = 2.0 * float(np.abs(case.program.scaling.forces(forces[number])[:, 0]).max(initial=0.0))
+        gain += unit * (dead + each.load_factor * live - dissipated - largest * lack)
+        on_blocks = joints.block_motions(motion)
+        longer = elongations(strengthening.model.blocks, strengthening.model.ties, on_blocks)[strengthening.first :]
+        stretched += unit * np.maximum(longer, 0.0)
+    limited = np.isfinite(strengthening.most)
+    size = float((stretched / strengthening.costs)[~limited].max(initial=1.0 if limited.any() else 0.0))
+    if not size > 0.0:
+        return np.nan
+    over = np.maximum(stretched / size - strengthening.costs, 0.0)[limited]
+    return float(gain / size - strengthening.most[limited] @ over)

@@ -1,0 +1,1 @@
+"""The cheapest strengthening of a structure."""

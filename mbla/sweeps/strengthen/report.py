@@ -1,0 +1,150 @@
+"""What ``mbla strengthen`` found, as lines, as a table and as JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from typing import Any
+
+import numpy as np
+
+from mbla import __version__
+from mbla.model.ties import OUTSIDE
+from mbla.results.listing.text import counted, full_sentence, number, sentence, table
+from mbla.results.record.json_values import as_json
+from mbla.solution.solution import WITH_VALUE
+from mbla.sweeps.strengthen.study import Strengthened
+
+MOST = 40
+"""candidates in the table of the listing: those that are used, then those that are worth the most of their cost"""
+
+
+def rows_of(answer: Strengthened) -> list[dict[str, Any]]:
+    """Every candidate: those used first, by their part of the cost, then by what they are worth."""
+    ties, found = answer.candidates.ties, answer.cheapest
+    order = np.lexsort((-found.use, -answer.capacities * answer.candidates.costs))
+    blocks, lengths = answer.model.blocks, ties.lengths
+
+    def body(point: int) -> str:
+        block = int(ties.bodies[point])
+        return "ground" if block == OUTSIDE else blocks.name(block)
+
+    return [
+        {
+            "name": ties.names[row],
+            "from_body": body(int(ties.start[row])),
+            "to_body": body(int(ties.start[row + 1]) - 1),
+            "from_place": ties.places[ties.start[row]],
+            "to_place": ties.places[ties.start[row + 1] - 1],
+            "length": float(lengths[row]),
+            "unit_cost": float(answer.candidates.costs[row]),
+            "cheapest_capacity": float(found.capacities[row]),
+            "capacity": float(answer.capacities[row]),
+            "cost": float(answer.capacities[row] * answer.candidates.costs[row]),
+            "worth": float(found.use[row]),
+        }
+        for row in order.tolist()
+    ]
+
+
+def record_of(answer: Strengthened) -> dict[str, Any]:
+    """The JSON object."""
+    found = answer.cheapest
+    return {
+        "mbla": __version__,
+        "deck": answer.deck.path.name,
+        "status": found.status.value,
+        "reason": found.reason or None,
+        "program_cost": as_json(found.cost),
+        "least_cost": as_json(found.least_cost),
+        "cost": as_json(answer.cost),
+        "raised": answer.raised,
+        "analyses": answer.analyses,
+        "cases": {
+            name: {"required": required, "load_factor": as_json(factor)}
+            for name, (required, factor) in answer.factors.items()
+        },
+        "verified": answer.verified,
+        "candidates": as_json(rows_of(answer)),
+        "files": [str(path) for path in answer.files],
+        "exit_code": answer.exit_code,
+    }
+
+
+def table_csv(answer: Strengthened) -> str:
+    """Every candidate as a row of CSV."""
+    units = answer.model.units
+    head = {
+        "name": "name", "from_body": "from_body", "to_body": "to_body",
+        "length": f"length [{units.length}]", "unit_cost": "unit_cost",
+        "cheapest_capacity": f"cheapest_capacity [{units.force}]", "capacity": f"capacity [{units.force}]",
+        "cost": "cost", "worth": "worth",
+    }  # fmt: skip
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    places = [f"{end}_{axis} [{units.length}]" for end in ("from", "to") for axis in "xyz"]
+    writer.writerow([*head.values(), *places])
+    for row in rows_of(answer):
+        writer.writerow([*(row[key] for key in head), *row["from_place"].tolist(), *row["to_place"].tolist()])
+    return text.getvalue()
+
+
+def lines_of(answer: Strengthened) -> list[str]:
+    """The same in words."""
+    found, units = answer.cheapest, answer.model.units
+    count = len(answer.candidates.costs)
+    if found.status not in WITH_VALUE:
+        return sentence(full_sentence(f"No strengthening: {found.reason}"))
+    used = int((answer.capacities > 0.0).sum())
+    lines = [f"{answer.deck.path.name}: {used} of {counted(count, 'candidate')} used, cost {number(answer.cost)}"]
+    rows = [row for row in rows_of(answer) if row["capacity"] > 0.0 or row["worth"] > 0.0][:MOST]
+    head = ["candidate", "from", "to", f"length [{units.length}]"]
+    head += [f"capacity [{units.force}]", "cheapest", "cost", "worth"]
+    lines += table(
+        head,
+        [
+            [
+                row["name"],
+                row["from_body"],
+                row["to_body"],
+                number(row["length"]),
+                number(row["capacity"]) if row["capacity"] else "-",
+                number(row["cheapest_capacity"]) if row["cheapest_capacity"] else "-",
+                number(row["cost"]) if row["cost"] else "-",
+                f"{row['worth']:.4g}",
+            ]
+            for row in rows
+        ],
+        left=3,
+    )
+    lines += sentence(
+        "Worth: what a unit of capacity of a candidate saves elsewhere, over its cost: 1 where it is used; a candidate "
+        "comes into use where it costs less than that share of its cost."
+    )
+    lines += sentence(_bound_words(answer))
+    for name, (required, factor) in answer.factors.items():
+        says = "no load factor" if math.isnan(factor) else f"load factor {number(factor)}"
+        lines += sentence(f"{name}: {says} with these ties, required {number(required)}.")
+    if not answer.suffices:
+        lines += sentence("That is NOT enough: capacities were raised as far as is tried.")
+    elif not answer.verified:
+        lines += sentence("Not all of these are verified.")
+    return [*lines, *(f"  {path}" for path in answer.files)]
+
+
+def _bound_words(answer: Strengthened) -> str:
+    """What the cheapest capacities cost, what is proved of it, and why those written cost more."""
+    found = answer.cheapest
+    least = number(found.least_cost)
+    says = f"By associative flow the cheapest capacities cost no less than {least}: its mechanisms prove it"
+    if math.isnan(found.least_cost):
+        says = "Nothing proves that no others are cheaper"
+    says += f"; those of the program cost {number(found.cost)}"
+    if found.repeats:
+        says += f", after {counted(found.repeats, 'program')} with friction held"
+    if answer.raised > 1.0:
+        says += f", raised by {100 * (answer.raised - 1):.3g} % for the analysis"
+    if answer.deck.content.strengthen is not None and answer.deck.content.strengthen.catalogue is not None:
+        says += ", rounded up to the catalogue"
+    return f"{says}."
