@@ -120,10 +120,9 @@ class StrengtheningForm:
         return np.maximum(z[first : first + len(self.costs)], 0.0)
 
     def use(self, x: FloatArray) -> FloatArray:
-        """Σ e over the cost of each candidate, (k,): 1 where it is worth its cost, less where it is not."""
-        k, n = len(self.costs), len(self.cases)
-        first = self.columns[n]
-        return np.asarray(x[first : first + n * k].reshape(n, k).sum(axis=0) / self.costs)
+        """Sum of elongations over the cost of each candidate, (k,): 1 where it is worth its cost, less where not."""
+        both = zip(self.cases, self.velocities(x), strict=True)
+        return np.asarray(sum(np.maximum(-(case.pulls.T @ u), 0.0) for case, u in both) / self.costs)
 
     def forces(self, z: FloatArray) -> list[FloatArray]:
         """Forces of the joints of each case, (n_points, 3)."""

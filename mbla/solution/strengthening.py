@@ -184,6 +184,6 @@ def proved_least_cost(strengthening: Strengthening, form: StrengtheningForm, sol
     limited = np.isfinite(strengthening.most)
     size = float((stretched / strengthening.costs)[~limited].max(initial=1.0 if limited.any() else 0.0))
     if not size > 0.0:
-        return np.nan
+        return 0.0
     over = np.maximum(stretched / size - strengthening.costs, 0.0)[limited]
-    return float(gain / size - strengthening.most[limited] @ over)
+    return max(float(gain / size - strengthening.most[limited] @ over), 0.0)

@@ -111,7 +111,7 @@ def random_case(seed: int) -> tuple[str, float | None]:
     return deck, load_factor(rectangles_in_contact(bricks, mu), centroids, np.outer(weights, [0.0, -1.0]), live, ties)
 
 
-def _random_tie(rng: np.random.Generator, bricks: list[Rectangle], weight: float) -> PlanarTie:
+def random_tie(rng: np.random.Generator, bricks: list[Rectangle], weight: float) -> PlanarTie:
     """Between two or three bricks, or a brick and the ground, pulling, pushing or both."""
     count = int(rng.integers(2, 4))
     chosen = rng.choice(len(bricks), count, replace=False)
