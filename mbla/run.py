@@ -24,7 +24,7 @@ from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import leaves_nothing, stopped, write_results
-from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.solve import solve
 from mbla.solution.tilt import Answer
@@ -133,9 +133,10 @@ def solve_case(
 
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
-    solids = solids_of(moving, contacts)
+    solids = solids_of(moving, contacts, load_case)
+    settings = settings_for(load_case, settings)
     for case in trials:
-        program = build_program(solids, case, deck.analysis)
+        program = build_program(solids, case, settings.analysis)
         solution = solve(program, settings, log)
         trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
     answer = trials.answer

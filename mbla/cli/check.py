@@ -54,7 +54,7 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    built = build_program(solids_of(model.of_case(load_case), contacts), load_case, deck.analysis)
+    built = build_program(solids_of(model.of_case(load_case), contacts, load_case), load_case, deck.analysis)
     reduced, convex = built.reduced, built.convex
     if convex is not None:
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]

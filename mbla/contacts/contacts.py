@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
@@ -32,6 +34,8 @@ class Contacts:
                    zero
     solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
                    in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
+    cut          : (n_interfaces,)    1, -1: their forces act on the last block too, the gauge, as on body b or on body
+                   a; 0: they do not; None without a gauge (see :mod:`mbla.contacts.gauge`); in no file
 
     Internal interfaces (glued), and those whose joint law is open, are none of these.
     """
@@ -50,6 +54,7 @@ class Contacts:
     point_areas: FloatArray
     report: ContactReport
     solid_of_block: IntArray | None = None
+    cut: IntArray | None = None
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -65,6 +70,11 @@ class Contacts:
     def interface_of_point(self) -> IntArray:
         """(n_points,)."""
         return row_of_item(self.point_start)
+
+    @cached_property
+    def cut_of_point(self) -> IntArray | None:
+        """``cut`` of the interface of each contact point, (n_points,)."""
+        return None if self.cut is None else np.asarray(self.cut[self.interface_of_point])
 
 
 class ContactsRefused(Refusal):

@@ -25,6 +25,7 @@ from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
+from mbla.model.objective import build_objective
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import Blocks, carried_masses, distance_outside
@@ -78,9 +79,11 @@ def build_model(deck: Deck) -> Model:
 
 
 def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
-    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+    """Loads of one case, or of one for each position of a load that travels; a support that gives way; ends of a force."""
     load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
+    if section.objective is not None:
+        return [case for load_case in load_cases for case in build_objective(section, path, load_case, site)]
     if section.settlement is not None:
         settles = (*path, "settlement")
         return [

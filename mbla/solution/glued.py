@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -37,10 +38,12 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
     """The solution for the solids with the motions of all blocks; the block that falls is the first of its solid."""
     if solids.solid_of_block is None:
         return solution
-    standing = solution.standing
+    standing, size = solution.standing, solution.size
     if standing is not None and standing.block is not None:
         standing = replace(standing, block=int(solids.first_blocks[standing.block]))
-    return _with_motions(replace(solution, standing=standing), solids.block_motions)
+    if solids.gauge is not None and size is not None:
+        size = replace(size, free_blocks=size.free_blocks - 1)
+    return _with_motions(replace(solution, standing=standing, size=size), solids.block_motions)
 
 
 def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, float]:
@@ -52,8 +55,8 @@ def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, fl
         return solution, 0.0
     apart = [0.0]
 
-    def checked(motions: FloatArray) -> FloatArray:
-        of_solids = solids.solid_motions(motions)
+    def checked(motions: FloatArray, *, opens: bool = True) -> FloatArray:
+        of_solids = solids.solid_motions(motions, opens=opens)
         lengths = np.repeat([1.0, float(solids.model.blocks.sizes.max(initial=0.0)) or 1.0], 3)
         difference = np.abs((solids.block_motions(of_solids) - motions) * lengths).max(initial=0.0)
         size = np.abs(motions * lengths).max(initial=0.0)
@@ -61,11 +64,19 @@ def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, fl
             apart.append(float(difference / size))
         return of_solids
 
-    return _with_motions(solution, checked), max(apart)
+    return _with_motions(solution, checked, partial(checked, opens=False)), max(apart)
 
 
-def _with_motions(solution: Solution, mapped: Callable[[FloatArray], FloatArray]) -> Solution:
-    """The solution with every motion mapped; what was one object stays one."""
+def _with_motions(
+    solution: Solution,
+    mapped: Callable[[FloatArray], FloatArray],
+    at_rest: Callable[[FloatArray], FloatArray] | None = None,
+) -> Solution:
+    """The solution with every motion mapped; what was one object stays one.
+
+    at_rest : what maps motions in which no live load does work; ``mapped`` unless given
+    """
+    still = at_rest or mapped
     known: dict[int, Mechanics] = {}
 
     def of(mechanics: Mechanics) -> Mechanics:
@@ -77,8 +88,8 @@ def _with_motions(solution: Solution, mapped: Callable[[FloatArray], FloatArray]
     return replace(
         solution,
         **parts,
-        certificate=None if solution.certificate is None else mapped(solution.certificate),
-        standing=_standing(solution.standing, mapped),
+        certificate=None if solution.certificate is None else still(solution.certificate),
+        standing=_standing(solution.standing, still),
     )
 
 
@@ -97,13 +108,15 @@ from them."""
 
 def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Solution:
     """The solution with velocities and modes of contact points, and resultants, as mechanisms and forces give them."""
-    solids = solids_of(model, contacts)
+    solids = solids_of(model, contacts, load_case)
     found: dict[int, Mechanics] = {}
     for part in MOTIONS:
         mechanics: Mechanics | None = getattr(solution, part)
         if mechanics is not None and id(mechanics) not in found:
             still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
             moved = contact_velocities(model, contacts, still)
+            if solids.gauge is not None:
+                moved = contact_velocities(solids.model, solids.contacts, solids.solid_motions(still))
             if _near(moved, mechanics.contact_velocities):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)

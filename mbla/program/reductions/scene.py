@@ -49,6 +49,7 @@ class Scene:
     bodies    : (n_points, 2) row of each free block, −1 for what does not move
     interfaces: (n_points,) number of the interface
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
+    cut       : (n_points,) side on which the gauge feels the force (:mod:`mbla.contacts.gauge`); 0 everywhere without
     """
 
     program: Program
@@ -59,6 +60,7 @@ class Scene:
     areas: FloatArray
     bodies: IntArray
     interfaces: IntArray
+    cut: IntArray
     allowed: sp.csr_array | None = None
 
     @property
@@ -97,6 +99,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         areas=contacts.point_areas,
         bodies=row[contacts.bodies[contacts.interface_of_point]],
         interfaces=contacts.interface_of_point,
+        cut=np.zeros(program.n_points, dtype=np.int64) if contacts.cut_of_point is None else contacts.cut_of_point,
         allowed=program.allowed,
     )
 
@@ -118,6 +121,7 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
+        cut=scene.cut[points],
         allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
     )
 
@@ -155,6 +159,8 @@ def part_of_blocks(scene: Scene) -> IntArray:
     pairs = scene.bodies[both]
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
+    felt = scene.bodies[scene.cut != 0].max(axis=1)  # by the gauge, which is the last block
+    pairs = np.vstack([pairs, np.column_stack([felt, np.full(len(felt), n - 1)])])
     return connected_labels(pairs, n)
 
 

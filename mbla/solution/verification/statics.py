@@ -47,6 +47,8 @@ def contact_resultants(model: Model, contacts: Contacts, contact_forces: FloatAr
         arm = contacts.points[here] - model.blocks.centroids[block]
         on_block = sign * force[here]
         np.add.at(total, block, np.concatenate([on_block, np.cross(arm, on_block)], axis=1))
+    if contacts.cut_of_point is not None:  # the gauge of an objective feels what passes through its cut
+        total[-1, :3] += contacts.cut_of_point @ force
     return total
 
 
@@ -64,6 +66,8 @@ def contact_velocities(model: Model, contacts: Contacts, mechanism: FloatArray) 
         arm = contacts.points[here] - model.blocks.centroids[block]
         motion = mechanism[block]
         relative[here] += sign * (motion[:, :3] + np.cross(motion[:, 3:], arm))
+    if contacts.cut_of_point is not None:  # and opens it
+        relative += contacts.cut_of_point[:, None] * mechanism[-1, :3]
     return np.asarray(np.einsum("pjx,px->pj", contacts.frames, relative))
 
 
@@ -204,6 +208,8 @@ def forces_on_blocks(contacts: Contacts, contact_forces: FloatArray, n_blocks: i
     for bodies in bodies_of_points(contacts).T:
         here = bodies < n_blocks
         total += np.bincount(bodies[here], size[here], n_blocks)
+    if contacts.cut_of_point is not None:
+        total[-1] += np.abs(contacts.cut_of_point) @ size
     return total
 
 

@@ -1,0 +1,44 @@
+"""Key `objective` of a load case: the force whose least and greatest value is sought, in place of a load factor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pydantic import ConfigDict, Field
+
+from mbla.deck.quantities import Direction
+from mbla.deck.section import Section, given, rule
+from mbla.deck.sections.selectors import Selector
+from mbla.errors import Finding
+
+SIDES = ("from_", "on")
+"""Fields of the two sides of a cut, of which at least one is given."""
+
+
+class ForceSection(Section):
+    """The force that some bodies exert on others through all joints between them, along a direction."""
+
+    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["from"]}, {"required": ["on"]}]})
+
+    from_: Selector | None = Field(
+        None,
+        alias="from",
+        description="blocks that exert it, free or fixed; all that does not move, ground and fixed blocks, unless given",
+    )
+    on: Selector | None = Field(None, description="blocks on which it acts; all other blocks unless given")
+    direction: Direction = Field(description="along which it is measured; a force the other way is negative")
+
+
+class ObjectiveSection(Section):
+    """What is sought: least and greatest over all forces that balance the loads within the strengths of the joints."""
+
+    force: ForceSection = Field(
+        description="the force through a cut: the reaction of a support, the thrust in a joint of an arch"
+    )
+
+
+@rule(ForceSection)
+def force(section: ForceSection) -> Iterator[Finding]:
+    """A force has a side that is named."""
+    if not given(section, SIDES):
+        yield Finding("missing-key", "needs one of from or on")
