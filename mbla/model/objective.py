@@ -62,7 +62,7 @@ def build_objective(section: LoadCaseSection, path: KeyPath, load_case: LoadCase
     cases = []
     for end, sense in ENDS.items():
         objective = Objective(load_case.name, end, at, sides, direction)
-        text = f"{end} {words} along {vector(asked.direction)}"
+        text = f"{words} along {vector(asked.direction)}"
         settlement = Settlement(none, np.zeros((0, 6)), False, text, np.nan, weight, sense)
         live = tuple(f"{at:.6g} times {each}" for each in load_case.live_words)
         case = replace(
@@ -71,7 +71,7 @@ def build_objective(section: LoadCaseSection, path: KeyPath, load_case: LoadCase
             dead_load=dead,
             live_load=np.zeros_like(dead),
             dead_words=(*load_case.dead_words, *live),
-            live_words=(text,),
+            live_words=(f"{end} {text}",),
         )
         cases.append(replace(case, settlement=settlement, objective=objective))
     return cases

@@ -22,9 +22,10 @@ def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> in
 
     An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status
     distinguishes it from a case that is solved. Nor are positions of a travelling load that bring nothing down where
-    another is the worst.
+    another is the worst, nor forces that have no limit: that is an answer.
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
+    harmless |= {id(case) for case in cases if case.load_case.objective is not None}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
     codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged}
     if any(notice.severity == "warning" and notice.identifier in FAULTS for notice in notices):

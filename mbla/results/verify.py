@@ -23,7 +23,6 @@ from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
-from mbla.deck.sections.accuracy import knobs_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
@@ -131,7 +130,7 @@ def _unproved(case: CaseResult) -> list[str]:
 
 def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     """What the deck asks for and the file neither has nor explains."""
-    solution, knobs = case.solution, knobs_of(deck.analysis)
+    solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     said = {remark.identifier for remark in solution.remarks}
     pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
@@ -141,7 +140,7 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
         return [_lacks(what) for what in missing]
     if knobs.range and not said & {"range-not-computed", "range-not-found"} and not _by_normality(solution):
         missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
-    if deck.analysis.force_ranges and solution.force_ranges is None:
+    if knobs.analysis.force_ranges and solution.force_ranges is None:
         missing.append("ranges of normal forces")
     return [_lacks(what) for what in missing]
 

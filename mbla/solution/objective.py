@@ -30,6 +30,11 @@ HIGH = 10.0
 NEAR = 1e-3
 """Distance over the unit of forces from which an end is found again that is near zero."""
 
+NOT_CARRIED = (
+    "these loads are not carried: a mechanism exists in which they do more work than the joints dissipate, so that no "
+    "forces balance them"
+)
+
 
 def force_through(contacts: Contacts, objective: Objective, contact_forces: FloatArray) -> float:
     """The force through the cut of an objective along its direction, in the unit of the forces, (n_points, 3)."""
@@ -50,7 +55,8 @@ def ends_of_force(contacts: Contacts, load_case: LoadCase, at_rest: FloatArray |
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)
     carried = yield relieved
     if carried.solution.status is Status.NO_EQUILIBRIUM:
-        return replace(carried, load_case=with_reference(load_case, math.nan))
+        solution = replace(carried.solution, reason=NOT_CARRIED)
+        return replace(carried, load_case=with_reference(load_case, math.nan), solution=solution)
     answer = yield with_reference(load_case, HIGH * settlement.unit)
     if not math.isfinite(answer.load_factor):
         return answer

@@ -148,7 +148,8 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
     joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
-    settles = load_case.settlement is not None  # the dead load holds the reaction at rest then
+    settles = load_case.settlement is not None and load_case.objective is None  # the dead load has the reaction at rest
     live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")
+    live = live if load_case.objective is None else "force through the cut"
     loads = f"{part(live, work.live)}, {part(dead, work.dead)}"
     return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")
