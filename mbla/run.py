@@ -133,10 +133,9 @@ def solve_case(
 
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
-    solids = solids_of(moving, contacts, load_case)
     settings = settings_for(load_case, settings)
     for case in trials:
-        program = build_program(solids, case, settings.analysis)
+        program = build_program(solids_of(moving, contacts, case), case, settings.analysis)
         solution = solve(program, settings, log)
         trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
     answer = trials.answer

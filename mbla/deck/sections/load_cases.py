@@ -21,6 +21,9 @@ STEPS_OF_TWICE_THE_SIZE = (
     "make steps of twice the size as well: the difference is the error of each load factor, to first order"
 )
 
+ASKED = ("live", "settlement", "objective")
+"""Keys of a load case that say what is sought, of which it has at least one."""
+
 
 @exactly_one_of("direction", "turn")
 class SettlementSection(Section):
@@ -134,7 +137,7 @@ def what_is_asked(case: LoadCaseSection) -> Iterator[Finding]:
     if case.live is None and case.at is not None:
         yield Finding("key-of-another-choice", "applies with live only: there is nothing to multiply", "at")
     for key in given(case, ("settlement", "pushover", "assessment")):
-        words = "cannot go with objective, which has no collapse: make another load case of it"
+        words = "cannot go with objective, whose answer is a force: make another load case of it"
         yield Finding("objective-not-possible", words, key)
     for number, load in enumerate(case.live or []):
         for kind in given(load, LIVE_ONLY):

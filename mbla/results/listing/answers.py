@@ -35,12 +35,12 @@ def reaction_json(case: CaseResult) -> dict[str, Any] | None:
     settlement = case.load_case.settlement
     if settlement is None:
         return None
-    value = reaction_of(case)
+    value, (low, high) = reaction_of(case), end_bounds(case)
     return {
         "value": None if value is None else json_number(value),
-        "lower_bound": json_number(settlement.reaction(case.checks.kinematic_bound)),
-        "upper_bound": json_number(settlement.reaction(case.checks.static_bound)),
-        "at_rest": json_number(settlement.reference),
+        "lower_bound": json_number(low),
+        "upper_bound": json_number(high),
+        "at_rest": json_number(settlement.reaction(0.0)),
         "unit": json_number(settlement.unit),
         "kind": "moment" if settlement.turns else "force",
     }
