@@ -121,9 +121,7 @@ def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResul
     return model, solved
 
 
-def cases_of(
-    text: str, *overrides: str, chosen: slice = slice(None)
-) -> tuple[Model, Contacts, tuple[CaseResult, ...]]:
+def cases_of(text: str, *overrides: str, chosen: slice = slice(None)) -> tuple[Model, Contacts, tuple[CaseResult, ...]]:
     """Several load cases in the same way, with model and contacts."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"

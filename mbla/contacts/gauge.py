@@ -50,7 +50,8 @@ def with_gauge(model: Model, contacts: Contacts, load_case: LoadCase) -> tuple[M
 
 def gauge_way(load_case: LoadCase) -> FloatArray:
     """Unit motion of the gauge, (6,): along the direction for the least value, against it for the greatest."""
-    assert load_case.objective is not None and load_case.settlement is not None
+    assert load_case.objective is not None
+    assert load_case.settlement is not None
     return np.asarray(load_case.settlement.sense * slide(load_case.objective.direction, 1)[0])
 
 

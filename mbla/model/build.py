@@ -79,7 +79,9 @@ def build_model(deck: Deck) -> Model:
 
 
 def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
-    """Loads of one case, or of one for each position of a load that travels; a support that gives way; ends of a force."""
+    """Loads of one case, or of one for each position of a load that travels, or for each end of a force that is sought;
+    or a support that gives way.
+    """
     load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
     if section.objective is not None:

@@ -225,7 +225,7 @@ class LoadCase:
 
     @property
     def deck_name(self) -> str:
-        """Name in the deck, where a travelling load is one load case for all its positions, an objective for both ends."""
+        """Name in the deck, where a travelling load is one load case for all positions, an objective for both ends."""
         of_deck = self.travel or self.objective
         return self.name if of_deck is None else of_deck.series
 

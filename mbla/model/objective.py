@@ -5,8 +5,8 @@ The force through a cut along a direction d is linear in them, F = Σ s d·x wit
 on the chosen side is that on body b, -1 where it is that on body a, and its values fill an interval (static theorem).
 Nothing is said about how the structure moves, so that every state of a structure without dilatancy lies in it too.
 
-Its ends are load factors. With a rigid gauge that takes F up along d, in place of the cut joints, F is the reaction of a
-support that gives way (:mod:`mbla.model.settlement`)::
+Its ends are load factors. Of a gauge that feels F along d it is the reaction, and its support gives way
+(:mod:`mbla.contacts.gauge`, :mod:`mbla.model.settlement`)::
 
     F = R0 − λ U        greatest λ: least F;        with −d in the place of d: greatest F
 

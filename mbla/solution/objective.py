@@ -1,9 +1,10 @@
 """The least or the greatest value of a force, as one load factor or several (:mod:`mbla.model.objective`).
 
 The load factor counts from a value R0 that the force has in some state that carries the loads: that of the least
-contact forces, in the sense of ½ ‖x‖². Near collapse hardly any forces carry the loads, and none may be found. Whether
-they are carried at all is then asked by taking them away step by step, which proves it where they are not. If they are,
-R0 lies so high that the end that is sought is below it, and once that is known from near it, where fewer digits are lost.
+contact forces, in the sense of ½ ‖x‖². Near collapse hardly any forces carry the loads, and none may be found; where
+joints crush those found may be none. Whether the loads are carried at all is then asked by taking them away step by
+step, which proves it where they are not. If they are, R0 lies so high that the end that is sought is below it, and
+once that is known from near it, where fewer digits are lost.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Objective
 from mbla.model.settlement import with_reference
-from mbla.solution.solution import Status
+from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.tilt import Angles
 
 MARGIN = 1e-9
-"""Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to carry
-the loads."""
+"""Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to
+carry the loads."""
 
 HIGH = 10.0
 """Reaction over its unit, more than any structure is likely to need."""
@@ -48,10 +49,13 @@ def ends_of_force(contacts: Contacts, load_case: LoadCase, at_rest: FloatArray |
     at_rest : (n_points, 3) contact forces that carry the loads; None where none were found
     """
     settlement, objective = load_case.settlement, load_case.objective
-    assert settlement is not None and objective is not None  # that is why it is asked
+    assert settlement is not None  # that is why it is asked
+    assert objective is not None
     if at_rest is not None:
         value = settlement.sense * force_through(contacts, objective, at_rest)
-        return (yield with_reference(load_case, value + MARGIN * settlement.unit))
+        answer = yield with_reference(load_case, value + MARGIN * settlement.unit)
+        if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
+            return answer
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)
     carried = yield relieved
     if carried.solution.status is Status.NO_EQUILIBRIUM:

@@ -107,7 +107,7 @@ def posed(
 def forces_at_rest(
     model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings, log: Log = _silent
 ) -> FloatArray | None:
-    """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None where none are found."""
+    """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without."""
     held = replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
     solids = solids_of(replace(model, mirrors=()), contacts)
     program = assemble(solids.model, solids.contacts, solids.load_case(held))

@@ -23,7 +23,7 @@ class ForceSection(Section):
     from_: Selector | None = Field(
         None,
         alias="from",
-        description="blocks that exert it, free or fixed; all that does not move, ground and fixed blocks, unless given",
+        description="blocks that exert it, free or fixed; unless given all that does not move, ground and fixed blocks",
     )
     on: Selector | None = Field(None, description="blocks on which it acts; all other blocks unless given")
     direction: Direction = Field(description="along which it is measured; a force the other way is negative")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -186,7 +187,7 @@ def _contacts(contacts: Contacts) -> Content:
     }
 
 
-PARTS_OF_LOADS = {
+PARTS_OF_LOADS: dict[str, Any] = {
     "travel": TravelPosition,
     "tilt": Tilt,
     "settlement": Settlement,

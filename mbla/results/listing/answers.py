@@ -74,7 +74,9 @@ def _end_lines(model: Model, case: CaseResult, objective: Objective) -> list[str
     lines += entry("its bounds", f"{low} .. {high} {unit}")
     away = "below" if settlement.sense > 0 else "above"
     start = f"{number(settlement.sense * settlement.reference)} {unit}"
-    return lines + entry("load factor counts", f"how far {away} {start}, in {number(settlement.unit)} {unit}: the loads")
+    return lines + entry(
+        "load factor counts", f"how far {away} {start}, in {number(settlement.unit)} {unit}: the loads"
+    )
 
 
 def _factor(case: CaseResult) -> float:
@@ -205,14 +207,17 @@ def range_words(model: Model, found: ForceRange) -> str:
     """``thrust: force of the supports on 1 block along (1, 0, 0), between 8753.85 N and 13297.7 N``."""
     case = next(iter(found.ends.values()))
     settlement, objective, unit = case.load_case.settlement, case.load_case.objective, model.units.force
-    assert settlement is not None and objective is not None  # what makes it an end
+    assert settlement is not None  # what makes it an end
+    assert objective is not None
     what = f"{found.name}: {settlement.words}" + (f" at load factor {number(objective.at)}" if objective.at else "")
     if found.status is Status.NO_EQUILIBRIUM:
         return f"{what}: none, the structure does not carry these loads"
     words = []
     for end, each in found.ends.items():
         value = end_value(each)
-        limit = "without limit" if np.isinf(value) else "not known" if np.isnan(value) else f"{_end_figure(each)} {unit}"
+        limit = (
+            "without limit" if np.isinf(value) else "not known" if np.isnan(value) else f"{_end_figure(each)} {unit}"
+        )
         words.append(f"{end} {limit}" + "".join(f" ({status_name(s)})" for s in (each.status,) if s in UNSURE))
     return f"{what}: {', '.join(words)}"
 

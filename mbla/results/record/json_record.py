@@ -17,6 +17,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
+from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
@@ -36,7 +37,6 @@ from mbla.results.record.json_values import as_json, number, numbers
 from mbla.results.record.mechanism_json import mechanism_json
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ranges_of
 from mbla.results.series import Series, factor_of, position_of, series_of
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.verification.statics import power
