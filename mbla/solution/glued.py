@@ -114,10 +114,11 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
         mechanics: Mechanics | None = getattr(solution, part)
         if mechanics is not None and id(mechanics) not in found:
             still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
-            moved = contact_velocities(model, contacts, still)
-            if solids.gauge is not None:
+            moved, speed = contact_velocities(model, contacts, still), 0.0
+            if solids.gauge is not None:  # where all that moves moves with it what is left of it is rounding
                 moved = contact_velocities(solids.model, solids.contacts, solids.solid_motions(still))
-            if _near(moved, mechanics.contact_velocities):
+                speed = float(np.abs(solids.gauge).max())
+            if _near(moved, mechanics.contact_velocities, speed):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
@@ -126,9 +127,9 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
     return replace(solution, **parts)  # type: ignore[arg-type]  # names and types are those of the parts
 
 
-def _near(one: FloatArray, other: FloatArray) -> bool:
-    """Whether two arrays differ by no more than rounding of the largest entry."""
-    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
+def _near(one: FloatArray, other: FloatArray, size: float) -> bool:
+    """Whether two arrays differ by no more than rounding of the largest entry, or of that size."""
+    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=size))
 
 
 def _with_modes(

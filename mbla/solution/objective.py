@@ -19,7 +19,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Objective
 from mbla.model.settlement import with_reference
 from mbla.solution.solution import WITH_VALUE, Status
-from mbla.solution.tilt import Angles
+from mbla.solution.tilt import Angles, Answer
 
 MARGIN = 1e-9
 """Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to
@@ -34,6 +34,11 @@ NEAR = 1e-3
 NOT_CARRIED = (
     "these loads are not carried: a mechanism exists in which they do more work than the joints dissipate, so that no "
     "forces balance them"
+)
+
+NO_LIMIT = (
+    "no mechanism exists in which the cut opens that way: forces of any size in it balance each other within the "
+    "friction of the joints"
 )
 
 
@@ -55,7 +60,7 @@ def ends_of_force(contacts: Contacts, load_case: LoadCase, at_rest: FloatArray |
         value = settlement.sense * force_through(contacts, objective, at_rest)
         answer = yield with_reference(load_case, value + MARGIN * settlement.unit)
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
-            return answer
+            return _in_words(answer)
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)
     carried = yield relieved
     if carried.solution.status is Status.NO_EQUILIBRIUM:
@@ -63,6 +68,13 @@ def ends_of_force(contacts: Contacts, load_case: LoadCase, at_rest: FloatArray |
         return replace(carried, load_case=with_reference(load_case, math.nan), solution=solution)
     answer = yield with_reference(load_case, HIGH * settlement.unit)
     if not math.isfinite(answer.load_factor):
-        return answer
+        return _in_words(answer)
     value = (HIGH - answer.load_factor) * settlement.unit
     return (yield with_reference(load_case, value + max(abs(value), NEAR * settlement.unit)))
+
+
+def _in_words(answer: Answer) -> Answer:
+    """The answer, its reason in the words of forces where they have no limit."""
+    if answer.solution.status is not Status.UNBOUNDED:
+        return answer
+    return replace(answer, solution=replace(answer.solution, reason=NO_LIMIT))

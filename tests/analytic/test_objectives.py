@@ -144,7 +144,7 @@ supports: [{{ground: {{z: 0}}}}, {{blocks: walls}}]
 
 @pytest.mark.parametrize("cut", ["springing", "crown"])
 def test_an_arch_of_three_hinges(cut: str) -> None:
-    """Halves of weight W: W x/z with x from the hinge at the springing to the centroid, z up to the one at the crown."""
+    """Halves of weight W: W x/z, x from the hinge at the springing to the centroid, z up to that at the crown."""
     deck = f"""{HEAD}
 blocks:
   - arch: {{group: arch, material: stone, shape: semicircular, span: 2, thickness: 0.3, width: 0.5, voussoirs: 2,

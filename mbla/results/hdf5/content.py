@@ -43,6 +43,7 @@ RECORD_NAMES = {
     "tilt/axis": "tilt/turning_axis",
     "pushover/direction": "pushover/control_direction",
     "objective/direction": "objective/measured_along",
+    "objective/end": "objective/which_end",
 }
 """fields of a load case that have other names in the file: netCDF takes a dataset of the name of a dimension for the
 coordinate of that"""
