@@ -10,6 +10,7 @@ from pathlib import Path
 from mbla.contacts import Contacts
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
 from mbla.model import Model, build_model
@@ -135,7 +136,7 @@ def solve_case(
     moving = model.of_case(load_case)
     settings = settings_for(load_case, settings)
     for case in trials:
-        program = build_program(solids_of(moving, contacts, case), case, settings.analysis)
+        program = build_program(tied(solids_of(moving, contacts, case)), case, settings.analysis)
         solution = solve(program, settings, log)
         trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
     answer = trials.answer

@@ -57,7 +57,7 @@ def objective_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
     """Forces through cuts without a joint, and through glue, whose force nothing determines; each once."""
     for case in model.load_cases:
         objective, path = case.objective, ("load_cases", case.deck_name, "objective", "force")
-        if objective is None or objective.end != next(iter(ENDS)):
+        if objective is None or len(objective.ties) or objective.end != next(iter(ENDS)):
             continue
         glued = contacts.report.glued[objective.crossed(contacts.report.glued) != 0]
         if len(glued):

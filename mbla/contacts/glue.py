@@ -78,6 +78,7 @@ class Solids:
     solid_of_block : (n_blocks,); None where every block is a solid, and model and contacts are the ones given
     arms           : (n_blocks, 3) m, from the centroid of the solid to that of the block
     gauge          : (6,) motion of the gauge of an objective, the last solid, for a live power of 1; None without one
+    fitted         : (n_solids, 6) N, N m dead load of ties that are part of the contacts; None without
     """
 
     model: Model
@@ -85,6 +86,7 @@ class Solids:
     solid_of_block: IntArray | None
     arms: FloatArray
     gauge: FloatArray | None = None
+    fitted: FloatArray | None = None
 
     @property
     def label(self) -> IntArray:
@@ -99,14 +101,15 @@ class Solids:
         tilt = load_case.tilt
         if tilt is not None:
             fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
+            fixed = fixed if self.fitted is None else fixed + self.fitted
             tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
         dead, live = self.loads(load_case.dead_load), self.loads(load_case.live_load)
         case = replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
-        if self.gauge is None or settlement is None:
-            return case
-        last, ways = np.array([len(self.model.blocks) - 1]), gauge_way(load_case)[None]
-        on_gauge = replace(case, settlement=replace(settlement, blocks=last, motions=ways))
-        return with_reference(on_gauge, settlement.reference)
+        if self.gauge is not None and settlement is not None:
+            last, ways = np.array([len(self.model.blocks) - 1]), gauge_way(load_case)[None]
+            on_gauge = replace(case, settlement=replace(settlement, blocks=last, motions=ways))
+            case = with_reference(on_gauge, settlement.reference)
+        return case if self.fitted is None else replace(case, dead_load=case.dead_load + self.fitted)
 
     def loads(self, loads: FloatArray) -> FloatArray:
         """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""
@@ -144,7 +147,7 @@ def solids_of(model: Model, contacts: Contacts, load_case: LoadCase | None = Non
     if load_case is None or load_case.objective is None or load_case.settlement is None:
         return solids
     by_solids = replace(load_case, objective=_on_solids(load_case.objective, solids))
-    gauged, cut = with_gauge(solids.model, solids.contacts, by_solids)
+    gauged, cut = with_gauge(solids.model, solids.contacts, by_solids, len(solids.label))
     motion = gauge_way(load_case) / load_case.settlement.unit
     return replace(solids, model=gauged, contacts=cut, solid_of_block=solids.label, gauge=motion)
 

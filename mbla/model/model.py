@@ -14,6 +14,7 @@ from mbla.errors import Notice, UsageError
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
+from mbla.model.ties import NO_TIES, Ties
 
 
 @dataclass(frozen=True)
@@ -151,19 +152,21 @@ class Settlement:
 
 @dataclass(frozen=True)
 class Objective:
-    """A force through a cut whose least or greatest value is sought; its ``Settlement`` has no blocks: the joints open.
+    """A force whose least or greatest value is sought: through a cut, or of ties. Its ``Settlement`` has no blocks.
 
     series    : name of the load case in the deck, which became one for each end
     end       : least or greatest
     at        : load factor of the live loads of the deck, which are among the dead loads here
     sides     : (n_bodies,) 1: the force acts on this body, -1: it comes from it, 0: neither
-    direction : (3,) unit, along which the force counts
+    ties      : (k,) whose forces are added up; none: the force through the joints between the sides
+    direction : (3,) unit, along which the force counts; of ties any in which one pulls, as tension counts
     """
 
     series: str
     end: str
     at: float
     sides: IntArray
+    ties: IntArray
     direction: FloatArray
 
     def crossed(self, bodies: IntArray) -> IntArray:
@@ -263,6 +266,7 @@ class Model:
                   states are searched
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
+    ties        : what holds blocks together or apart beside joints
     bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
     """
 
@@ -277,6 +281,7 @@ class Model:
     guides: Guides = NO_GUIDES
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
     interfaces: PrescribedInterfaces | None = None
+    ties: Ties = NO_TIES
     bent: BentFaces = NO_BENT_FACES
 
     def of_case(self, load_case: LoadCase) -> Model:

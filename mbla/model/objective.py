@@ -17,36 +17,39 @@ lowest (Heyman 1966, doi:10.1016/0020-7683(66)90018-7).
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.sections.objective import ForceSection
+from mbla.deck.sections.objective import ForceSection, ObjectiveSection
+from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase, Objective, Settlement
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
+from mbla.model.ties import Ties
 from mbla.model.wording import counted, named, vector
 
 ENDS = {"least": 1.0, "greatest": -1.0}
 """Ends of the interval, and the sense in which each is the least value."""
 
 
-def build_objective(section: LoadCaseSection, path: KeyPath, load_case: LoadCase, site: LoadSite) -> list[LoadCase]:
+def build_objective(
+    section: LoadCaseSection, path: KeyPath, load_case: LoadCase, site: LoadSite, ties: Ties
+) -> list[LoadCase]:
     """A load case for each end, its loads at the given load factor among the dead loads.
 
-    Refuses blocks on both sides, sides without blocks that move, and a structure without loads.
+    Refuses blocks on both sides, sides without blocks that move, ties that there are not, and a structure without
+    loads.
     """
     assert section.objective is not None  # that is why it is built
-    asked, where = section.objective.force, (*path, "objective", "force")
-    found = _sides(asked, where, site)
+    found = _sought(section.objective, (*path, "objective"), site, ties)
     if found is None:
         return []
-    sides, words = found
     at, free = section.at or 0.0, ~site.fixed
     dead = load_case.dead_load + at * load_case.live_load
     with np.errstate(over="ignore", invalid="ignore"):
@@ -58,12 +61,10 @@ def build_objective(section: LoadCaseSection, path: KeyPath, load_case: LoadCase
             words = "no load acts on blocks that can move: no force is determined"
             site.refuse(Finding("objective-without-effect", words, *path))
         return []
-    direction, none = unit(np.array(asked.direction)), np.zeros(0, dtype=np.int64)
-    cases = []
+    cases, none = [], np.zeros(0, dtype=np.int64)
     for end, sense in ENDS.items():
-        objective = Objective(load_case.name, end, at, sides, direction)
-        text = f"{words} along {vector(asked.direction)}"
-        settlement = Settlement(none, np.zeros((0, 6)), False, text, np.nan, weight, sense)
+        objective = Objective(load_case.name, end, at, found.sides, found.ties, found.direction)
+        settlement = Settlement(none, np.zeros((0, 6)), False, found.words, np.nan, weight, sense)
         live = tuple(f"{at:.6g} times {each}" for each in load_case.live_words)
         case = replace(
             load_case,
@@ -71,10 +72,46 @@ def build_objective(section: LoadCaseSection, path: KeyPath, load_case: LoadCase
             dead_load=dead,
             live_load=np.zeros_like(dead),
             dead_words=(*load_case.dead_words, *live),
-            live_words=(f"{end} {text}",),
+            live_words=(f"{end} {found.words}",),
         )
         cases.append(replace(case, settlement=settlement, objective=objective))
     return cases
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """Sides of a cut by body, or ties; the direction in which a gauge feels them; the force in words."""
+
+    sides: IntArray
+    ties: IntArray
+    direction: FloatArray
+    words: str
+
+
+def _sought(section: ObjectiveSection, path: KeyPath, site: LoadSite, ties: Ties) -> _Sought | None:
+    """What an objective asks for; None where a fault was left."""
+    none = np.zeros(0, dtype=np.int64)
+    if section.force is not None:
+        found = _sides(section.force, (*path, "force"), site)
+        if found is None:
+            return None
+        sides, words = found
+        words = f"{words} along {vector(section.force.direction)}"
+        return _Sought(sides, none, unit(np.array(section.force.direction)), words)
+    own = [row for row, name in enumerate(ties.names) if name.rpartition("[")[0] == section.tie]
+    if section.index is not None:
+        own = own[section.index : section.index + 1]
+    if not own:
+        if not site.roster.partial and not site.roster.faults:
+            known = listed(list(dict.fromkeys(ties.names)), "and") if len(ties) else "none"
+            words = f"there is no such tie; there are {known}"
+            site.refuse(Finding("unknown-name", words, *path, "tie" if section.index is None else "index"))
+        return None
+    rows, everything = np.array(own), np.zeros(len(site.blocks) + len(site.grounds), dtype=np.int64)
+    pulls = ties.pulls[np.isin(ties.tie_of_point, rows)]
+    largest = pulls[int(np.linalg.norm(pulls, axis=1).argmax())]
+    words = f"force of {listed([ties.names[row] for row in own], 'and')}, tension positive"
+    return _Sought(everything, rows, unit(largest), words)
 
 
 def _sides(asked: ForceSection, path: KeyPath, site: LoadSite) -> tuple[IntArray, str] | None:

@@ -12,14 +12,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
-from mbla.model.model import LoadCase, Objective
+from mbla.contacts.gauge import gauge_way
+from mbla.contacts.glue import Solids
+from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.tilt import Angles, Answer
+from mbla.solution.verification.statics import contact_resultants
 
 MARGIN = 1e-9
 """Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to
@@ -42,23 +42,25 @@ NO_LIMIT = (
 )
 
 
-def force_through(contacts: Contacts, objective: Objective, contact_forces: FloatArray) -> float:
-    """The force through the cut of an objective along its direction, in the unit of the forces, (n_points, 3)."""
-    signs = objective.crossed(contacts.bodies)[contacts.interface_of_point]
-    return float(signs @ np.einsum("pj,pjx,x->p", contact_forces, contacts.frames, objective.direction))
+def force_felt(gauged: Solids, load_case: LoadCase, contact_forces: FloatArray) -> float:
+    """The force of an objective in the sense of its end, in the unit of contact forces, (n_points, 3).
+
+    gauged : the solids with their gauge, ties among their contacts
+    """
+    felt = contact_resultants(gauged.model, gauged.contacts, contact_forces)[-1]
+    felt = felt if gauged.fitted is None else felt + gauged.fitted[-1]
+    return float(gauge_way(load_case) @ felt)
 
 
-def ends_of_force(contacts: Contacts, load_case: LoadCase, at_rest: FloatArray | None) -> Angles:
+def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
     """Load cases to be solved for one end; the last answer has it.
 
-    at_rest : (n_points, 3) contact forces that carry the loads; None where none were found
+    at_rest : the force, in the sense of the end, in some state that carries the loads; None where none was found
     """
-    settlement, objective = load_case.settlement, load_case.objective
-    assert settlement is not None  # that is why it is asked
-    assert objective is not None
+    settlement = load_case.settlement
+    assert settlement is not None  # that of the gauge
     if at_rest is not None:
-        value = settlement.sense * force_through(contacts, objective, at_rest)
-        answer = yield with_reference(load_case, value + MARGIN * settlement.unit)
+        answer = yield with_reference(load_case, at_rest + MARGIN * settlement.unit)
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
             return _in_words(answer)
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)

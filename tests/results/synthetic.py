@@ -320,7 +320,9 @@ def full_model(model: Model) -> Model:
         travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
         settlement=Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),
-        objective=Objective("train", "greatest", 0.5, np.arange(n_bodies) % 3 - 1, np.array([0.0, 0.6, 0.8])),
+        objective=Objective(
+            "train", "greatest", 0.5, np.arange(n_bodies) % 3 - 1, np.array([0]), np.array([0.0, 0.6, 0.8])
+        ),
     )
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)

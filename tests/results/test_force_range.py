@@ -37,7 +37,8 @@ supports: [{ground: {z: 0}}, {blocks: walls}]
 load_cases:
   left: {objective: {force: {from: {group: walls, index: 0}, direction: [1, 0, 0]}}}
   all: {live: [{acceleration: [0, 0, -1]}], at: 0.5, objective: {force: {on: block, direction: [0, 0, 1]}}}
-  lifted: {dead: [{gravity: none}, {force: [0, 0, 1], on: stone}], objective: {force: {on: stone, direction: [0, 0, 1]}}}
+  lifted: {dead: [{gravity: none}, {force: [0, 0, 1], on: stone}],
+           objective: {force: {on: stone, direction: [0, 0, 1]}}}
   push: {live: [{force: [0, 0, -1], on: block}]}
 expected:
   left: {least: 0, status: unbounded, source: closed form}

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from pydantic import ConfigDict, Field
 
-from mbla.deck.quantities import Direction
-from mbla.deck.section import Section, given, rule
+from mbla.deck.quantities import Direction, Index, Name
+from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 
@@ -16,7 +16,7 @@ SIDES = ("from_", "on")
 
 
 class ForceSection(Section):
-    """The force that some bodies exert on others through all joints between them, along a direction."""
+    """The force that some bodies exert on others through all joints between them, ties apart, along a direction."""
 
     model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["from"]}, {"required": ["on"]}]})
 
@@ -29,12 +29,24 @@ class ForceSection(Section):
     direction: Direction = Field(description="along which it is measured; a force the other way is negative")
 
 
+@exactly_one_of("force", "tie")
 class ObjectiveSection(Section):
     """What is sought: least and greatest over all forces that balance the loads within the strengths of the joints."""
 
-    force: ForceSection = Field(
-        description="the force through a cut: the reaction of a support, the thrust in a joint of an arch"
+    force: ForceSection | None = Field(
+        None, description="the force through a cut: the reaction of a support, the thrust in a joint of an arch"
     )
+    tie: Name | None = Field(
+        None, description="name of ties in `ties`, or their form: their force, tension positive; of several the sum"
+    )
+    index: Index | None = Field(None, description="which of the ties of that name, from 0 as in results")
+
+
+@rule(ObjectiveSection)
+def objective(section: ObjectiveSection) -> Iterator[Finding]:
+    """An index counts among ties."""
+    if section.index is not None and section.tie is None:
+        yield Finding("key-of-another-choice", "applies with tie only", "index")
 
 
 @rule(ForceSection)
