@@ -357,3 +357,48 @@ supports: [{{blocks: [c0, c1, c2, c3]}}]
 """
     found = ends_of(deck + asked(pair="from: [c0, c3], direction: [0, 0, 1]"))["pair"]
     assert np.array(found) / (WEIGHT * 4 * 3 * 0.2) == pytest.approx((0.0, 1.0), abs=EXACT)
+
+
+TIED = f"""{HEAD.replace("contacts: {joint: dry}", "")}
+blocks:
+  - arch: {{group: arch, material: stone, shape: semicircular, span: 4, thickness: 0.6, width: 1, voussoirs: 13}}
+  - box: {{group: left, material: stone, min: [-0.7, 0, -0.5], max: [0.2, 1, 0]}}
+  - box: {{group: right, material: stone, min: [3.8, 0, -0.5], max: [4.7, 1, 0]}}
+contacts: {{joint: dry, overrides: [{{joint: frictionless, between: [ground, right]}}]}}
+supports: [{{ground: {{z: -0.5}}}}]
+ties: [{{name: rod, through: [[0, 0.5, -0.25], [4, 0.5, -0.25]], on: [left, right], capacity: 1e5}}]
+load_cases:
+  tie: {{objective: {{tie: rod}}}}
+  thrust: {{objective: {{force: {{from: left, on: arch, direction: [1, 0, 0]}}}}}}
+"""
+
+
+def test_a_tie_has_the_thrust_of_the_arch_that_it_holds() -> None:
+    """Its right springer slides freely. Prestress changes nothing, as between limits without it."""
+    rough = "joints.dry.friction=0.9"
+    free = ends_of(TIED, rough)
+    assert free["tie"] == pytest.approx(free["thrust"], rel=EXACT)
+    weak = ends_of(TIED, rough, "ties.0.capacity=15000")
+    assert weak["tie"] == pytest.approx((free["tie"][0], 15000.0), rel=EXACT)
+    assert ends_of(TIED, rough, "ties.0.prestress=15000")["tie"] == pytest.approx(free["tie"], rel=EXACT)
+
+
+def test_a_tie_that_is_too_weak_for_every_thrust() -> None:
+    _, _, solved = cases_of(TIED, "joints.dry.friction=0.9", "ties.0.capacity=5000")
+    assert [case.status for case in solved] == [Status.NO_EQUILIBRIUM] * 4
+    assert all(case.checks.verified for case in solved)
+
+
+def test_one_of_two_ties_side_by_side_in_space() -> None:
+    """In its own half of a structure that is symmetric: it may be slack, or carry what the other leaves out."""
+    two = TIED.replace("[0, 0.5, -0.25], [4, 0.5, -0.25]", "[0, 0.3, -0.25], [4, 0.3, -0.25]").replace(
+        "capacity: 1e5}", "capacity: 1e5, repeat: {count: 2, translate: [0, 0.4, 0]}}"
+    )
+    one = two + "  one: {objective: {tie: rod, index: 1}}\n"
+    found = ends_of(one, "joints.dry.friction=0.9")
+    least, greatest = found["tie"]
+    assert found["thrust"] == pytest.approx((least, greatest), rel=1e-6)
+    assert 0.0 <= found["one"][0] < 0.45 * greatest
+    assert 0.55 * least < found["one"][1] <= greatest * (1 + 1e-6)
+    full = ends_of(one, "joints.dry.friction=0.9", "analysis.reductions=false")
+    assert full["one"] == pytest.approx(found["one"], rel=1e-6, abs=1e-6 * greatest)

@@ -210,6 +210,8 @@ def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: Yi
     """Sizes of the loads of one case."""
     arms = lever_arms(model, contacts)
     dead, live = (load_sizes(load, arms) * ~model.fixed for load in (load_case.dead_load, load_case.live_load))
+    if contacts.cut is not None:  # a gauge has none: it holds a force that may be nothing
+        dead[-1] = 0.0
     strength = float((limits.cohesion + limits.tension).sum()) / len(model.free)
     candidates = (dead, np.where(model.fixed, 0.0, strength), live)
     own = next(sizes for sizes in candidates if np.any(sizes > 0))
