@@ -30,10 +30,11 @@ def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechan
     named = [(reaction.support, reaction.wrench) for reaction in reactions]
     named += [("sum of reactions", total), ("loads on free blocks", load), ("out of balance", total + load)]
     force, length = model.units.force, model.units.length
+    at_collapse = " at collapse" if load_case.objective is None else ""
     head = ["reaction on the structure", *(f"F{axis}" for axis in "xyz"), *(f"M{axis}" for axis in "xyz")]
     return [
         "",
-        *sentence(f"Reactions at collapse, forces in {force}, moments about the origin in {force} {length}:"),
+        *sentence(f"Reactions{at_collapse}, forces in {force}, moments about the origin in {force} {length}:"),
         *table(head, [[name, *_components(wrench, load)] for name, wrench in named]),
     ]
 

@@ -145,6 +145,9 @@ def bound_words(model: Model, case: CaseResult) -> str:
     ):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
+    if case.load_case.objective is not None:
+        beyond = "no less" if case.load_case.objective.end == "least" else "no more"
+        return f"certain: {beyond} than {value} (a mechanism proves it, whatever the forces)"
     if case.load_case.settlement is not None:
         return f"certain: its support gives way at no less than {value} (valid for every flow rule)"
     return f"certain: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
