@@ -20,7 +20,7 @@ from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.mechanics import contact_modes
-from mbla.solution.solution import Mechanics, Solution, StandingResult
+from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.verification.statics import contact_velocities
 
 MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
@@ -47,8 +47,10 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
     standing, size = solution.standing, solution.size
     if standing is not None and standing.block is not None:
         standing = replace(standing, block=int(solids.first_blocks[standing.block]))
-    if solids.gauge is not None and size is not None:
-        size = replace(size, free_blocks=size.free_blocks - 1)
+    if solids.gauge is not None:
+        size = None if size is None else replace(size, free_blocks=size.free_blocks - 1)
+        speed = ROUNDING * float(np.abs(solids.gauge).max())
+        solution = _with_mechanics(solution, lambda part: _without_rounding(part, speed))
     return _with_motions(replace(solution, standing=standing, size=size), solids.block_motions)
 
 
@@ -219,6 +221,14 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
             found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
+
+
+def _without_rounding(mechanics: Mechanics, speed: float) -> Mechanics:
+    """The same, with joints at rest where none moves by more than that: all that moves moves with a gauge."""
+    if np.abs(mechanics.contact_velocities).max(initial=0.0) > speed:
+        return mechanics
+    still = np.zeros_like(mechanics.contact_velocities)
+    return replace(mechanics, contact_velocities=still, modes=np.full_like(mechanics.modes, ContactMode.STICK))
 
 
 def _near(one: FloatArray, other: FloatArray, size: float) -> bool:
