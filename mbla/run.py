@@ -26,7 +26,7 @@ from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import leaves_nothing, stopped, write_results
-from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.solve import solve
 from mbla.solution.tilt import Answer
@@ -135,9 +135,9 @@ def solve_case(
 
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
-    solids = tied(solids_of(moving, contacts))
+    settings = settings_for(load_case, settings)
     for case in trials:
-        program = build_program(solids, case, deck.analysis)
+        program = build_program(tied(solids_of(moving, contacts, case)), case, settings.analysis)
         solution = solve(program, settings, log)
         trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
     answer = trials.answer

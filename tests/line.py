@@ -117,6 +117,12 @@ def load_factor(text: str, *overrides: str, case: int = 0) -> float:
 
 def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResult]:
     """A load case as ``mbla run`` solves it: any contact model, glued blocks as one."""
+    model, _, (solved,) = cases_of(text, *overrides, chosen=slice(case, case + 1))
+    return model, solved
+
+
+def cases_of(text: str, *overrides: str, chosen: slice = slice(None)) -> tuple[Model, Contacts, tuple[CaseResult, ...]]:
+    """Several load cases in the same way, with model and contacts."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"
         path.write_text(text, encoding="utf-8")
@@ -125,8 +131,10 @@ def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResul
         contacts = contacts_of(deck, model)
         model = held_model(model, contacts)
         settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "test")
-        solved = solve_case(deck, model, contacts, model.load_cases[case], settings, status_file, None)
-        return with_loads_found(model, [solved]), solved
+        solved = tuple(
+            solve_case(deck, model, contacts, each, settings, status_file, None) for each in model.load_cases[chosen]
+        )
+        return with_loads_found(model, solved), contacts, solved
 
 
 def factor_of(text: str, *overrides: str, case: int = 0) -> float:

@@ -22,7 +22,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.provenance import CaseNeeds, results_before
 from mbla.results.results import Results
 from mbla.solution.cone_solvers.choice import interior_point_method
-from mbla.solution.settings import solver_settings
+from mbla.solution.settings import settings_for, solver_settings
 
 Needs = dict[str, CaseNeeds]
 """By the name of the load case."""
@@ -55,7 +55,8 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    built = build_program(tied(solids_of(model.of_case(load_case), contacts)), load_case, deck.analysis)
+    analysis = settings_for(load_case, solver_settings(deck.analysis)).analysis
+    built = build_program(tied(solids_of(model.of_case(load_case), contacts, load_case)), load_case, analysis)
     reduced, convex = built.reduced, built.convex
     if convex is not None:
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]

@@ -34,6 +34,8 @@ class Contacts:
                    zero
     solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
                    in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
+    cut          : (n_interfaces,)    1, -1: their forces act on the last block too, the gauge, as on body b or on body
+                   a; 0: they do not; None without a gauge (see :mod:`mbla.contacts.gauge`); in no file
 
     ties         : in what the solver sees, ties as further interfaces behind all others, of one contact point each
                    (:mod:`mbla.contacts.tied`); None where there are none
@@ -55,6 +57,7 @@ class Contacts:
     point_areas: FloatArray
     report: ContactReport
     solid_of_block: IntArray | None = None
+    cut: IntArray | None = None
     ties: TieContacts | None = None
 
     def __len__(self) -> int:
@@ -81,6 +84,11 @@ class Contacts:
     def interface_of_point(self) -> IntArray:
         """(n_points,)."""
         return row_of_item(self.point_start)
+
+    @cached_property
+    def cut_of_point(self) -> IntArray | None:
+        """``cut`` of the interface of each contact point, (n_points,)."""
+        return None if self.cut is None else np.asarray(self.cut[self.interface_of_point])
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Message, first_faults
 from mbla.model.items import defects_in_words
 from mbla.model.model import LoadCase, Model
+from mbla.model.objective import ENDS
 from mbla.model.solids.defects import planarity_defects
 from mbla.model.solids.ragged import rows_and_items
 from mbla.model.wording import named
@@ -50,6 +51,22 @@ def glue_findings(model: Model, contacts: Contacts) -> list[tuple[KeyPath, Messa
         for case in model.load_cases
         if case.settlement is None and _without_effect(solids, case)
     ]
+
+
+def objective_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
+    """Forces through cuts without a joint, and through glue, whose force nothing determines; each once."""
+    for case in model.load_cases:
+        objective, path = case.objective, ("load_cases", case.deck_name, "objective", "force")
+        if objective is None or len(objective.ties) or objective.end != next(iter(ENDS)):
+            continue
+        glued = contacts.report.glued[objective.crossed(contacts.report.glued) != 0]
+        if len(glued):
+            first, second = (model.body_name(int(body)) for body in glued[0])
+            words = f"{first} and {second} are glued: the force through glue is not determined; put both on one side"
+            yield path, Message("objective-not-possible", words)
+        elif not objective.crossed(contacts.bodies).any():
+            words = "no joint lies between the two sides, so that there is no force: see what `mbla check` says touches"
+            yield path, Message("objective-without-effect", words)
 
 
 def _held_otherwise(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
@@ -169,6 +186,7 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     ]
     faults += bent_faults(deck, model, contacts)
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
+    faults += [deck.fault_at(path, message) for path, message in objective_findings(model, contacts)]
     if faults:
         raise DeckError(first_faults(faults))
     return contacts

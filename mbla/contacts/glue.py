@@ -28,9 +28,11 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
+from mbla.contacts.gauge import gauge_way, with_gauge
 from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase, Model, Objective
+from mbla.model.settlement import with_reference
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import numbered
 
@@ -75,6 +77,7 @@ class Solids:
 
     solid_of_block : (n_blocks,); None where every block is a solid, and model and contacts are the ones given
     arms           : (n_blocks, 3) m, from the centroid of the solid to that of the block
+    gauge          : (6,) motion of the gauge of an objective, the last solid, for a live power of 1; None without one
     fitted         : (n_solids, 6) N, N m dead load of ties that are part of the contacts; None without
     """
 
@@ -82,6 +85,7 @@ class Solids:
     contacts: Contacts
     solid_of_block: IntArray | None
     arms: FloatArray
+    gauge: FloatArray | None = None
     fitted: FloatArray | None = None
 
     @property
@@ -100,8 +104,12 @@ class Solids:
             fixed = fixed if self.fitted is None else fixed + self.fitted
             tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
         dead, live = self.loads(load_case.dead_load), self.loads(load_case.live_load)
-        dead = dead if self.fitted is None else dead + self.fitted
-        return replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
+        case = replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
+        if self.gauge is not None and settlement is not None:
+            last, ways = np.array([len(self.model.blocks) - 1]), gauge_way(load_case)[None]
+            on_gauge = replace(case, settlement=replace(settlement, blocks=last, motions=ways))
+            case = with_reference(on_gauge, settlement.reference)
+        return case if self.fitted is None else replace(case, dead_load=case.dead_load + self.fitted)
 
     def loads(self, loads: FloatArray) -> FloatArray:
         """Forces and moments on solids, (n_solids, 6), from those on blocks, (n_blocks, 6)."""
@@ -117,12 +125,15 @@ class Solids:
         of_blocks[:, :3] += np.cross(of_blocks[:, 3:], self.arms)
         return of_blocks
 
-    def solid_motions(self, motions: FloatArray) -> FloatArray:
-        """Motions of the solids, (n_solids, 6), from that of the first block of each."""
+    def solid_motions(self, motions: FloatArray, *, opens: bool = True) -> FloatArray:
+        """Motions of the solids, (n_solids, 6), from that of the first block of each.
+
+        opens : they are for a live power of 1, in which a gauge moves; else it is at rest
+        """
         first = self.first_blocks
         of_solids = motions[first]
         of_solids[:, :3] -= np.cross(of_solids[:, 3:], self.arms[first])
-        return of_solids
+        return of_solids if self.gauge is None else np.vstack([of_solids, opens * self.gauge])
 
     @property
     def first_blocks(self) -> IntArray:
@@ -130,8 +141,26 @@ class Solids:
         return np.asarray(np.unique(self.label, return_index=True)[1])
 
 
-def solids_of(model: Model, contacts: Contacts) -> Solids:
-    """The model that the solver sees."""
+def solids_of(model: Model, contacts: Contacts, load_case: LoadCase | None = None) -> Solids:
+    """The model that the solver sees; with a gauge where the load case has an objective."""
+    solids = _solids_of(model, contacts)
+    if load_case is None or load_case.objective is None or load_case.settlement is None:
+        return solids
+    by_solids = replace(load_case, objective=_on_solids(load_case.objective, solids))
+    gauged, cut = with_gauge(solids.model, solids.contacts, by_solids, len(solids.label))
+    motion = gauge_way(load_case) / load_case.settlement.unit
+    return replace(solids, model=gauged, contacts=cut, solid_of_block=solids.label, gauge=motion)
+
+
+def _on_solids(objective: Objective, solids: Solids) -> Objective:
+    """The objective with sides by solids; blocks of one solid are on one side, or glue would join both."""
+    n_solids, n_blocks = len(solids.model.blocks), len(solids.label)
+    sides = np.zeros(n_solids, dtype=np.int64)
+    sides[solids.label] = objective.sides[:n_blocks]
+    return replace(objective, sides=np.concatenate([sides, objective.sides[n_blocks:]]))
+
+
+def _solids_of(model: Model, contacts: Contacts) -> Solids:
     label = contacts.solid_of_block
     if label is None:
         return Solids(model, contacts, None, np.zeros((len(model.blocks), 3)))

@@ -34,7 +34,8 @@ def tied(solids: Solids) -> Solids:
     model, contacts = solids.model, solids.contacts
     if not len(model.ties):
         return solids
-    body = np.append(np.where(model.fixed, OUTSIDE, np.arange(len(model.blocks)))[solids.label], OUTSIDE)
+    body = np.where(model.fixed, OUTSIDE, np.arange(len(model.blocks)))[solids.label]
+    body = np.concatenate([body, [OUTSIDE] if solids.gauge is None else [len(model.blocks) - 1, OUTSIDE]])
     ties = model.ties.with_bodies(body[model.ties.bodies])
     rows = _in_use(ties)
     if not len(rows):
@@ -62,6 +63,7 @@ def tied(solids: Solids) -> Solids:
         points=np.vstack([contacts.points, points]),
         frames=np.concatenate([contacts.frames, frames]),
         point_areas=np.append(contacts.point_areas, np.full(n, area)),
+        cut=None if contacts.cut is None else np.append(contacts.cut, np.zeros(n, dtype=np.int64)),
         ties=own,
     )
     model = replace(model, joints={**model.joints, LAW.name: LAW})
@@ -191,5 +193,6 @@ def without_ties(contacts: Contacts) -> Contacts:
         points=contacts.points[:points],
         frames=contacts.frames[:points],
         point_areas=contacts.point_areas[:points],
+        cut=None if contacts.cut is None else contacts.cut[:n],
         ties=None,
     )

@@ -63,6 +63,8 @@ class Expectation(Section):
     position: Count | None = Field(None, description="travel: number of the worst position, from 1")
     associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
     reaction: Number | None = Field(None, description="of the support that gives way")
+    least: Number | None = Field(None, description="objective: least value of the force")
+    greatest: Number | None = Field(None, description="objective: greatest value of the force")
     lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
@@ -71,7 +73,17 @@ class Expectation(Section):
     source: Line = Field(min_length=1, description="where the figure is from")
 
 
-FIGURES = ("load_factor", "angle", "position", "associative_load_factor", "reaction", "lower", "status")
+FIGURES = (
+    "load_factor",
+    "angle",
+    "position",
+    "associative_load_factor",
+    "reaction",
+    "least",
+    "greatest",
+    "lower",
+    "status",
+)
 
 
 @rule(Expectation)

@@ -39,6 +39,8 @@ SELECTORS = (
     "masses.#.on",
     *(f"{loads}.#.on" for loads in LOADS),
     "load_cases.*.settlement.on",
+    "load_cases.*.objective.force.from",
+    "load_cases.*.objective.force.on",
     "load_cases.*.pushover.control.on",
     "symmetry.#.halves",
     "ties.#.on",

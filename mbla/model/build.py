@@ -26,6 +26,7 @@ from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
+from mbla.model.objective import build_objective
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import Blocks, carried_masses, distance_outside
@@ -34,6 +35,7 @@ from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
+from mbla.model.ties import Ties
 from mbla.model.wording import named, vector
 from mbla.process.sharing import once
 
@@ -58,9 +60,9 @@ def build_model(deck: Deck) -> Model:
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
     )
-    sections = deck.content.load_cases.items()
-    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
+    sections = deck.content.load_cases.items()
+    load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports, ties))
     if roster.faults:
         raise DeckError(roster.faults)
     model = Model(
@@ -80,10 +82,16 @@ def build_model(deck: Deck) -> Model:
     return with_images(deck, model)
 
 
-def _load_cases(name: str, section: LoadCaseSection, site: LoadSite, supports: Supports) -> Sequence[LoadCase]:
-    """Loads of one case, or of one for each position of a load that travels; or a support that gives way."""
+def _load_cases(
+    name: str, section: LoadCaseSection, site: LoadSite, supports: Supports, ties: Ties
+) -> Sequence[LoadCase]:
+    """Loads of one case, or of one for each position of a load that travels, or for each end of a force that is sought;
+    or a support that gives way.
+    """
     load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
+    if section.objective is not None:
+        return [case for load_case in load_cases for case in build_objective(section, path, load_case, site, ties)]
     if section.settlement is not None:
         settles = (*path, "settlement")
         return [

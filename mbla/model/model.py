@@ -117,8 +117,8 @@ class Settlement:
     """Fixed blocks that give way together in one motion, and the reaction of their support against it.
 
     The dead load of the case holds the reaction ``reference`` against the motion, the live load takes ``unit`` from it:
-    reaction = reference − load factor × unit. What acts on these blocks themselves goes straight into their support and
-    does not count.
+    reaction = sense (reference − load factor × unit). What acts on these blocks themselves goes straight into their
+    support and does not count.
 
     blocks    : (m,)
     motions   : (m, 6) velocity and angular velocity about the centroid of each block; a unit velocity along the
@@ -127,6 +127,7 @@ class Settlement:
     words     : in words, for the listing
     reference : reaction of the structure at rest on the support that has not moved yet, nan where not known yet
     unit      : weight of the free blocks; times their mean distance from the axis where the support turns
+    sense     : 1; -1 where the greatest value of an objective is sought, whose negative is as small as it can be
     """
 
     blocks: IntArray
@@ -135,10 +136,11 @@ class Settlement:
     words: str
     reference: float
     unit: float
+    sense: float = 1.0
 
     def reaction(self, load_factor: float) -> float:
         """Of the support, in the deck's unit of force, or force times length where it turns."""
-        return self.reference - load_factor * self.unit
+        return self.sense * (self.reference - load_factor * self.unit)
 
     @property
     def guides(self) -> Guides:
@@ -146,6 +148,31 @@ class Settlement:
         motions = np.zeros((len(self.blocks), 6, 6))
         motions[:, :, 0] = self.motions
         return Guides(self.blocks, np.zeros(len(self.blocks), dtype=np.int64), motions)
+
+
+@dataclass(frozen=True)
+class Objective:
+    """A force whose least or greatest value is sought: through a cut, or of ties. Its ``Settlement`` has no blocks.
+
+    series    : name of the load case in the deck, which became one for each end
+    end       : least or greatest
+    at        : load factor of the live loads of the deck, which are among the dead loads here
+    sides     : (n_bodies,) 1: the force acts on this body, -1: it comes from it, 0: neither
+    ties      : (k,) whose forces are added up; none: the force through the joints between the sides
+    direction : (3,) unit, along which the force counts; of ties any in which one pulls, as tension counts
+    """
+
+    series: str
+    end: str
+    at: float
+    sides: IntArray
+    ties: IntArray
+    direction: FloatArray
+
+    def crossed(self, bodies: IntArray) -> IntArray:
+        """Of interfaces between bodies a and b, (n, 2): 1 where their force on b counts, -1 for that on a, else 0."""
+        first, second = self.sides[bodies].T
+        return np.asarray(np.where(first * second < 0, second, 0))
 
 
 @dataclass(frozen=True)
@@ -181,6 +208,7 @@ class LoadCase:
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
     settlement : support that gives way, None for none
+    objective  : force whose least or greatest value is sought, by the settlement of what it acts through; None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
     pushover : what follows limit analysis, None for nothing
     assessment : what a code is asked, None for nothing
@@ -192,6 +220,7 @@ class LoadCase:
     dead_words: tuple[str, ...]
     live_words: tuple[str, ...]
     settlement: Settlement | None = None
+    objective: Objective | None = None
     travel: TravelPosition | None = None
     tilt: Tilt | None = None
     pushover: Pushing | None = None
@@ -199,8 +228,9 @@ class LoadCase:
 
     @property
     def deck_name(self) -> str:
-        """Name in the deck, where a travelling load is one load case for all its positions."""
-        return self.name if self.travel is None else self.travel.series
+        """Name in the deck, where a travelling load is one load case for all positions, an objective for both ends."""
+        of_deck = self.travel or self.objective
+        return self.name if of_deck is None else of_deck.series
 
 
 @dataclass(frozen=True)
@@ -257,7 +287,7 @@ class Model:
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""
         settlement = load_case.settlement
-        if settlement is None:
+        if settlement is None or not len(settlement.blocks):
             return self
         fixed = self.fixed.copy()
         fixed[settlement.blocks] = False

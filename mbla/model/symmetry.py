@@ -107,6 +107,9 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
         them = named(guided, model.blocks.name)
         message = f"{them} cannot be guided and halved: by symmetry it moves in the plane only"
         yield Finding("symmetry-broken", message, *path, "halves")
+    for name in dict.fromkeys(case.deck_name for case in model.load_cases if case.objective is not None):
+        message = "a force through a cut of one half is no question of the other: give the whole structure"
+        yield Finding("symmetry-broken", message, "load_cases", name, "objective")
     for case in model.load_cases:
         across = np.zeros_like(mirror.halves)
         for load in (case.dead_load, case.live_load):

@@ -113,6 +113,18 @@ class Ties:
             breaks_at=self.breaks_at[rows],
         )
 
+    def felt_by(self, rows: IntArray, body: int, pull: FloatArray) -> Ties:
+        """The same, some of which, (k,), pull at one more body too, along (3,), amid their points."""
+        own, first = self.tie_of_point, self.start[rows]
+        middles = np.stack([self.places[own == row].mean(axis=0) for row in rows])
+        return replace(
+            self,
+            start=starts(np.diff(self.start) + np.isin(np.arange(len(self)), rows)),
+            bodies=np.insert(self.bodies, first + 1, body),
+            places=np.insert(self.places, first + 1, middles, axis=0),
+            pulls=np.insert(self.pulls, first + 1, pull, axis=0),
+        )
+
     def with_bodies(self, bodies: IntArray) -> Ties:
         """The same ties on other blocks, (m,)."""
         return replace(self, bodies=bodies)

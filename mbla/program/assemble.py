@@ -159,12 +159,25 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     n_bodies = len(model.blocks) + len(model.grounds)
     bodies = contacts.bodies[contacts.interface_of_point]
     matrix = _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
+    if contacts.cut_of_point is not None:
+        matrix = sp.csr_array(matrix + _on_gauge(contacts, matrix.shape))
     if contacts.ties is None:
         return matrix
     acts = np.ones((len(bodies), 3))
     acts[contacts.tie_points, 1:] = 0.0
     in_lines = matrix @ sp.diags_array(acts.ravel())
     return sp.csr_array(in_lines + _further(n_bodies, model, contacts.ties, free, len(bodies)))
+
+
+def _on_gauge(contacts: Contacts, shape: tuple[int, int]) -> sp.csr_array:
+    """What contact forces do to a gauge, the last block: forces through the cut, without moments."""
+    assert contacts.cut_of_point is not None
+    points = np.flatnonzero(contacts.cut_of_point)
+    forces = contacts.cut_of_point[points, None, None] * contacts.frames[points]
+    rows = np.broadcast_to(shape[0] - 6 + np.arange(3), forces.shape)
+    columns = np.broadcast_to((3 * points[:, None] + np.arange(3))[:, :, None], forces.shape)
+    entries = (forces.ravel(), (rows.ravel(), columns.ravel()))
+    return sp.csr_array(sp.coo_array(entries, shape=shape))
 
 
 def _further(n_bodies: int, model: Model, ties: TieContacts, free: IntArray, n_points: int) -> sp.csr_array:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from mbla.deck.content import Expectation
 from mbla.errors import Notice
+from mbla.results.force_range import ForceRange, end_value, force_ranges_of
 from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
@@ -22,9 +23,10 @@ def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> in
 
     An approximate case that is as sharp as its deck asks for is no failure: a draft ends well, and its status
     distinguishes it from a case that is solved. Nor are positions of a travelling load that bring nothing down where
-    another is the worst.
+    another is the worst, nor forces that have no limit: that is an answer.
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
+    harmless |= {id(case) for case in cases if case.load_case.objective is not None}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
     codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged}
     if any(notice.severity == "warning" and notice.identifier in FAULTS for notice in notices):
@@ -67,15 +69,42 @@ def differences(cases: Sequence[CaseResult], expected: dict[str, Expectation]) -
         worst = position_of(series.worst).number
         if wanted.position is not None and worst != wanted.position:
             found.append(f"{series.name}: worst at position {worst}, expected {wanted.position} ({wanted.source})")
+    for force in force_ranges_of(cases):
+        if force.name in expected:
+            found += _compare_force(force, expected[force.name])
     return found
+
+
+def _compare_force(force: ForceRange, expected: Expectation) -> list[str]:
+    """What differs of a force: the graver status of both ends, and the values of the ends that are expected."""
+    found = _compare_status(force.name, force.status, expected)
+    for end, case in force.ends.items():
+        value, wanted = end_value(case), getattr(expected, end)
+        if wanted is not None:
+            found += _compare(f"{force.name}: {end}", value, wanted, _least("reaction", case), expected)
+    return found
+
+
+def _compare_status(name: str, status: Status, expected: Expectation) -> list[str]:
+    if expected.status is None or status.value == expected.status:
+        return []
+    return [f"{name}: status {status.value}, expected {expected.status} ({expected.source})"]
+
+
+def _compare(what: str, value: float | None, wanted: float, least: float, expected: Expectation) -> list[str]:
+    """A figure against what is wanted of it, relative to that, but to no less than ``least``."""
+    if value is None or math.isnan(value):
+        name, key = what.split(": ")
+        return [f"{name}: no {key}, expected {wanted:g} ({expected.source})"]
+    if abs(value - wanted) > expected.tolerance * max(abs(wanted), least):
+        return [f"{what} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"]
+    return []
 
 
 def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     """What differs, one sentence each; nothing where the case is as expected."""
     name = case.load_case.name
-    differences = []
-    if expected.status is not None and case.status.value != expected.status:
-        differences.append(f"{name}: status {case.status.value}, expected {expected.status} ({expected.source})")
+    differences = _compare_status(name, case.status, expected)
     found = {
         "load_factor": getattr(result_of(case), "load_factor", None),
         "angle": angle_of(case),
@@ -85,14 +114,8 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     }
     for key, value in found.items():
         wanted = getattr(expected, key)
-        if wanted is None:
-            continue
-        if value is None or math.isnan(value):
-            differences.append(f"{name}: no {key}, expected {wanted:g} ({expected.source})")
-        elif abs(value - wanted) > expected.tolerance * max(abs(wanted), _least(key, case)):
-            differences.append(
-                f"{name}: {key} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"
-            )
+        if wanted is not None:
+            differences += _compare(f"{name}: {key}", value, wanted, _least(key, case), expected)
     return differences
 
 

@@ -66,7 +66,7 @@ REMARKS_THAT_WARN = frozenset(
 def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, ...]:
     """Status, failures of the verification and remarks of the solver as notices.
 
-    harmless : a position of a travelling load that brings nothing down where another does
+    harmless : a position of a travelling load that brings nothing down where another does, a force without limit
     """
     name, solution = case.load_case.name, case.solution
     notices: list[Notice] = []

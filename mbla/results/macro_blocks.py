@@ -57,7 +57,8 @@ def write_macro_blocks(
 ) -> list[Path]:
     """Write ``STEM_CASE_macro.yaml`` for each load case with a mechanism, and the files that it names; their paths.
 
-    cases       : only these; of a travelling load it is the worst position that counts
+    cases       : only these; of a travelling load it is the worst position that counts. Those of an objective have no
+                  collapse
     associative : by the mechanism of associative flow, whatever the flow rule of the deck
 
     Raises
@@ -67,7 +68,7 @@ def write_macro_blocks(
     DeckError, FileError
         the deck in the result cannot be read, or a file is there already and ``force`` is not set
     """
-    detailed = {case.load_case.name for case in detailed_cases(results.cases)}
+    detailed = {case.load_case.name for case in detailed_cases(results.cases) if case.load_case.objective is None}
     found = {}
     for case in chosen_cases(results, cases or None):
         mechanics = associative_of(case) if associative else result_of(case)

@@ -197,7 +197,8 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
     fallen = {_series(case) for case in results.cases if result_of(case) is not None} - {None}
     notices = list(results.notices)
     for case in results.cases:
-        harmless = case.status is Status.UNBOUNDED and _series(case) in fallen
+        answer = case.load_case.objective is not None or _series(case) in fallen
+        harmless = case.status is Status.UNBOUNDED and answer
         own = case_notices(case)
         doubtful = any(notice.identifier == "law-residual" for notice in own)
         notices += (*own, *found_notices(case, harmless=harmless))

@@ -23,7 +23,6 @@ from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
-from mbla.deck.sections.accuracy import knobs_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
@@ -38,7 +37,7 @@ from mbla.results.provenance import as_expected, deck_of, notices_of, settings_i
 from mbla.results.results import CaseResult, Results
 from mbla.solution.glued import with_derived
 from mbla.solution.pushover.curve import begun_by, curve_of
-from mbla.solution.settings import solver_settings
+from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord
@@ -81,7 +80,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     solution = case.solution
     if deck is not None:
         crushable = bool(crushable_interfaces(model, contacts).any())
-        solution = _as_asked_for(solution, deck, crushable and takes_stress_blocks(deck.analysis))
+        solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
     solution = with_derived(model, contacts, load_case, solution)
     if deck is not None and solution.pushed is not None and solution.mechanics is not None:
         solution = begun_by(model, contacts, solution)
@@ -93,15 +92,16 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
 
-def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Solution:
+def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crushable: bool) -> Solution:
     """The solution by the flow rule, the contact model and the solver that its deck asks for."""
-    analysis, settings = deck.analysis, solver_settings(deck.analysis)
+    settings = settings_for(load_case, solver_settings(deck.analysis))
+    analysis = settings.analysis
     asked = {settings.gap} if analysis.flow_rule == "associative" else {settings.residual, settings.gap}
     return replace(
         solution,
         flow_rule=analysis.flow_rule,
         contact_model=analysis.contact_model,
-        stress_blocks=stress_blocks,
+        stress_blocks=crushable and takes_stress_blocks(analysis),
         solver=settings.solver,
         tolerance_requested=solution.tolerance_requested
         if solution.tolerance_requested is None or solution.tolerance_requested in asked
@@ -130,7 +130,7 @@ def _unproved(case: CaseResult) -> list[str]:
 
 def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     """What the deck asks for and the file neither has nor explains."""
-    solution, knobs = case.solution, knobs_of(deck.analysis)
+    solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     said = {remark.identifier for remark in solution.remarks}
     pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
@@ -140,7 +140,7 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
         return [_lacks(what) for what in missing]
     if knobs.range and not said & {"range-not-computed", "range-not-found"} and not _by_normality(solution):
         missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
-    if deck.analysis.force_ranges and solution.force_ranges is None:
+    if knobs.analysis.force_ranges and solution.force_ranges is None:
         missing.append("ranges of normal forces")
     return [_lacks(what) for what in missing]
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.mechanics import contact_modes
-from mbla.solution.solution import Mechanics, Solution, StandingResult
+from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.verification.statics import contact_velocities
 
 MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
@@ -43,10 +44,14 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
     solution = ties_apart(solution, solids)
     if solids.solid_of_block is None:
         return solution
-    standing = solution.standing
+    standing, size = solution.standing, solution.size
     if standing is not None and standing.block is not None:
         standing = replace(standing, block=int(solids.first_blocks[standing.block]))
-    return _with_motions(replace(solution, standing=standing), solids.block_motions)
+    if solids.gauge is not None:
+        size = None if size is None else replace(size, free_blocks=size.free_blocks - 1)
+        speed = ROUNDING * float(np.abs(solids.gauge).max())
+        solution = _with_mechanics(solution, lambda part: _without_rounding(part, speed))
+    return _with_motions(replace(solution, standing=standing, size=size), solids.block_motions)
 
 
 def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, float]:
@@ -59,8 +64,8 @@ def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, fl
         return solution, 0.0
     apart = [0.0]
 
-    def checked(motions: FloatArray) -> FloatArray:
-        of_solids = solids.solid_motions(motions)
+    def checked(motions: FloatArray, *, opens: bool = True) -> FloatArray:
+        of_solids = solids.solid_motions(motions, opens=opens)
         lengths = np.repeat([1.0, float(solids.model.blocks.sizes.max(initial=0.0)) or 1.0], 3)
         difference = np.abs((solids.block_motions(of_solids) - motions) * lengths).max(initial=0.0)
         size = np.abs(motions * lengths).max(initial=0.0)
@@ -68,7 +73,7 @@ def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, fl
             apart.append(float(difference / size))
         return of_solids
 
-    return _with_motions(solution, checked), max(apart)
+    return _with_motions(solution, checked, partial(checked, opens=False)), max(apart)
 
 
 def ties_apart(solution: Solution, solids: Solids) -> Solution:
@@ -153,13 +158,21 @@ def _of_interfaces(mechanics: Mechanics, changed: Callable[[FloatArray], FloatAr
     )
 
 
-def _with_motions(solution: Solution, mapped: Callable[[FloatArray], FloatArray]) -> Solution:
-    """The solution with every motion mapped."""
+def _with_motions(
+    solution: Solution,
+    mapped: Callable[[FloatArray], FloatArray],
+    at_rest: Callable[[FloatArray], FloatArray] | None = None,
+) -> Solution:
+    """The solution with every motion mapped.
+
+    at_rest : what maps motions in which no live load does work; ``mapped`` unless given
+    """
+    still = at_rest or mapped
     moved = _with_mechanics(solution, lambda part: replace(part, mechanism=mapped(part.mechanism)))
     return replace(
         moved,
-        certificate=None if solution.certificate is None else mapped(solution.certificate),
-        standing=_standing(solution.standing, mapped),
+        certificate=None if solution.certificate is None else still(solution.certificate),
+        standing=_standing(solution.standing, still),
     )
 
 
@@ -191,7 +204,7 @@ from them."""
 
 def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Solution:
     """The solution with velocities and modes of contact points, and resultants, as mechanisms and forces give them."""
-    solids = tied(solids_of(model, contacts))
+    solids = tied(solids_of(model, contacts, load_case))
     solution = ties_among_contacts(solution, solids)
     found: dict[int, Mechanics] = {}
     for part in MOTIONS:
@@ -199,7 +212,9 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
         if mechanics is not None and id(mechanics) not in found:
             still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
             moved = contact_velocities(solids.model, solids.contacts, solids.solid_motions(still))
-            if _near(moved, mechanics.contact_velocities):
+            # where all that moves moves with the gauge of an objective, what is left of it is rounding
+            speed = 0.0 if solids.gauge is None else float(np.abs(solids.gauge).max())
+            if _near(moved, mechanics.contact_velocities, speed):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
@@ -208,9 +223,17 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
 
 
-def _near(one: FloatArray, other: FloatArray) -> bool:
-    """Whether two arrays differ by no more than rounding of the largest entry."""
-    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
+def _without_rounding(mechanics: Mechanics, speed: float) -> Mechanics:
+    """The same, with joints at rest where none moves by more than that: all that moves moves with a gauge."""
+    if np.abs(mechanics.contact_velocities).max(initial=0.0) > speed:
+        return mechanics
+    still = np.zeros_like(mechanics.contact_velocities)
+    return replace(mechanics, contact_velocities=still, modes=np.full_like(mechanics.modes, ContactMode.STICK))
+
+
+def _near(one: FloatArray, other: FloatArray, size: float) -> bool:
+    """Whether two arrays differ by no more than rounding of the largest entry, or of that size."""
+    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=size))
 
 
 def _with_modes(

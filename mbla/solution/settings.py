@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mbla.deck.sections.accuracy import PRESETS, knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.model.model import LoadCase
 
 MAX_ITERATIONS = 300
 """Iterations of one program; walls of 10,000 blocks need about 70."""
@@ -53,3 +54,12 @@ def solver_settings(analysis: AnalysisSection) -> SolverSettings:
         solver=analysis.solver,
         analysis=analysis,
     )
+
+
+def settings_for(load_case: LoadCase, settings: SolverSettings) -> SolverSettings:
+    """The settings of one load case: an objective is a static question, and its bounds are those of normality."""
+    if load_case.objective is None:
+        return settings
+    static = {"flow_rule": "associative", "force_ranges": False}
+    analysis = settings.analysis.model_copy(update=static)
+    return replace(settings, range=False, peak=False, standing=False, analysis=analysis)

@@ -13,8 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
+from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
@@ -24,6 +25,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import forces_of
+from mbla.solution.objective import HIGH, MARGIN, ends_of_force, force_felt
 from mbla.solution.parts import at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
@@ -60,6 +62,8 @@ def trials_of(model: Model, contacts: Contacts, load_case: LoadCase, settings: S
     """What is solved for a load case of the deck; of a support that gives way with the reaction that it starts from."""
     if load_case.tilt is not None:
         return Trials(_verified(model, contacts, tilt_angles(model, contacts, load_case)))
+    if load_case.objective is not None:
+        return Trials(ends_of_force(load_case, force_at_rest(model, contacts, load_case, settings)))
     return Trials(_once(posed(model, contacts, load_case, settings)))
 
 
@@ -72,13 +76,6 @@ def _verified(model: Model, contacts: Contacts, angles: Angles) -> Angles:
     answer = yield from angles
     return replace(answer, checks=verify(model, contacts, answer.load_case, answer.solution))
 
-
-MARGIN = 1e-9
-"""Added to the reaction at rest, over the unit of reactions: where statics alone gives the reaction, rounding must not
-make it too small to carry the dead load."""
-
-HIGH = 10.0
-"""Reaction over its unit, more than any structure is likely to need."""
 
 EVERY_POINT = ReductionSwitches(mirror=False, points=False)
 """Least forces need every point by itself: without those inside the hull of others a middle support would carry
@@ -100,17 +97,37 @@ def posed(
     settlement = load_case.settlement
     if settlement is None:
         return load_case
-    held = replace(load_case, live_load=load_case.dead_load, settlement=None)
-    solids = tied(solids_of(replace(model, mirrors=()), contacts))
+    held = solids_at_rest(model, contacts)
+    total = forces_at_rest(held, load_case, settings, log)
+    if total is None:
+        return with_reference(load_case, HIGH * settlement.unit)
+    on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[settlement.blocks]]
+    reaction = float((settlement.motions * on_blocks).sum())
+    return with_reference(load_case, reaction + MARGIN * settlement.unit)
+
+
+def force_at_rest(model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings) -> float | None:
+    """The force of an objective in the sense of its end, by the least forces that carry the loads; None without."""
+    held = solids_at_rest(model, contacts)
+    total = forces_at_rest(held, load_case, settings, _silent)
+    return None if total is None else force_felt(tied(solids_of(model, contacts, load_case)), load_case, total)
+
+
+def solids_at_rest(model: Model, contacts: Contacts) -> Solids:
+    """What the solver sees while nothing gives way."""
+    return tied(solids_of(replace(model, mirrors=()), contacts))
+
+
+def forces_at_rest(solids: Solids, load_case: LoadCase, settings: SolverSettings, log: Log) -> FloatArray | None:
+    """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without."""
+    held = replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
     program = assemble(solids.model, solids.contacts, solids.load_case(held))
     parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
     total = np.zeros((len(solids.contacts.points), 3))
     for part in parts:
         state = at_rest(part, 0.0, settings, log)
         if state is None:
-            return with_reference(load_case, HIGH * settlement.unit)
+            return None
         repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
         total += forces_of(part, state.forces if repaired is None else repaired[0])
-    on_blocks = contact_resultants(solids.model, solids.contacts, total)[solids.label[settlement.blocks]]
-    reaction = float((settlement.motions * on_blocks).sum())
-    return with_reference(load_case, reaction + MARGIN * settlement.unit)
+    return total

@@ -2,7 +2,8 @@
 
 A travelling load is one load case of the deck and many of the record. Its values are those of the worst position, and
 those of the series itself (``worst.distance``, ``positions.3.load_factor``). Where the worst is not known there are
-none, and the status is that of the first position that leaves it unknown.
+none, and the status is that of the first position that leaves it unknown. An objective is two: ``least.value``,
+``greatest.value``, and the graver status of both.
 """
 
 from __future__ import annotations
@@ -59,6 +60,7 @@ def values_of(record: Mapping[str, Any], places: Sequence[tuple[str, str, str]])
     """Value of each column in the JSON record of a run; None where the run has none."""
     cases = {case["name"]: case for case in record["cases"]}
     cases |= {series["name"]: _of_series(series, cases) for series in record["series"]}
+    cases |= {each["name"]: _of_objective(each, cases) for each in record["objectives"]}
     return {name: _at(cases.get(case) if case else record, path.split(".")) for name, case, path in places}
 
 
@@ -93,6 +95,13 @@ def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]
     return {"status": (unknown or statuses or [None])[0], **series}
 
 
+def _of_objective(objective: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """The keys of a force, and those of the case that is its least value, with the time of both ends."""
+    ends = [cases[end["case"]] for end in (objective["least"], objective["greatest"]) if end is not None]
+    time = {key: sum(each["time"][key] or 0.0 for each in ends) for key in ("total", "solver")}
+    return {**ends[0], **objective, "time": time}
+
+
 def _at(record: Any, path: Sequence[str]) -> Plain:
     """The value at a path; keys of an object may have full stops in them, as ``ground z = 0.5`` does."""
     if not path:
@@ -109,7 +118,7 @@ def _at(record: Any, path: Sequence[str]) -> Plain:
 
 KINDS = {"integer": "int", "number": "float", "string": "text", "boolean": "bool"}
 """types of JSON that fill a column, and what the column is called"""
-OWNERS = ("cases[].", "series[].")
+OWNERS = ("cases[].", "series[].", "objectives[].")
 """what stands before the paths of load cases in the description; a travelling load has both"""
 
 

@@ -90,6 +90,37 @@ def load_factor(
     return float(-answer.fun)
 
 
+def force_range(
+    joints: Sequence[PlanarJoint], centroids: Array, loads: Array, cut: dict[int, float], direction: Array
+) -> tuple[float, float]:
+    """Least and greatest force along a direction through some joints that carry loads, (n, 2) or (n, 3).
+
+    cut : joint -> 1 where the force on body b counts, -1 for that on body a. The greatest is inf where there is no
+          limit, the least -inf; both nan where nothing carries the loads.
+    """
+    unit = np.abs(loads).max()
+    cost = np.zeros(3 * len(joints))
+    for j, sign in cut.items():
+        normal = joints[j].normal
+        along = normal @ direction, np.array([-normal[1], normal[0]]) @ direction
+        cost[3 * j : 3 * j + 3] = sign * np.array([along[0], along[0], along[1]])
+    ends = []
+    for sense in (1.0, -1.0):
+        answer = linprog(  # type: ignore[call-overload]  # as above
+            sense * cost,
+            A_ub=_friction(joints),
+            b_ub=np.zeros(2 * len(joints)),
+            A_eq=_equilibrium(joints, centroids),
+            b_eq=-_with_moments(loads).ravel() / unit,
+            bounds=[(0, None), (0, None), (None, None)] * len(joints),
+            method="highs",
+            options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+        )
+        limit = {2: np.nan, 3: -np.inf}.get(answer.status)
+        ends.append(sense * unit * (answer.fun if limit is None else limit))
+    return float(ends[0]), float(ends[1])
+
+
 def _with_moments(loads: Array) -> Array:
     """Loads, (n, 3), without moments where none are given."""
     full = np.zeros((len(loads), 3))
@@ -200,6 +231,13 @@ class Arch:
 
 def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float | None:
     """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``."""
+    dead = np.outer(arch.weights, [0.0, -1.0])
+    push = np.outer(arch.weights, [1.0, 0.0]) if live is None else live
+    return load_factor(arch_joints(arch, mu), arch.points, dead, push)
+
+
+def arch_joints(arch: Arch, mu: float) -> list[PlanarJoint]:
+    """Joints of an arch from its left springing to its right one, both on ground."""
     joints = []
     n = len(arch.weights)
     for i, angle in enumerate(arch.angles):
@@ -207,8 +245,7 @@ def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float 
         normal = np.array([np.cos(angle), -np.sin(angle)])  # direction of travel along the arch
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
-    dead = np.outer(arch.weights, [0.0, -1.0])
-    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live)
+    return joints
 
 
 def centre_line_arch(thickness: float, voussoirs: int, radius: float = 1.0) -> Arch:

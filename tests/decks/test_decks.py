@@ -82,6 +82,8 @@ def test_every_load_case_has_an_expectation(path: Path) -> None:
         figures = (expectation.load_factor, expectation.associative_load_factor, expectation.angle)
         if content.load_cases[name].settlement is not None:
             figures = (expectation.reaction, None, None)
+        if content.load_cases[name].objective is not None:
+            figures = (expectation.least, expectation.greatest, None)
         without = expectation.status in ("no_equilibrium", "unbounded", "not_verified")
         assert (figures == (None, None, None)) == without, name
         assert expectation.status is not None, name
@@ -97,6 +99,7 @@ def test_the_deck_meets_its_expectations(path: Path) -> None:
     assert outcome_of(path).exit_status == outcome_of(path).record["exit_code"] == gravest
     check_standing(path)
     check_bounds(path)
+    check_forces(path)
     check_json(path)
     check_files(path)
 
@@ -117,8 +120,19 @@ def check_json(path: Path) -> None:
     assert outcome.record["deck"] == path.name
     names = [case["name"].partition("@")[0] for case in outcome.record["cases"]]
     assert list(dict.fromkeys(names)) == list(deck_of(path).content.load_cases)
-    travelling = {case["name"].partition("@")[0] for case in outcome.record["cases"] if "@" in case["name"]}
-    assert {series["name"] for series in outcome.record["series"]} == travelling
+    several = {case["name"].partition("@")[0] for case in outcome.record["cases"] if "@" in case["name"]}
+    assert {each["name"] for key in ("series", "objectives") for each in outcome.record[key]} == several
+
+
+def check_forces(path: Path) -> None:
+    """Each end of a force lies between its bounds, which have met where it is solved."""
+    for force in outcome_of(path).record["objectives"]:
+        for end in (force["least"], force["greatest"]):
+            if end["status"] == "solved":
+                own = next(case for case in outcome_of(path).record["cases"] if case["name"] == end["case"])
+                room = 1e-9 * own["reaction"]["unit"]
+                assert end["lower_bound"] - room <= end["value"] <= end["upper_bound"] + room
+                assert own["gap"] <= GAP_TOLERANCE
 
 
 def check_bounds(path: Path) -> None:

@@ -15,7 +15,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.guides import Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
@@ -323,8 +323,8 @@ TIE = Ties(
 
 
 def full_model(model: Model) -> Model:
-    """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
-    arrays = np.arange(54.0).reshape(3, 3, 6)
+    """The tower with a settlement in its first load case, a tilt, a path and an objective in the last, and a guide."""
+    arrays, n_bodies = np.arange(54.0).reshape(3, 3, 6), len(model.blocks) + len(model.grounds)
     pushover = Pushing(
         0.02,
         np.inf,
@@ -340,6 +340,10 @@ def full_model(model: Model) -> Model:
         pushover=pushover,
         travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
+        settlement=Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),
+        objective=Objective(
+            "train", "greatest", 0.5, np.arange(n_bodies) % 3 - 1, np.array([0]), np.array([0.0, 0.6, 0.8])
+        ),
     )
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)

@@ -37,6 +37,7 @@ DECKS = {
     "incline_too_steep": "no equilibrium, certificate",
     "groove_locked": "unbounded, lock",
     "ferris_wall_1_slope": "load path",
+    "thrust_of_an_arch": "objective",
     "assessed_facade": "assessment, pushover",
 }
 TYPES: dict[str, tuple[type, ...]] = {

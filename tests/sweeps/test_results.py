@@ -101,7 +101,11 @@ def series(*positions: tuple[str, float | None], worst: int | None) -> dict[str,
     time = {"total": 0.5, "solver": 0.25}
     cases = [{"name": each["case"], "verified": True, "time": time, **each} for each in found]
     own = None if worst is None else found[worst]
-    return {"cases": cases, "series": [{"name": "t", "complete": True, "positions": found, "worst": own}]}
+    return {
+        "cases": cases,
+        "series": [{"name": "t", "complete": True, "positions": found, "worst": own}],
+        "objectives": [],
+    }
 
 
 def test_a_travelling_load_has_the_values_of_its_worst_position() -> None:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
-from mbla.deck.quantities import Direction, Integer, PositiveLength
-from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.quantities import Direction, Integer, Number, PositiveLength
+from mbla.deck.section import Section, exactly_one_of, given, one_of, rule
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
+from mbla.deck.sections.objective import ObjectiveSection
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Turn
 from mbla.deck.suggestions import listed
@@ -19,6 +20,9 @@ from mbla.errors import Finding
 STEPS_OF_TWICE_THE_SIZE = (
     "make steps of twice the size as well: the difference is the error of each load factor, to first order"
 )
+
+ASKED = ("live", "settlement", "objective")
+"""Keys of a load case that say what is sought, of which it has at least one."""
 
 
 @exactly_one_of("direction", "turn")
@@ -62,9 +66,16 @@ class PushoverSection(Section):
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
 
 
-@exactly_one_of("live", "settlement")
 class LoadCaseSection(Section):
-    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads."""
+    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads; or a
+    force is sought at a given load factor.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "oneOf": [{"required": ["settlement"]}, {"anyOf": [{"required": ["live"]}, {"required": ["objective"]}]}]
+        }
+    )
 
     dead: list[Load] | None = Field(
         None, description="loads besides gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
@@ -76,6 +87,17 @@ class LoadCaseSection(Section):
         "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
         "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
         "from that of the structure at rest on, over the weight of the free blocks",
+    )
+    objective: ObjectiveSection | None = Field(
+        None,
+        description="in place of the load factor: the least and the greatest value of a force, over all forces in the "
+        "joints that balance the loads within the joints' strengths. Every state of the structure lies between the "
+        "two, whatever its flow rule",
+    )
+    at: Number | None = Field(
+        None,
+        description="with objective and live: the load factor at which the force is sought. Without live: under the "
+        "dead loads alone",
     )
     pushover: PushoverSection | None = Field(
         None,
@@ -97,6 +119,30 @@ def followed_settlement(settlement: SettlementSection) -> Iterator[Finding]:
     if settlement.amount is None and (settlement.step is not None or settlement.error):
         key = "error" if settlement.step is None else "step"
         yield Finding("settlement-not-followed", "goes with amount, how far the support is followed", key)
+
+
+@rule(LoadCaseSection)
+def what_is_asked(case: LoadCaseSection) -> Iterator[Finding]:
+    """A load factor, a settlement or a force, and what goes with it."""
+    if case.objective is None:
+        if given(case, ("live", "settlement")):
+            yield from one_of(case, ("live", "settlement"))
+        else:
+            yield Finding("missing-key", f"needs one of {listed(ASKED)}")
+        if case.at is not None:
+            yield Finding("key-of-another-choice", "applies with objective only", "at")
+        return
+    if case.live is not None and case.at is None:
+        yield Finding("missing-key", "needs at, the load factor of its live loads at which the force is sought")
+    if case.live is None and case.at is not None:
+        yield Finding("key-of-another-choice", "applies with live only: there is nothing to multiply", "at")
+    for key in given(case, ("settlement", "pushover", "assessment")):
+        words = "cannot go with objective, whose answer is a force: make another load case of it"
+        yield Finding("objective-not-possible", words, key)
+    for number, load in enumerate(case.live or []):
+        for kind in given(load, LIVE_ONLY):
+            words = "cannot go with objective, which is sought at one place of each load: give it as force"
+            yield Finding("objective-not-possible", words, "live", number, kind)
 
 
 @rule(LoadCaseSection)

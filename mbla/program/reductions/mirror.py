@@ -161,8 +161,10 @@ def _with_points(
     if not np.allclose(laws[point_of], laws, rtol=SYMMETRIC, atol=0.0):
         return None
     same_side = (scene.bodies[point_of] == image_bodies).all(axis=1)
-    sign = np.where(same_side, 1.0, -1.0)[:, None, None]
-    force_maps = sign * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
+    sign = np.where(same_side, 1, -1)
+    if np.any(scene.cut[point_of] != sign * scene.cut):
+        return None
+    force_maps = sign[:, None, None] * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
     if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > scene.symmetric:
         return None
     found = Mirror(normal, block_of, point_of, velocity_map, force_maps)

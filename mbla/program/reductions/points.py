@@ -60,7 +60,7 @@ def _groups(scene: Scene, dry: BoolArray) -> list[IntArray]:
     places = round(-np.log10(COPLANAR)) - 1
     planes = np.round(np.column_stack([normal, offset]), places) + 0.0
     friction = scene.program.limits.friction[candidates]
-    keys = np.column_stack([np.sort(scene.bodies[candidates], axis=1), planes, friction])
+    keys = np.column_stack([np.sort(scene.bodies[candidates], axis=1), planes, friction, scene.cut[candidates]])
     _, group = np.unique(keys, axis=0, return_inverse=True)
     order = np.argsort(group, kind="stable")
     return np.split(candidates[order], np.flatnonzero(np.diff(group[order])) + 1)

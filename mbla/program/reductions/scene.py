@@ -51,6 +51,7 @@ class Scene:
     linked    : (m, 2) bodies, as above, that ties link besides those of their points
     linking   : (m,) these points
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
+    cut       : (n_points,) side on which the gauge feels the force (:mod:`mbla.contacts.gauge`); 0 everywhere without
     """
 
     program: Program
@@ -61,6 +62,7 @@ class Scene:
     areas: FloatArray
     bodies: IntArray
     interfaces: IntArray
+    cut: IntArray
     linked: IntArray
     linking: IntArray
     allowed: sp.csr_array | None = None
@@ -101,6 +103,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         areas=contacts.point_areas,
         bodies=row[contacts.bodies[contacts.interface_of_point]],
         interfaces=contacts.interface_of_point,
+        cut=np.zeros(program.n_points, dtype=np.int64) if contacts.cut_of_point is None else contacts.cut_of_point,
         **_links(contacts, row),
         allowed=program.allowed,
     )
@@ -136,6 +139,7 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
+        cut=scene.cut[points],
         linked=row[scene.linked[own]],
         linking=number[scene.linking[own]],
         allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
@@ -175,6 +179,8 @@ def part_of_blocks(scene: Scene) -> IntArray:
     pairs = np.vstack([scene.bodies[both], scene.linked[(scene.linked >= 0).all(axis=1)]])
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
+    felt = scene.bodies[scene.cut != 0].max(axis=1)  # by the gauge, which is the last block
+    pairs = np.vstack([pairs, np.column_stack([felt, np.full(len(felt), n - 1)])])
     return connected_labels(pairs, n)
 
 

@@ -82,8 +82,12 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
         sums = np.bincount(contacts.interface_of_point, weights=values, minlength=len(contacts))
         return np.asarray(sums, dtype=np.float64)
 
+    live = float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism))
+    if load_case.objective is not None and load_case.settlement is not None:  # in which the cut opens by 1/U
+        settlement = load_case.settlement
+        live = -settlement.sense * settlement.reaction(mechanics.load_factor) / settlement.unit
     return Work(
-        live=float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism)),
+        live=live,
         dead=float(np.sum(load_case.dead_load[free] * mechanism)),
         friction=by_interface(shear * (1.0 - share)),
         cohesion=by_interface(shear * share),

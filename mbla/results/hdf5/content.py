@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
-from mbla.model.model import Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties import Ties
 from mbla.program.reductions import ProgramSize
@@ -42,6 +43,8 @@ RECORD_NAMES = {
     "travel/blocks": "travel/carrying_blocks",
     "tilt/axis": "tilt/turning_axis",
     "pushover/direction": "pushover/control_direction",
+    "objective/direction": "objective/measured_along",
+    "objective/end": "objective/which_end",
 }
 """fields of a load case that have other names in the file: netCDF takes a dataset of the name of a dimension for the
 coordinate of that"""
@@ -188,9 +191,19 @@ def _contacts(contacts: Contacts) -> Content:
     }
 
 
+PARTS_OF_LOADS: dict[str, Any] = {
+    "travel": TravelPosition,
+    "tilt": Tilt,
+    "settlement": Settlement,
+    "objective": Objective,
+    "pushover": Pushing,
+}
+"""What a load case may have besides its loads, by the name of its field and group."""
+
+
 def _loads(load_case: LoadCase) -> Content:
     content = _held(load_case, LoadCase, "cases/*")
-    for name, kind in (("travel", TravelPosition), ("tilt", Tilt), ("settlement", Settlement), ("pushover", Pushing)):
+    for name, kind in PARTS_OF_LOADS.items():
         part = getattr(load_case, name)
         if part is not None:
             content |= _below(name, {field: getattr(part, field) for field in kind.__dataclass_fields__})

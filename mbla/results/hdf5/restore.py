@@ -20,7 +20,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.guides import NO_GUIDES, Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
@@ -57,7 +57,8 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         raise ValueError("results of a model in which no block can move")
     for name in solved:
         moving = ~model.of_case(load_cases[name]).fixed
-        if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < LEAST:
+        none = np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < LEAST
+        if none and load_cases[name].objective is None:
             raise ValueError(f"{name}: no live load on blocks that can move")
     cases = tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved)
     for case in cases:
@@ -218,6 +219,9 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         settlement = Settlement(**held(Settlement, "cases/*/settlement", _part(get, "settlement/")))
         if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
             raise ValueError("settlement of a support")
+    objective = _part(get, "objective/")
+    if objective and not (np.isin(objective["sides"], [-1, 0, 1]).all() and settlement is not None):
+        raise ValueError("objective of a load case")
     return LoadCase(
         name,
         get["dead_load"],
@@ -225,6 +229,7 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         tuple(get["dead_words"]),
         tuple(get["live_words"]),
         settlement=settlement,
+        objective=Objective(**objective) if objective else None,
         travel=TravelPosition(**travel) if travel else None,
         tilt=Tilt(**tilt) if tilt else None,
         pushover=Pushing(**pushed) if (pushed := _part(get, "pushover/")) else None,

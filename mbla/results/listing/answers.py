@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
+from mbla.model.model import LoadCase, Model, Objective, Settlement, TravelPosition
+from mbla.results.force_range import ForceRange, end_bounds, end_value
 from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
 from mbla.results.outcome import (
     angle_at,
@@ -34,12 +35,12 @@ def reaction_json(case: CaseResult) -> dict[str, Any] | None:
     settlement = case.load_case.settlement
     if settlement is None:
         return None
-    value = reaction_of(case)
+    value, (low, high) = reaction_of(case), end_bounds(case)
     return {
         "value": None if value is None else json_number(value),
-        "lower_bound": json_number(settlement.reaction(case.checks.kinematic_bound)),
-        "upper_bound": json_number(settlement.reaction(case.checks.static_bound)),
-        "at_rest": json_number(settlement.reference),
+        "lower_bound": json_number(low),
+        "upper_bound": json_number(high),
+        "at_rest": json_number(settlement.reaction(0.0)),
         "unit": json_number(settlement.unit),
         "kind": "moment" if settlement.turns else "force",
     }
@@ -50,6 +51,8 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     settlement, value = case.load_case.settlement, reaction_of(case)
     if settlement is None:
         return []
+    if case.load_case.objective is not None:
+        return _end_lines(model, case, case.load_case.objective)
     unit, lines = reaction_unit(model, settlement), []
     if value is not None:
         value = _or_nothing(settlement, value)
@@ -60,6 +63,25 @@ def settlement_lines(model: Model, case: CaseResult) -> list[str]:
     lines += entry("one at rest", f"{number(settlement.reference)} {unit}   (many may be possible)")
     of = "the dead load of the free blocks" + " times its mean distance from the axis" * settlement.turns
     return lines + entry("load factor counts", f"its loss, in {number(settlement.unit)} {unit}: {of}")
+
+
+def _end_lines(model: Model, case: CaseResult, objective: Objective) -> list[str]:
+    """An end of a force, its bounds, and what its load factor counts."""
+    settlement, unit = case.load_case.settlement, model.units.force
+    assert settlement is not None  # that of the cut
+    lines = entry(f"{objective.end} force", f"{number(answer_value(case.load_case, _factor(case)))} {unit}")
+    low, high = bound_figures(case)
+    lines += entry("its bounds", f"{low} .. {high} {unit}")
+    away = "below" if settlement.sense > 0 else "above"
+    start = f"{number(settlement.sense * settlement.reference)} {unit}"
+    return lines + entry(
+        "load factor counts", f"how far {away} {start}, in {number(settlement.unit)} {unit}: the loads"
+    )
+
+
+def _factor(case: CaseResult) -> float:
+    found = result_of(case)
+    return np.nan if found is None else found.load_factor
 
 
 NOTHING = 1e-9
@@ -82,6 +104,8 @@ def reaction_unit(model: Model, settlement: Settlement) -> str:
 
 def answer_head(model: Model, load_case: LoadCase) -> str:
     """What the load factor of a case stands for: the head of its column."""
+    if load_case.objective is not None:
+        return f"force [{model.units.force}]"
     if load_case.settlement is not None:
         return f"reaction [{reaction_unit(model, load_case.settlement)}]"
     return "load factor" if load_case.tilt is None else "angle [degree]"
@@ -114,6 +138,8 @@ def bound_figures(case: CaseResult) -> tuple[str, str]:
     low, high = case.checks.static_bound, case.checks.kinematic_bound
     if case.load_case.tilt is not None:
         low, high = angle_bounds(case)
+    elif case.load_case.objective is not None:
+        low, high = end_bounds(case)
     elif case.load_case.settlement is not None:
         low, high = (answer_value(case.load_case, bound) for bound in (low, high))
     return digits(low), digits(high)
@@ -154,6 +180,55 @@ def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, flo
 def digits(value: float) -> str:
     """Eight significant digits; ``-`` where there is no number."""
     return "-" if math.isnan(value) else f"{value + 0.0:.8g}"
+
+
+# --- A force in words: its least and greatest value ------------------------------------------------------------------
+
+PROVED = (
+    "Forces that balance the loads within the strengths of the joints reach each end; a mechanism in which the cut "
+    "opens shows that none go beyond. Every state of the structure lies between, whatever the flow rule: forces in "
+    "joints are not unique, and nothing here says which of them are there."
+)
+
+
+def objective_lines(model: Model, found: ForceRange) -> list[str]:
+    """The section of one force in the listing."""
+    unit = model.units.force
+    lines = heading(f"Force {found.name}") + sentence(f"{range_words(model, found)}.")
+    head = ["end", "status", f"force [{unit}]", f"lower bound [{unit}]", f"upper bound [{unit}]"]
+    rows = [
+        [end, status_name(case.status), _end_figure(case), *(digits(bound) for bound in end_bounds(case))]
+        for end, case in found.ends.items()
+    ]
+    return [*lines, "", *table(head, rows, left=2), "", *sentence(PROVED)]
+
+
+def range_words(model: Model, found: ForceRange) -> str:
+    """``thrust: force of the supports on 1 block along (1, 0, 0), between 8753.85 N and 13297.7 N``."""
+    case = next(iter(found.ends.values()))
+    settlement, objective, unit = case.load_case.settlement, case.load_case.objective, model.units.force
+    assert settlement is not None  # what makes it an end
+    assert objective is not None
+    what = f"{found.name}: {settlement.words}" + (f" at load factor {number(objective.at)}" if objective.at else "")
+    if found.status is Status.NO_EQUILIBRIUM:
+        return f"{what}: none, the structure does not carry these loads"
+    words = []
+    for end, each in found.ends.items():
+        value = end_value(each)
+        limit = (
+            "without limit" if np.isinf(value) else "not known" if np.isnan(value) else f"{_end_figure(each)} {unit}"
+        )
+        words.append(f"{end} {limit}" + "".join(f" ({status_name(s)})" for s in (each.status,) if s in UNSURE))
+    return f"{what}: {', '.join(words)}"
+
+
+UNSURE = tuple(status for status in Status if status not in (Status.SOLVED, Status.UNBOUNDED))
+"""statuses that are named beside an end"""
+
+
+def _end_figure(case: CaseResult) -> str:
+    value = end_value(case)
+    return number(value) if not np.isfinite(value) else answer_figure(case.load_case, _factor(case))
 
 
 # --- Travelling loads in words: where a vehicle stands, a row for each position, and the worst ----------------------

@@ -30,10 +30,11 @@ def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechan
     named = [(reaction.support, reaction.wrench) for reaction in reactions]
     named += [("sum of reactions", total), ("loads on free blocks", load), ("out of balance", total + load)]
     force, length = model.units.force, model.units.length
+    at_collapse = " at collapse" if load_case.objective is None else ""
     head = ["reaction on the structure", *(f"F{axis}" for axis in "xyz"), *(f"M{axis}" for axis in "xyz")]
     return [
         "",
-        *sentence(f"Reactions at collapse, forces in {force}, moments about the origin in {force} {length}:"),
+        *sentence(f"Reactions{at_collapse}, forces in {force}, moments about the origin in {force} {length}:"),
         *table(head, [[name, *_components(wrench, load)] for name, wrench in named]),
     ]
 
@@ -148,7 +149,8 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
     joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal, "ties": work.ties}
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
-    settles = load_case.settlement is not None  # the dead load holds the reaction at rest then
+    settles = load_case.settlement is not None and load_case.objective is None  # the dead load has the reaction at rest
     live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")
+    live = live if load_case.objective is None else "force through the cut"
     loads = f"{part(live, work.live)}, {part(dead, work.dead)}"
     return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")

@@ -13,8 +13,9 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
+from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
-from mbla.results.listing.answers import series_lines, worst_words
+from mbla.results.listing.answers import objective_lines, range_words, series_lines, worst_words
 from mbla.results.listing.assessment_words import assessment_lines
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
@@ -138,6 +139,8 @@ def listing(results: Results, *, every_position: bool = False) -> str:
         lines += series_lines(results.model, series)
         if len(detailed) < len(results.cases):
             lines += sentence(ANOTHER_POSITION.format(Path(results.deck.name).stem, series.cases[0].load_case.name))
+    for found in force_ranges_of(results.cases):
+        lines += objective_lines(results.model, found)
     lines += _recap(results)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
@@ -164,6 +167,8 @@ def _recap(results: Results) -> list[str]:
     for case in detailed_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
+    for found in force_ranges_of(results.cases):
+        lines += sentence(range_words(results.model, found))
     left_out = len(results.model.load_cases) - len(results.cases)
     if left_out:
         lines += sentence(f"{counted(left_out, 'load case')} of the deck not run")

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.listing.answers import answer_columns, spread_over_positions, status_words, worst_words
+from mbla.results.force_range import force_ranges_of
+from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
 from mbla.results.listing.assessment_words import assessment_words
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.pushover import curve_words
@@ -68,6 +69,8 @@ def summary_lines(results: Results) -> list[str]:
     for series in series_of(results.cases):
         for words in (worst_words(results.model, series), spread_over_positions(series)):
             lines += sentence(words)
+    for found in force_ranges_of(results.cases):
+        lines += sentence(range_words(results.model, found))
     return lines + warning_summary(results)
 
 

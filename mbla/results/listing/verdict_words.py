@@ -30,6 +30,8 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
 
     ``a reaction of 5232 N`` where a support gives way, ``31.2 degrees of tilt`` for a tilting table.
     """
+    if load_case.objective is not None:
+        return f"a force of {number(answer_value(load_case, load_factor))} {model.units.force}"
     if load_case.settlement is not None:
         return (
             f"a reaction of {number(answer_value(load_case, load_factor))} {reaction_unit(model, load_case.settlement)}"
@@ -53,6 +55,9 @@ def verdict(model: Model, case: CaseResult) -> str:
     value = _known_words(model, case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
     known = _with_extent(model, case, f"{value}, verified" if verified else f"about {value}, approximate")
+    if case.load_case.objective is not None:
+        figure = f"{number(answer_value(case.load_case, mechanics.load_factor))} {model.units.force}"
+        return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
     moves = "follows its support" if case.load_case.settlement is not None else "collapses"
     if np.isfinite(case.checks.peak_load_factor):
         peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
@@ -102,6 +107,10 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
 
 
 def _without_figures(case: CaseResult) -> str:
+    if case.load_case.objective is not None and case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        if case.status is Status.UNBOUNDED:
+            return f"no {case.load_case.objective.end} force: joints lock, and forces of any size fit the loads"
+        return "no equilibrium: the structure does not carry these loads"
     if case.status is Status.NO_EQUILIBRIUM:
         return "no equilibrium: the structure cannot carry its dead load"
     if case.status is Status.UNBOUNDED:
@@ -136,6 +145,9 @@ def bound_words(model: Model, case: CaseResult) -> str:
     ):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
+    if case.load_case.objective is not None:
+        beyond = "no less" if case.load_case.objective.end == "least" else "no more"
+        return f"certain: {beyond} than {value} (a mechanism proves it, whatever the forces)"
     if case.load_case.settlement is not None:
         return f"certain: its support gives way at no less than {value} (valid for every flow rule)"
     return f"certain: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"

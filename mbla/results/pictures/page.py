@@ -37,7 +37,7 @@ REST = "#EDE6D4"
 """blocks that do not move"""
 HINGE, SLIDE, OPEN, CRUSH = VERMILION, GREEN, PURPLE, BLACK
 DEAD_LOAD, LIVE_LOAD = "#7A7A7A", BLUE
-THRUST, RESULTANT = "#0A2FD0", "#5B1A8B"
+THRUST, RESULTANT, OTHER_END = "#0A2FD0", "#5B1A8B", "#B8860B"
 """dark, to be seen through pale blocks"""
 WARNING = "#B00020"
 """marks figures that are no result"""

@@ -13,6 +13,7 @@ from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_o
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
+from mbla.results.force_range import other_end
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
@@ -100,6 +101,14 @@ class Scene(RecordScene):
         loads[load_case.settlement.blocks] = 0.0
         return loads
 
+    @cached_property
+    def other_end(self) -> Scene | None:
+        """Of a force whose least value is drawn the greatest, and the other way round; None where there is none."""
+        other = other_end(self.results.cases, self.case)
+        if other is None or other.solution.mechanics is None:
+            return None
+        return Scene(self.model, self.contacts, other, self.results, np.zeros_like(self.motion), self.shown_cases)
+
     @property
     def forces(self) -> FloatArray | None:
         """Contact forces to draw, (n_points, 3) N: at the load factor, else those that lock or carry the dead load."""
@@ -117,6 +126,8 @@ class Scene(RecordScene):
         if self.mechanics is not None:
             gives = self.case.load_case.settlement is not None
             besides = "as the support gives way" if gives else "and live load times load factor"
+            if self.case.load_case.objective is not None:
+                return f"contact forces of the {self.case.load_case.objective.end} force; others may be possible"
             return f"contact forces under dead load {besides}; others may be possible"
         if self.forces is None:
             return "no contact forces to draw: none were found that carry the loads"

@@ -18,6 +18,7 @@ from mbla.model.model import Model
 from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import tie_rows
+from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
@@ -55,6 +56,7 @@ def results_json(results: Results) -> dict[str, Any]:
         | contacts_json(results),
         "cases": [case_json(scene_of(results, case)) for case in results.cases],
         "series": [series_json(results.model, series) for series in series_of(results.cases)],
+        "objectives": [force_range_json(found) for found in force_ranges_of(results.cases)],
         "settings": results.settings,
         "notices": [notice_json(notice) for notice in notices_of(results)],
         "time": {stage: number(seconds) for stage, seconds in results.time.items()},
@@ -68,7 +70,7 @@ def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, An
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     report = results.contacts.report
     record = results_json(results)
-    for key in ("cases", "series", "files", "complete", "not_done"):
+    for key in ("cases", "series", "objectives", "files", "complete", "not_done"):
         del record[key]
     record["model"] |= {
         "load_cases": [case.name for case in results.model.load_cases],
@@ -255,6 +257,25 @@ def series_json(model: Model, series: Series) -> dict[str, Any]:
         "complete": series.complete,
         "positions": [_position(model, case) for case in series.cases],
         "worst": None if series.worst is None else _position(model, series.worst),
+    }
+
+
+def force_range_json(found: ForceRange) -> dict[str, Any]:
+    """Least and greatest value of a force; a value is null where there is none, and where forces have no limit."""
+    ends: dict[str, Any] = {"least": None, "greatest": None} | {end: _end(case) for end, case in found.ends.items()}
+    objective = next(iter(found.ends.values())).load_case.objective
+    assert objective is not None  # what makes it a force
+    return {"name": found.name, "at": number(objective.at), "status": found.status.value, **ends}
+
+
+def _end(case: CaseResult) -> dict[str, Any]:
+    low, high = end_bounds(case)
+    return {
+        "case": case.load_case.name,
+        "status": case.status.value,
+        "value": number(end_value(case)),
+        "lower_bound": number(low),
+        "upper_bound": number(high),
     }
 
 

@@ -110,7 +110,9 @@ def solve_associative(
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
     if not stress_free or settings.deadline is not None:
-        return _with_dead_load(run, form, answer, proved=False)
+        # where a support gives way, forces at any load factor carry the dead load, with another reaction
+        shown = program.settles and answer.gap is not None and np.isfinite(answer.gap.static)
+        return _with_dead_load(run, form, answer, proved=bool(shown))
     state = stress_free_state(program, settings)
     result = _with_dead_load(run, form, answer, proved=_proves(run, state))
     return replace(result, stress_free=state)

@@ -47,6 +47,8 @@ def contact_resultants(model: Model, contacts: Contacts, contact_forces: FloatAr
         arm = contacts.points[here] - model.blocks.centroids[block]
         on_block = sign * force[here]
         np.add.at(total, block, np.concatenate([on_block, np.cross(arm, on_block)], axis=1))
+    if contacts.cut_of_point is not None:  # the gauge of an objective feels what passes through its cut
+        total[-1, :3] += contacts.cut_of_point @ force
     if contacts.ties is not None:  # N alone, along their lines and at further points
         ties = contacts.ties
         moving = ties.bodies < n_blocks
@@ -71,6 +73,8 @@ def contact_velocities(model: Model, contacts: Contacts, mechanism: FloatArray) 
         arm = contacts.points[here] - model.blocks.centroids[block]
         motion = mechanism[block]
         relative[here] += sign * (motion[:, :3] + np.cross(motion[:, 3:], arm))
+    if contacts.cut_of_point is not None:  # and opens it
+        relative += contacts.cut_of_point[:, None] * mechanism[-1, :3]
     found = np.einsum("pjx,px->pj", contacts.frames, relative)
     if contacts.ties is not None:
         ties = contacts.ties
@@ -206,6 +210,8 @@ def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: Yi
     """Sizes of the loads of one case."""
     arms = lever_arms(model, contacts)
     dead, live = (load_sizes(load, arms) * ~model.fixed for load in (load_case.dead_load, load_case.live_load))
+    if contacts.cut is not None:  # a gauge has none: it holds a force that may be nothing
+        dead[-1] = 0.0
     strength = float((limits.cohesion + limits.tension).sum()) / len(model.free)
     candidates = (dead, np.where(model.fixed, 0.0, strength), live)
     own = next(sizes for sizes in candidates if np.any(sizes > 0))
@@ -220,6 +226,8 @@ def forces_on_blocks(contacts: Contacts, contact_forces: FloatArray, n_blocks: i
     for bodies in bodies_of_points(contacts).T:
         here = bodies < n_blocks
         total += np.bincount(bodies[here], size[here], n_blocks)
+    if contacts.cut_of_point is not None:
+        total[-1] += np.abs(contacts.cut_of_point) @ size
     return total
 
 

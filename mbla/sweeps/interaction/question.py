@@ -169,6 +169,8 @@ def _live_loads(deck: Deck, case: str) -> list[Entry]:
     cases = deck.content.load_cases
     if case not in cases:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
+    if cases[case].objective is not None:
+        raise UsageError("interact-load", f"load case {case}: a force is sought, no load factor")
     if cases[case].settlement is not None:
         raise UsageError("interact-load", f"load case {case}: a support gives way, there is no live load")
     entries = list(entries_of(cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
