@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.tied import tied
@@ -80,6 +80,11 @@ class Strengthening:
     def solids(self, load_case: LoadCase) -> Solids:
         """With all candidates among the contacts."""
         return tied(solids_of(self.model.of_case(load_case), self.contacts))
+
+    def take(self, rows: IntArray) -> Strengthening:
+        """The same with some of the candidates, (n,)."""
+        ties = self.model.ties.take(np.concatenate([np.arange(self.first), self.first + rows]))
+        return replace(self, model=replace(self.model, ties=ties), costs=self.costs[rows], most=self.most[rows])
 
     @property
     def unit(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,7 +21,7 @@ from mbla.model.ties import joined_ties
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
-from tests.analytic.planar import PlanarTie, _equilibrium, _friction, _pulls, _with_moments, rectangles_in_contact, wall
+from tests.analytic.planar import Array, PlanarJoint, PlanarTie, _equilibrium, _friction, _pulls, _with_moments, rectangles_in_contact, wall
 from tests.analytic.test_ties import DENSITY, DEPTH, GRAVITY, SLENDER, WEIGHT, random_tie
 from tests.line import HEAD
 
@@ -123,7 +124,9 @@ def random_case(seed: int) -> tuple[str, float]:
     return deck, least_cost(rectangles_in_contact(bricks, mu), centroids, loads, ties, rates * np.array(lengths))
 
 
-def least_cost(joints, centroids, loads, ties: list[PlanarTie], costs) -> float:  # type: ignore[no-untyped-def]
+def least_cost(
+    joints: Sequence[PlanarJoint], centroids: Array, loads: Sequence[Array], ties: Sequence[PlanarTie], costs: Array
+) -> float:
     """By HiGHS: forces of the joints and tensions of every load case, and one capacity a tie; inf where none suffice."""
     m, k, unit = len(joints), len(ties), float(np.abs(loads[0]).max())
     forces, limits, pulls = _equilibrium(joints, centroids), _friction(joints), _pulls(ties, centroids)

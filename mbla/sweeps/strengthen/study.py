@@ -1,6 +1,7 @@
 """``mbla strengthen``: the cheapest ties with which a structure carries what it has to, as a deck that is analysed.
 
-The capacities of the program are rounded up to a catalogue where there is one. Then the strengthened structure is
+The capacities of the program are rounded up to a catalogue where there is one, and candidates that it hardly uses are
+left out as long as that makes the rest cheaper. Then the strengthened structure is
 analysed by the deck's own flow rule, whose least load factors decide: while one falls short all capacities are raised
 together, by the secant of the load factor that is shortest.
 """
@@ -48,7 +49,10 @@ from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, ch
 
 SHORT = 1e-6
 """share of a required load factor that may be missing: its rounding"""
-MOST_RAISES, LEAST_RAISE, MOST_RAISE = 6, 0.02, 1.0
+MOST_ROUNDS, LITTLE = 10, 0.3
+"""programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
+which a candidate is left out"""
+MOST_RAISES, LEAST_RAISE, MOST_RAISE = 8, 2e-3, 1.0
 """analyses after the first one, and shares by which all capacities are raised at least and at most"""
 
 
@@ -132,7 +136,33 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
     if found.status not in WITH_VALUE:
         none = np.zeros(len(candidates.costs))
         return Strengthened(deck, model, candidates, found, none, 1.0, math.nan, {}, False, 0, ())
+    if section.catalogue is not None:
+        found = with_fewer(question, found, section.catalogue)
     return _analysed(deck, model, candidates, found, options)
+
+
+def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[float]) -> Cheapest:
+    """Capacities that cost less once they are rounded up: of fewer candidates, without those that are hardly used.
+
+    What candidates are worth and what all cost at least stays that of all of them.
+    """
+    best = found.capacities
+    rows = np.flatnonzero(best)
+    for _ in range(MOST_ROUNDS):
+        rounded = rounded_up(best, catalogue)
+        kept = rows[best[rows] >= LITTLE * rounded[rows]]
+        if len(kept) == len(rows):
+            kept = np.delete(rows, np.argmin(best[rows] / rounded[rows]))
+        if not len(kept):
+            break
+        fewer = cheapest(question.take(kept), friction_held=False)
+        capacities = np.zeros_like(best)
+        capacities[kept] = fewer.capacities
+        cost = float(rounded_up(capacities, catalogue) @ question.costs)
+        if fewer.status not in WITH_VALUE or cost >= float(rounded @ question.costs):
+            break
+        best, rows = capacities, np.flatnonzero(capacities)
+    return replace(found, capacities=best, cost=float(best @ question.costs))
 
 
 def refuse_unfit(deck: Deck) -> None:
@@ -202,7 +232,7 @@ def _factor(results: Results, name: str) -> float:
 def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
     """Capacities, (k,), as there are: the next in the catalogue, or as many of the greatest as it takes."""
     if catalogue is None:
-        return capacities * (1.0 + SHORT)
+        return capacities * (1.0 + 10.0 * SHORT)
     values = np.array(catalogue)
     row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
     several = np.ceil(capacities / values[-1] * (1.0 - SHORT))
