@@ -18,6 +18,7 @@ from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterNa
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
+from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
@@ -103,6 +104,7 @@ class DeckContent(Section):
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
+    fill: dict[Name, Fill] = Field(default_factory=dict, description="soil above arches and vaults, by name")
     loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
         default_factory=dict, description="loads by name, for several load cases"
     )

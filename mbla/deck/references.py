@@ -37,6 +37,7 @@ SELECTORS = (
     "contacts.overrides.#.between.#",
     "supports.#.blocks",
     "masses.#.on",
+    "fill.*.on",
     *(f"{loads}.#.on" for loads in LOADS),
     "load_cases.*.settlement.on",
     "load_cases.*.pushover.control.on",
@@ -54,6 +55,7 @@ REFERENCES = (
         for over in ("lintel", "arch")
     ),
     Reference("supports.#.joint", "joint law", BUILT_IN),
+    Reference("fill.*.material", "material"),
     *(
         Reference(f"{place}{form}", "group", (GROUND,) if "between" in place and "group" not in form else ())
         for place in (*SELECTORS, "groups.*")

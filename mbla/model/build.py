@@ -21,8 +21,9 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.model.fill import Fill, build_fill, with_fill
 from mbla.model.interfaces import read_interfaces
-from mbla.model.items import collect_items, defects_in_words
+from mbla.model.items import collect_items, defects_in_words, density_of
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
@@ -56,6 +57,7 @@ def build_model(deck: Deck) -> Model:
         grounds=supports.grounds,
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
+        fill=structure.fill.bodies if structure.fill else {},
     )
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
@@ -73,6 +75,7 @@ def build_model(deck: Deck) -> Model:
         guides=supports.guides,
         interfaces=interfaces,
         bent=structure.bent,
+        fill=structure.fill,
     )
     return with_images(deck, model)
 
@@ -103,6 +106,7 @@ class Structure:
     """Blocks by name, with the masses that rest on them, and what holds them; faults go to the roster.
 
     bent          : faces that were split
+    fill          : soil on the blocks, None for none
     first_notices : before those on joint laws
     """
 
@@ -110,6 +114,7 @@ class Structure:
     supports: Supports
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
+    fill: Fill | None
     first_notices: tuple[Notice, ...]
 
 
@@ -157,9 +162,13 @@ def _build(deck: Deck) -> Structure:
     interfaces = read_interfaces(deck, roster, supports.grounds)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    fill = build_fill(deck, densities, roster, supports.fixed)
+    if fill is not None:
+        roster = replace(roster, blocks=with_fill(roster.blocks, fill))
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []))
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, first)  # places are those of one deck
+    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, fill, first)  # places are those of one deck
 
 
 UNLIMITED = 1e6

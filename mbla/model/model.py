@@ -11,6 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
+from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
@@ -236,6 +237,7 @@ class Model:
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
     bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
+    fill        : soil that blocks carry, counted among their added masses; None for none
     """
 
     title: str
@@ -250,6 +252,7 @@ class Model:
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
     interfaces: PrescribedInterfaces | None = None
     bent: BentFaces = NO_BENT_FACES
+    fill: Fill | None = None
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -19,6 +19,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
+from mbla.model.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
@@ -33,6 +34,7 @@ class LoadSite:
     grounds : planes of rigid ground
     named   : loads of the deck by name
     tolerance : of contacts, relative to block size
+    fill    : fills by name, through which loads spread
     """
 
     roster: Roster
@@ -42,6 +44,7 @@ class LoadSite:
     grounds: tuple[Ground, ...] = ()
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3
+    fill: Mapping[str, FillBody] = field(default_factory=dict)
 
     @property
     def blocks(self) -> Blocks:

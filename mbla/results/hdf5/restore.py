@@ -17,6 +17,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
+from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import BlockLabels, Blocks
@@ -112,7 +113,16 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
         load_cases=load_cases,
         notices=_notices(_part(get, "notices/")),
         guides=_guides(get),
+        fill=_fill(get),
     )
+
+
+def _fill(get: dict[str, Any]) -> Fill | None:
+    if "fill_masses" not in get:
+        return None
+    if np.any(get["fill_masses"] > get["added_masses"] * (1.0 + ROUNDING)):
+        raise ValueError("mass of the fill on a block")
+    return Fill(get["fill_masses"], get["fill_points"], tuple(get["fill_words"]))
 
 
 def _guides(get: dict[str, Any]) -> Guides:

@@ -1,0 +1,60 @@
+"""Section `fill`: soil above arches and vaults, by its top surface and the blocks that it lies on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from pydantic import Field
+
+from mbla.deck.quantities import Direction, Length, Name, Point, SpreadAngle
+from mbla.deck.section import Section, exactly_one_of, rule
+from mbla.deck.sections.selectors import Selector
+from mbla.errors import Finding
+
+UPRIGHT = 1e-6
+"""cosine of the angle between the top surface and a wall, up to which it is one"""
+
+
+class TopPlane(Section):
+    """A plane that slopes, as of a road on a gradient."""
+
+    point: Point = Field(description="a point on it")
+    normal: Direction = Field(description="normal, upwards")
+
+
+class Dispersal(Section):
+    """How a load on top of the fill spreads on its way down: along straight lines from where it stands, as far as the
+    angle, in the ways of `law`. The 1:2 rule is `law: uniform` with an angle of 26.565 degrees.
+    """
+
+    law: Literal["boussinesq", "uniform"] = Field(
+        "boussinesq",
+        description="boussinesq: as the vertical stress under a line load on an elastic half-space, cut off at the "
+        "angle; uniform: the same everywhere within it",
+    )
+    angle: SpreadAngle = Field(30.0, description="to both sides of the vertical, in degrees; nothing beyond")
+
+
+@exactly_one_of("level", "surface")
+class Fill(Section):
+    """Soil on the upward faces of blocks up to a top surface: exactly one of level and surface.
+
+    The column of soil over each piece of a face, along z, is a mass that moves with the block under it, at the middle
+    of the column: gravity and accelerations act on it. A face carries it where no other block lies above it; of a face
+    that the top surface cuts only what is below. Loads that name the fill with `through` spread in it.
+    """
+
+    on: Selector = Field(description="blocks whose upward faces carry it")
+    material: Name = Field(description="material of section materials, for its density")
+    level: Length | None = Field(None, description="height z of its top, where that is level")
+    surface: TopPlane | None = Field(None, description="its top, where that slopes")
+    dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on top of it spread")
+
+
+@rule(TopPlane)
+def top_upwards(plane: TopPlane) -> Iterator[Finding]:
+    """Fill lies below its top."""
+    size = max(map(abs, plane.normal))
+    if plane.normal[2] / size <= UPRIGHT:
+        yield Finding("out-of-bounds", "must point upwards: fill lies below its top surface", "normal", 2)
