@@ -24,6 +24,7 @@ from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Support, SymmetryPlane
+from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.text.include import MAX_FILES
 from mbla.errors import Finding
 
@@ -105,6 +106,7 @@ class DeckContent(Section):
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
     fill: dict[Name, Fill] = Field(default_factory=dict, description="soil above arches and vaults, by name")
+    vehicles: dict[Name, Vehicle] = Field(default_factory=dict, description="vehicles by name")
     loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
         default_factory=dict, description="loads by name, for several load cases"
     )

@@ -58,6 +58,7 @@ def build_model(deck: Deck) -> Model:
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
         fill=structure.fill.bodies if structure.fill else {},
+        vehicles=deck.content.vehicles,
     )
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
@@ -135,6 +136,7 @@ def _bare(deck: Deck) -> Deck:
             "title": "",
             "parameters": {},
             "joints": dict.fromkeys(deck.content.joints, NO_LAW),
+            "vehicles": {},
             "loads": {},
             "load_cases": {},
             "analysis": AnalysisSection(),

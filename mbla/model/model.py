@@ -56,7 +56,8 @@ class TravelPosition:
     points    : (n_axles, 3) m, where each axle stands, the first one first; off the path straight on from its ends
     distances : (n_axles,) m, of each from the beginning of the path; negative before it
     forces    : (n_axles, 3) N; those that are off the path do not act
-    blocks    : (n_axles,) that carry them; -1 off the path
+    blocks    : (n_axles,) that carry them, or most of them; -1 off the path, and where none does
+    spread    : they are shared between blocks, by the width of the axles or by fill
     """
 
     series: str
@@ -66,6 +67,7 @@ class TravelPosition:
     distances: FloatArray
     forces: FloatArray
     blocks: IntArray
+    spread: bool = False
 
     @property
     def point(self) -> FloatArray:

@@ -38,7 +38,7 @@ from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 
 ON_MASSES = ("gravity", "acceleration")
-AT_PLACES = ("force", "moment", "line", "pressure")
+AT_PLACES = ("force", "moment", "line", "pressure", "vehicle")
 """kinds of loads that have to lie in the plane, and those of which images are taken"""
 
 ACROSS = 1e-9
@@ -81,6 +81,9 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
     live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
     for entry in (*with_gravity(dead, path, deck.units), *live):
         kind = given(entry.load, EXACTLY_ONE[Load])[0]
+        if entry.load.through is not None:
+            message = "a load that spreads in fill may do so across a plane of symmetry: give the whole structure"
+            yield Finding("symmetry-broken", message, *entry.path, "through")
         if kind in AT_PLACES:
             continue
         message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"

@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from mbla.deck.quantities import Direction, Length, Name, Point, SpreadAngle
+from mbla.deck.quantities import Direction, Length, Name, Point, PositiveLength, SpreadAngle
 from mbla.deck.section import Section, exactly_one_of, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
@@ -34,6 +34,11 @@ class Dispersal(Section):
         "angle; uniform: the same everywhere within it",
     )
     angle: SpreadAngle = Field(30.0, description="to both sides of the vertical, in degrees; nothing beyond")
+    contact: PositiveLength | None = Field(
+        None,
+        description="uniform: length over which a load stands on the top, such as 0.3 m of a wheel, of a force in both "
+        "directions; it spreads from there; none unless given",
+    )
 
 
 @exactly_one_of("level", "surface")
@@ -50,6 +55,13 @@ class Fill(Section):
     level: Length | None = Field(None, description="height z of its top, where that is level")
     surface: TopPlane | None = Field(None, description="its top, where that slopes")
     dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on top of it spread")
+
+
+@rule(Dispersal)
+def contact_of_uniform(dispersal: Dispersal) -> Iterator[Finding]:
+    """The lines of Boussinesq come from one place."""
+    if dispersal.contact is not None and dispersal.law != "uniform":
+        yield Finding("key-of-another-choice", "applies to law: uniform only", "contact")
 
 
 @rule(TopPlane)

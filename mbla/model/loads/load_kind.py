@@ -16,6 +16,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.loads import Load
+from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
@@ -35,6 +36,7 @@ class LoadSite:
     named   : loads of the deck by name
     tolerance : of contacts, relative to block size
     fill    : fills by name, through which loads spread
+    vehicles : of the deck by name
     """
 
     roster: Roster
@@ -45,6 +47,7 @@ class LoadSite:
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3
     fill: Mapping[str, FillBody] = field(default_factory=dict)
+    vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
 
     @property
     def blocks(self) -> Blocks:

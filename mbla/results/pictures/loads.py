@@ -142,6 +142,8 @@ def marks_of_load(
         points = np.vstack([points, travel.points[acting]])
     if len(under):
         tips, both = _entries(model, under, points, forces), np.column_stack([under, under])
+        if travel is not None and travel.spread:  # the axles on top, and below what lands of them
+            tips[len(tips) - int(acting.sum()) :] = travel.points[acting]
         found.append(arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under)))
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > NOTHING * _moment_size(model, loads))
     if len(turned):
