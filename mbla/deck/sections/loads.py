@@ -195,7 +195,7 @@ class Load(Section):
     )
     through: Name | None = Field(
         None,
-        description="line, vehicle, travel: the fill on which they stand, straight above or below where they are drawn, "
+        description="line, vehicle, travel: the fill on which they stand, straight over or under where they are drawn, "
         "and in which they spread; their forces are vertical",
     )
     at: Point | None = Field(

@@ -92,7 +92,9 @@ def spread(body: FillBody, place: FloatArray, along: FloatArray, width: float) -
     extent = float(np.abs(local[..., :2]).max())
     local[..., 2] += float(body.tops(place)) - place[2] + slope * local[..., 1] + lifted + HAIR * extent
     pieces, owner = _reached(local, most, width)
-    rows, images = _visible(pieces, line)
+    if not len(owner):
+        return None
+    rows, images = _visible(pieces, line, most * (width or most))
     if not len(rows):
         return None
     shares, points = _integrals(pieces, rows, images, law, width)
@@ -127,8 +129,10 @@ def _reached(local: FloatArray, most: float, width: float) -> tuple[_Pieces, Int
     return _Pieces(loops[left], np.column_stack([at_load, slopes])), left
 
 
-def _visible(pieces: _Pieces, line: bool) -> tuple[IntArray, Any]:
-    """Pieces that the load sees, (m,), and their images less what lies behind other pieces, (m,)."""
+def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
+    """Pieces that the load sees, (m,), and their images less what lies behind other pieces, (m,); ``size`` is an area
+    of images, to which others are relative.
+    """
     import shapely
 
     loops = pieces.loops
@@ -137,13 +141,13 @@ def _visible(pieces: _Pieces, line: bool) -> tuple[IntArray, Any]:
         on = np.roll(loops, -1, axis=1)
         loops = (loops[:, :, None] + parts * (on - loops)[:, :, None]).reshape(len(loops), -1, 3)
     flat = np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=2)
-    rows = np.flatnonzero(signed_areas(flat) > NOTHING**2)
+    rows = np.flatnonzero(signed_areas(flat) > NOTHING * size)
     images = np.atleast_1d(shapely.polygons(flat[rows]))
     images = np.where(shapely.is_valid(images), images, shapely.make_valid(images))
     one, other = shapely.STRtree(images).query(images, predicate="intersects")
     one, other = one[one < other], other[one < other]
     common = shapely.intersection(images[one], images[other])
-    twice = shapely.area(common) > NOTHING * shapely.area(images[one])
+    twice = shapely.area(common) > NOTHING * size
     for first, second, both in zip(one[twice], other[twice], common[twice], strict=True):
         middle = np.array([both.centroid.coords[0]] * 2)
         depths = pieces.depths(rows[[first, second]], middle, line)
@@ -181,7 +185,7 @@ def _integrals(
     depths = pieces.depths(np.repeat(rows[image], len(weight)), flat, line)
     across = flat[:, 1] if line else flat[:, 1] * depths
     landed = np.stack([flat[:, 0] * depths, across, depths], axis=1).reshape(*own.shape, 3)
-    shares = np.bincount(image, own.sum(axis=1), len(rows))
+    shares = summed(image, own.sum(axis=1), len(rows))
     moments = summed(image, (own[..., None] * landed).sum(axis=1), len(rows))
     return shares, moments / np.where(shares > 0.0, shares, 1.0)[:, None]
 
