@@ -166,8 +166,11 @@ class Arch:
     points: Array
 
 
-def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float | None:
-    """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``."""
+def arch_load_factor(arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None) -> float | None:
+    """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``.
+
+    live, dead : as of ``load_factor``; the dead load is the weight unless given
+    """
     joints = []
     n = len(arch.weights)
     for i, angle in enumerate(arch.angles):
@@ -175,7 +178,7 @@ def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float 
         normal = np.array([np.cos(angle), -np.sin(angle)])  # direction of travel along the arch
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
-    dead = np.outer(arch.weights, [0.0, -1.0])
+    dead = np.outer(arch.weights, [0.0, -1.0]) if dead is None else dead
     return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live)
 
 

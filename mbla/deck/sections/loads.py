@@ -246,7 +246,7 @@ def _through_fill(load: Load, kind: str) -> Iterator[Finding]:
     if load.follows:
         yield Finding("key-of-another-choice", "does not apply with through: fill does not turn with blocks", "follows")
     if "towards" in getattr(load, kind).model_fields_set:
-        words = "does not apply with through: fill is spread straight down"
+        words = "does not apply with through: in fill a load spreads straight down"
         yield Finding("key-of-another-choice", words, kind, "towards")
 
 

@@ -1,0 +1,94 @@
+"""The arch under fill of decks/benchmarks/closed_forms by a thrust-line program that shares nothing with mbla.
+
+The extrados is a polygon of chords. Weights of soil are trapezia between it and the top. Of a load on the top what goes
+down between two rays, by the radial stress of Boussinesq under a line load, lands between them: on a chord that is
+
+    K(t) = [θ + sin θ cos θ] / (2 [α + sin α cos α]),   θ = atan t within ±α,   t = (x - x₀) / depth
+
+from one end to the other, and its moment ∫ x dK along the chord is integrated by scipy.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from mbla.deck import read_deck
+from tests.analytic.planar import Arch, Array, arch_load_factor, polygon_arch
+from tests.decks.folder import BENCHMARKS
+
+SPAN, RISE, THICKNESS, WIDTH, FRICTION, TOP, VOUSSOIRS = 6.0, 1.5, 0.45, 2.5, 0.6, 2.5, 25
+STONE, EARTH = 22.0, 18.0
+ALPHA = np.pi / 6
+LOADS = {"quarter": [(1.5, WIDTH)], "lorry": [(2.4, 60.0), (1.2, 115.0)]}
+"""places x and forces, all over the width"""
+
+
+@cache
+def arch() -> Arch:
+    """About its centre, with the weights of its voussoirs."""
+    radius = (SPAN**2 / 4 + RISE**2) / (2 * RISE)
+    embrace = 2 * np.arcsin(SPAN / 2 / radius)
+    drawn = polygon_arch(radius, radius + THICKNESS, float(embrace), VOUSSOIRS)
+    return Arch(drawn.inner, drawn.outer, drawn.angles, drawn.weights * STONE * WIDTH, drawn.points)
+
+
+def corners() -> tuple[Array, Array]:
+    """Ends of the chords of the extrados, x from the left springing of the intrados and the depth below the top."""
+    x = SPAN / 2 + arch().outer * np.sin(arch().angles)
+    z = arch().outer * np.cos(arch().angles) - (arch().inner - RISE)
+    return x, TOP - z
+
+
+def with_fill() -> Array:
+    """Forces and moments x Fz - z Fx of own weight and fill on each voussoir, (n, 3)."""
+    x, h = corners()
+    area = np.diff(x) * (h[:-1] + h[1:]) / 2
+    first = np.diff(x) * (x[:-1] * (2 * h[:-1] + h[1:]) + x[1:] * (h[:-1] + 2 * h[1:])) / 6
+    soil = EARTH * WIDTH * area
+    arms = first / area - SPAN / 2 - arch().points[:, 0]
+    none = np.zeros_like(soil)
+    return np.column_stack([none, -arch().weights - soil, -soil * arms])
+
+
+def up_to(slope: float) -> float:
+    """K."""
+    theta = np.arctan(np.clip(slope, -np.tan(ALPHA), np.tan(ALPHA)))
+    return float((theta + np.sin(theta) * np.cos(theta)) / 2 / (ALPHA + np.sin(ALPHA) * np.cos(ALPHA)))
+
+
+def lever(t: float, at_load: float, slope: float) -> float:
+    """Density of K times the distance from the load at which a ray lands on a chord."""
+    density = 1 / (1 + t**2) ** 2 / (ALPHA + np.sin(ALPHA) * np.cos(ALPHA))
+    return float(density * t * at_load / (1 - slope * t))
+
+
+def landed(place: float, force: float) -> Array:
+    """Of a load on the top, (n, 3)."""
+    x, h = corners()
+    found = []
+    for row in range(VOUSSOIRS):
+        slope = float(np.diff(h)[row] / np.diff(x)[row])
+        at_load = float(h[row] + slope * (place - x[row]))
+        begin, end = (float(np.clip((x[i] - place) / h[i], -np.tan(ALPHA), np.tan(ALPHA))) for i in (row, row + 1))
+        share = up_to(end) - up_to(begin)
+        moment = quad(lever, begin, end, args=(at_load, slope), epsabs=1e-13)[0]
+        found.append([0.0, -force * share, -force * (moment + share * (place - SPAN / 2 - arch().points[row, 0]))])
+    return np.array(found)
+
+
+def program(case: str) -> float:
+    """Greatest load factor."""
+    live = np.sum([landed(place, force) for place, force in LOADS[case]], axis=0)
+    factor = arch_load_factor(arch(), FRICTION, live, with_fill())
+    assert factor is not None
+    return factor
+
+
+@pytest.mark.parametrize("case", LOADS)
+def test_the_deck_agrees_with_the_program(case: str) -> None:
+    expected = read_deck(BENCHMARKS["filled_arch"]).content.expected[case]
+    assert program(case) == pytest.approx(expected.load_factor, rel=3e-8)
