@@ -10,6 +10,7 @@ from pathlib import Path
 from mbla.contacts import Contacts
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
 from mbla.model import Model, build_model
@@ -133,7 +134,7 @@ def solve_case(
 
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
-    solids = solids_of(moving, contacts)
+    solids = tied(solids_of(moving, contacts))
     for case in trials:
         program = build_program(solids, case, deck.analysis)
         solution = solve(program, settings, log)

@@ -21,6 +21,7 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.model.build_ties import build_ties
 from mbla.model.fill import Fill, build_fill, with_fill
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words, density_of
@@ -62,6 +63,7 @@ def build_model(deck: Deck) -> Model:
     )
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
+    ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
     if roster.faults:
         raise DeckError(roster.faults)
     model = Model(
@@ -75,6 +77,7 @@ def build_model(deck: Deck) -> Model:
         notices=(*structure.first_notices, *roster.notices),
         guides=supports.guides,
         interfaces=interfaces,
+        ties=ties,
         bent=structure.bent,
         fill=structure.fill,
     )
@@ -138,6 +141,7 @@ def _bare(deck: Deck) -> Deck:
             "joints": dict.fromkeys(deck.content.joints, NO_LAW),
             "vehicles": {},
             "loads": {},
+            "ties": [],
             "load_cases": {},
             "analysis": AnalysisSection(),
             "output": OutputSection(),

@@ -215,6 +215,8 @@ class Mechanics:
     interface_motions  : convex contact model only: (n_interfaces, 2, 6) motion of each interface that torsion [0] and
                          crushing [1] allow it, dual to the resultants: opening, slips, rotations about normal, tangent
                          1 and tangent 2, scaled as mechanism; the contact points move by the rest
+    tie_forces         : (n_ties,) N, tension positive, nan where a tie is between what does not move; None without ties
+    tie_rates          : (n_ties,) their elongation rates, scaled as mechanism
     """
 
     load_factor: float
@@ -224,11 +226,16 @@ class Mechanics:
     modes: IntArray
     resultants: FloatArray | None = None
     interface_motions: FloatArray | None = None
+    tie_forces: FloatArray | None = None
+    tie_rates: FloatArray | None = None
 
 
 @dataclass(frozen=True)
 class Solution:
     """Answer of the solver stage for one load case, before verification.
+
+    Forces of a lock, a level lock, the standing structure and of steps of a pushover have those of ties as contact
+    points (:mod:`mbla.contacts.tied`) behind the n_points of the interfaces.
 
     status      : what the solver stage claims; never better than what ``verify`` confirms
     mechanics   : by the deck's flow rule; None where there is no load factor

@@ -24,6 +24,7 @@ from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
+from mbla.model.ties import NO_TIES, OUTSIDE, Ties
 from mbla.results.hdf5.case_restore import case_from, held
 from mbla.results.hdf5.content import RECORD_NAMES
 from mbla.results.hdf5.layout import Content
@@ -114,6 +115,7 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
         notices=_notices(_part(get, "notices/")),
         guides=_guides(get),
         fill=_fill(get),
+        ties=_ties(get),
     )
 
 
@@ -123,6 +125,18 @@ def _fill(get: dict[str, Any]) -> Fill | None:
     if np.any(get["fill_masses"] > get["added_masses"] * (1.0 + ROUNDING)):
         raise ValueError("mass of the fill on a block")
     return Fill(get["fill_masses"], get["fill_points"], tuple(get["fill_words"]))
+
+
+def _ties(get: dict[str, Any]) -> Ties:
+    if "tie_names" not in get:
+        return NO_TIES
+    arrays = {name: get[f"tie_{name}"] for name in Ties.__dataclass_fields__}
+    ties = Ties(**{**arrays, "names": tuple(arrays["names"]), "forms": tuple(arrays["forms"])})
+    if np.any(np.diff(ties.start) < 2) or np.any((ties.bodies < OUTSIDE) | (ties.bodies >= len(get["fixed"]))):
+        raise ValueError("points of a tie")
+    if np.any(ties.least > ties.greatest) or np.any((ties.prestress < 0) | (ties.breaks_at < 0)):
+        raise ValueError("forces of a tie")
+    return ties
 
 
 def _guides(get: dict[str, Any]) -> Guides:

@@ -27,6 +27,7 @@ from mbla.results.listing.text import (
     small,
     table,
 )
+from mbla.results.listing.tie_words import tie_lines
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
@@ -95,6 +96,8 @@ def model_lines(model: Model) -> list[str]:
         lines += [line for words in model.fill.words for line in entry("fill", f"{words}; {counts}")]
     lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
+    if ties := tie_lines(model):
+        lines += heading("Ties") + ties
     lines += heading("Loads")
     for case in model.load_cases:
         lines += sentence(f"{case.name}")
