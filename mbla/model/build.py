@@ -23,6 +23,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.build_ties import build_ties
 from mbla.model.fill import Fill, build_fill, with_fill
+from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words, density_of
 from mbla.model.loads import LoadSite, build_load_cases
@@ -35,6 +36,7 @@ from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
+from mbla.model.ties import joined_ties
 from mbla.model.wording import named, vector
 from mbla.process.sharing import once
 
@@ -64,6 +66,8 @@ def build_model(deck: Deck) -> Model:
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
     ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
+    if structure.fill is not None:
+        ties = joined_ties([ties, *fill_struts(structure.fill.bodies.values(), roster, supports.fixed)])
     if roster.faults:
         raise DeckError(roster.faults)
     model = Model(

@@ -19,7 +19,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
-from mbla.deck.sections.fill import Dispersal
+from mbla.deck.sections.fill import Dispersal, Passive
 from mbla.deck.sections.fill import Fill as FillSection
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
@@ -28,6 +28,8 @@ from mbla.model.solids.plane import cut, signed_areas, unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.wording import counted, named
 
+ROUNDING = 1e-12
+"""volume over that of all columns on the block below which a column is none"""
 UPWARD = 1e-6
 """vertical component of the unit normal of a face, up to which it is upright and carries nothing"""
 
@@ -38,8 +40,10 @@ class FillBody:
 
     point, normal : (3,) of its top plane, normal unit and upwards
     triangles     : (n, 3, 3) pieces of faces, counter-clockwise seen from above; they may reach above the top
-    blocks        : (n,) block of each
+    blocks, faces : (n,) block and face of each
+    unit_weight   : force per volume under standard gravity
     dispersal     : how loads on it spread
+    passive       : how it holds blocks sideways, None where it does not
     """
 
     name: str
@@ -47,7 +51,10 @@ class FillBody:
     normal: FloatArray
     triangles: FloatArray
     blocks: IntArray
+    faces: IntArray
+    unit_weight: float
     dispersal: Dispersal
+    passive: Passive | None
 
     def tops(self, points: FloatArray) -> FloatArray:
         """Height of the top surface at points (..., 2 or 3), (...)."""
@@ -57,6 +64,25 @@ class FillBody:
     def depths(self, points: FloatArray) -> FloatArray:
         """Of points (..., 3) below the top, (...); negative above it."""
         return np.asarray(self.tops(points) - points[..., 2])
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns of one fill, n of them.
+
+    rows      : (n,) pieces of faces of the fill that they stand on; blocks : (n,)
+    volumes   : (n,); centroids : (n, 3)
+    depths    : (n, 2) least and greatest height
+    areas     : (n,) of the pieces below the top, seen from above; middles : (n, 3) of these pieces
+    """
+
+    rows: IntArray
+    blocks: IntArray
+    volumes: FloatArray
+    centroids: FloatArray
+    depths: FloatArray
+    areas: FloatArray
+    middles: FloatArray
 
 
 @dataclass(frozen=True)
@@ -76,40 +102,52 @@ class Fill:
 
 
 def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed: BoolArray) -> Fill | None:
-    """All fills of the deck on its blocks; None where it has none. Refuses those that lie on nothing.
+    """All fills of the deck on its blocks; None where it has none. Refuses fill on nothing, and two fills on one face.
 
     densities : of materials by name
     fixed     : (n_blocks,) blocks that do not move
     """
     if not deck.content.fill:
         return None
-    rows, masses, points, words, bodies = [np.empty(0, np.int64)], [np.empty(0)], [np.empty((0, 3))], [], {}
+    blocks, units = roster.blocks, deck.units
+    found: dict[str, tuple[FillBody, Columns]] = {}
     for name, section in deck.content.fill.items():
         chosen = select_blocks(section.on, ("fill", name, "on"), roster)
         if chosen is None:
             continue
-        body = _body(name, section, chosen, roster.blocks, deck.contacts.tolerance)
-        blocks, volumes, centroids, depths = columns(body, roster.blocks)
-        if not len(blocks):
-            if not roster.partial:
-                message = (
-                    "lies on nothing: no free upward face of these blocks is below its top; look at on and its top"
-                )
-                roster.refuse(Finding("fill-on-nothing", message, "fill", name))
-            continue
-        own = densities[section.material] * volumes
-        bodies[name] = body
-        rows, masses, points = [*rows, blocks], [*masses, own], [*points, centroids]
-        words.append(_in_words(section, body, float(own.sum()), np.unique(blocks), depths, deck, roster.blocks))
-        if fixed[blocks].all() and not fixed.all():
-            message = (
-                f"the fill {name} on {named(np.unique(blocks), roster.blocks.name)} has no effect: nothing of it moves"
+        weight = densities[section.material] * units.standard_gravity * units.force_per_mass_acceleration
+        body = _body(name, section, weight, chosen, blocks, deck.contacts.tolerance)
+        own = columns(body, blocks)
+        if len(own.rows):
+            _refuse_twice(body, own, found, roster)
+            found[name] = body, own
+        elif not roster.partial:
+            message = "lies on nothing: no free upward face of these blocks is below its top; look at on and its top"
+            roster.refuse(Finding("fill-on-nothing", message, "fill", name))
+        if len(own.rows) and fixed[own.blocks].all() and not fixed.all():
+            where = named(np.unique(own.blocks), blocks.name)
+            roster.remark(
+                Notice("warning", "mass-on-support", f"the fill {name} on {where} has no effect: nothing of it moves")
             )
-            roster.remark(Notice("warning", "mass-on-support", message))
+    masses = [densities[deck.content.fill[name].material] * own.volumes for name, (_, own) in found.items()]
     total, centres = carried_masses(
-        roster.blocks.centroids, np.concatenate(rows), np.concatenate(masses), np.concatenate(points)
+        blocks.centroids,
+        np.concatenate([np.empty(0, np.int64), *(own.blocks for _, own in found.values())]),
+        np.concatenate([np.empty(0), *masses]),
+        np.concatenate([np.empty((0, 3)), *(own.centroids for _, own in found.values())]),
     )
-    return Fill(total, centres, tuple(words), bodies)
+    words = tuple(_in_words(deck.content.fill[name], *each, deck, blocks) for name, each in found.items())
+    return Fill(total, centres, words, {name: body for name, (body, _) in found.items()})
+
+
+def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], roster: Roster) -> None:
+    """A fault where a face carries another fill already."""
+    for name, (other, theirs) in others.items():
+        both = np.intersect1d(body.faces[own.rows], other.faces[theirs.rows])
+        if len(both):
+            where = named(np.unique(roster.blocks.block_of_face[both]), roster.blocks.name)
+            words = f"lies where {name} does, on {where}: give layers as one fill of their mean density"
+            roster.refuse(Finding("fill-on-fill", words, "fill", body.name))
 
 
 def with_fill(blocks: Blocks, fill: Fill) -> Blocks:
@@ -120,35 +158,31 @@ def with_fill(blocks: Blocks, fill: Fill) -> Blocks:
     return replace(blocks, added_masses=masses, added_mass_points=centres)
 
 
-def _in_words(
-    section: FillSection,
-    body: FillBody,
-    mass: float,
-    blocks: IntArray,
-    depths: FloatArray,
-    deck: Deck,
-    all_blocks: Blocks,
-) -> str:
-    units = deck.units
-    weight = mass * units.standard_gravity * units.force_per_mass_acceleration
-    groups = list(dict.fromkeys(all_blocks.groups[block] for block in blocks.tolist()))
+def _in_words(section: FillSection, body: FillBody, own: Columns, deck: Deck, blocks: Blocks) -> str:
+    units, under = deck.units, np.unique(own.blocks)
+    groups = list(dict.fromkeys(blocks.groups[block] for block in under.tolist()))
     where = f"z = {section.level:.6g} {units.length}" if section.level is not None else "its sloping top"
-    return (
-        f"{body.name}: {section.material} below {where}, {depths.min():.4g} to {depths.max():.4g} {units.length} deep "
-        f"on {counted(len(blocks), 'block')} of {', '.join(groups)}; weight {weight:.6g} {units.force}"
-    )
+    depths = f"{own.depths.min():.4g} to {own.depths.max():.4g} {units.length} deep"
+    weight = f"weight {body.unit_weight * float(own.volumes.sum()):.6g} {units.force}"
+    place = f"on {counted(len(under), 'block')} of {', '.join(groups)}"
+    return f"{body.name}: {section.material} below {where}, {depths} {place}; {weight}"
 
 
-def _body(name: str, section: FillSection, chosen: IntArray, blocks: Blocks, tolerance: float) -> FillBody:
+def _body(
+    name: str, section: FillSection, unit_weight: float, chosen: IntArray, blocks: Blocks, tolerance: float
+) -> FillBody:
     if section.surface is None:
         point, normal = np.array([0.0, 0.0, section.level]), np.array([0.0, 0.0, 1.0])
     else:
         point, normal = np.array(section.surface.point), unit(section.surface.normal)
-    body = FillBody(name, point, normal, np.empty((0, 3, 3)), np.empty(0, np.int64), section.dispersal)
+    none = np.empty(0, np.int64)
+    body = FillBody(
+        name, point, normal, np.empty((0, 3, 3)), none, none, unit_weight, section.dispersal, section.passive
+    )
     faces = items_of_rows(blocks.face_start, chosen)
     faces = faces[blocks.face_normals[faces, 2] > UPWARD]
     triangles, row = _free_triangles(faces, body, blocks, tolerance)
-    return replace(body, triangles=triangles, blocks=blocks.block_of_face[faces[row]])
+    return replace(body, triangles=triangles, blocks=blocks.block_of_face[faces[row]], faces=faces[row])
 
 
 def _plans(faces: IntArray, blocks: Blocks) -> Any:
@@ -200,8 +234,8 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
     return np.concatenate([flat, _heights(faces[row], flat, blocks)[..., None]], axis=2), row.astype(np.int64)
 
 
-def columns(body: FillBody, blocks: Blocks) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
-    """Columns of the fill: block (n,), volume (n,), centroid (n, 3), and least and greatest depth, (n, 2)."""
+def columns(body: FillBody, blocks: Blocks) -> Columns:
+    """Columns of the fill on the pieces of faces that lie below its top."""
     origins = blocks.centroids[body.blocks]
     depths = body.depths(body.triangles)
     local = np.concatenate([body.triangles - origins[:, None], depths[..., None]], axis=2)
@@ -209,13 +243,21 @@ def columns(body: FillBody, blocks: Blocks) -> tuple[IntArray, FloatArray, Float
     a, b, c = np.broadcast_arrays(loops[:, :1], loops[:, 1:-1], loops[:, 2:])
     ab, ac = (b - a)[..., :2], (c - a)[..., :2]
     areas = (ab[..., 0] * ac[..., 1] - ab[..., 1] * ac[..., 0]) / 2
-    volumes, moments = np.zeros(len(loops)), np.zeros((len(loops), 3))
+    plan, volumes = areas.sum(axis=1), np.zeros(len(loops))
+    moments, middles = np.zeros((2, len(loops), 3))
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
         share = areas / 3 * middle[..., 3]
         volumes += share.sum(axis=1)
         lifted = middle[..., :3] + np.array([0.0, 0.0, 0.5]) * middle[..., 3:]
         moments += (share[..., None] * lifted).sum(axis=1)
-    kept = np.flatnonzero(volumes > 1e-12 * summed(body.blocks, volumes, len(blocks))[body.blocks])
-    ends = np.stack([loops[kept, :, 3].min(axis=1), loops[kept, :, 3].max(axis=1)], axis=1)
-    centroids = origins[kept] + moments[kept] / volumes[kept, None]
-    return body.blocks[kept], volumes[kept], centroids, ends
+        middles += (areas[..., None] / 3 * middle[..., :3]).sum(axis=1)
+    kept = np.flatnonzero(volumes > ROUNDING * summed(body.blocks, volumes, len(blocks))[body.blocks])
+    return Columns(
+        rows=kept,
+        blocks=body.blocks[kept],
+        volumes=volumes[kept],
+        centroids=origins[kept] + moments[kept] / volumes[kept, None],
+        depths=np.stack([loops[kept, :, 3].min(axis=1), loops[kept, :, 3].max(axis=1)], axis=1),
+        areas=plan[kept],
+        middles=origins[kept] + middles[kept] / plan[kept, None],
+    )

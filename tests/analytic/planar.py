@@ -48,21 +48,38 @@ class Rectangle:
         return np.array([(self.left + self.right) / 2, (self.bottom + self.top) / 2])
 
 
-def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array) -> float | None:
+@dataclass(frozen=True)
+class Push:
+    """A force on a block along a direction, at a point, between two limits."""
+
+    body: int
+    point: Array
+    direction: Array
+    least: float
+    most: float
+
+
+def load_factor(
+    joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array, pushes: Sequence[Push] = ()
+) -> float | None:
     """Greatest factor on ``live`` in equilibrium with ``dead``; None where there is none, inf where there is no limit.
 
     centroids : (n, 2); dead, live : (n, 2) forces at the centroids, or (n, 3) with moments x Fz - z Fx about them
     """
-    m = len(joints)
+    m, p = len(joints), len(pushes)
     unit = np.abs(dead).max()
     equilibrium, friction = _equilibrium(joints, centroids), _friction(joints)
     answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
-        np.append(np.zeros(3 * m), -1.0),
-        A_ub=friction,
+        np.append(np.zeros(3 * m + p), -1.0),
+        A_ub=sp.hstack([friction[:, :-1], sp.csr_array((2 * m, p + 1))]).tocsr(),
         b_ub=np.zeros(2 * m),
-        A_eq=sp.hstack([equilibrium, sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]).tocsr(),
+        A_eq=sp.hstack(
+            [equilibrium, _of_pushes(pushes, centroids), sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]
+        ).tocsr(),
         b_eq=-_with_moments(dead).ravel() / unit,
-        bounds=[(0, None), (0, None), (None, None)] * m + [(0, None)],
+        bounds=[(0, None), (0, None), (None, None)] * m
+        + [(push.least / unit, push.most / unit) for push in pushes]
+        + [(0, None)],
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
@@ -72,6 +89,15 @@ def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, li
         return float("inf")
     assert answer.status == 0, answer.message
     return float(-answer.fun)
+
+
+def _of_pushes(pushes: Sequence[Push], centroids: Array) -> sp.csr_array:
+    """Forces and moments on the blocks by each push, (3 n, p)."""
+    found = np.zeros((3 * len(centroids), len(pushes)))
+    for column, push in enumerate(pushes):
+        arm, (x, z) = push.point - centroids[push.body], push.direction
+        found[3 * push.body : 3 * push.body + 3, column] = x, z, arm[0] * z - arm[1] * x
+    return sp.csr_array(found)
 
 
 def _with_moments(loads: Array) -> Array:
@@ -166,7 +192,9 @@ class Arch:
     points: Array
 
 
-def arch_load_factor(arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None) -> float | None:
+def arch_load_factor(
+    arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None, pushes: Sequence[Push] = ()
+) -> float | None:
     """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``.
 
     live, dead : as of ``load_factor``; the dead load is the weight unless given
@@ -179,7 +207,7 @@ def arch_load_factor(arch: Arch, mu: float, live: Array | None = None, dead: Arr
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
     dead = np.outer(arch.weights, [0.0, -1.0]) if dead is None else dead
-    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live)
+    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live, pushes)
 
 
 def centre_line_arch(thickness: float, voussoirs: int, radius: float = 1.0) -> Arch:

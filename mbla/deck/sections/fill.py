@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Literal
 
 from pydantic import Field
 
-from mbla.deck.quantities import Direction, Length, Name, Point, PositiveLength, SpreadAngle
-from mbla.deck.section import Section, exactly_one_of, rule
+from mbla.deck.quantities import (
+    Direction,
+    FrictionAngle,
+    Length,
+    Name,
+    NonNegativeStress,
+    Point,
+    PositiveLength,
+    Share,
+    SpreadAngle,
+)
+from mbla.deck.section import ROUNDING, Section, exactly_one_of, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 
@@ -41,6 +52,18 @@ class Dispersal(Section):
     )
 
 
+class Passive(Section):
+    """How the soil resists faces that move into it: horizontally, with a share of the passive earth pressure at most,
+    and with the active one at least, K_a to `mobilisation` times K_p of the vertical stress that its weight makes under
+    standard gravity. The shares are a matter of calibration by tests: vary them.
+    """
+
+    friction_angle: FrictionAngle = Field(30.0, description="φ of the soil: K_p = (1 + sin φ)/(1 − sin φ) = 1/K_a")
+    mobilisation: Share = Field(0.33, description="share of the passive pressure that is reached before collapse")
+    cohesion: NonNegativeStress = Field(0.0, description="c of the soil, which adds 2 √K_p c")
+    cohesion_mobilisation: Share = Field(0.01, description="share of that part")
+
+
 @exactly_one_of("level", "surface")
 class Fill(Section):
     """Soil on the upward faces of blocks up to a top surface: exactly one of level and surface.
@@ -55,6 +78,17 @@ class Fill(Section):
     level: Length | None = Field(None, description="height z of its top, where that is level")
     surface: TopPlane | None = Field(None, description="its top, where that slopes")
     dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on top of it spread")
+    passive: Passive | None = Field(None, description="it holds sloping faces sideways too; it does not unless given")
+
+
+@rule(Passive)
+def passive_above_active(passive: Passive) -> Iterator[Finding]:
+    """What resists is not less than what follows."""
+    sine = math.sin(math.radians(passive.friction_angle))
+    least = ((1.0 - sine) / (1.0 + sine)) ** 2
+    if passive.mobilisation < least * (1 - ROUNDING):
+        words = f"must be >= {least:.4g}, K_a/K_p of this friction angle: else the soil pushes more than it resists"
+        yield Finding("out-of-bounds", words, "mobilisation")
 
 
 @rule(Dispersal)
