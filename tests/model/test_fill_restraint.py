@@ -64,9 +64,8 @@ def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
 def test_pushed_into_the_soil_and_away(flow: str) -> None:
     friction = 0.3 * (STONE + SOIL)
     for case, expected in enumerate((friction + 0.5 * 3 * PRESSURE, friction - PRESSURE / 3)):
-        _, result = case_of(
-            DECK.format(cohesion=0.0), f"analysis.flow_rule={flow}", "analysis.accuracy=standard", case=case
-        )
+        settings = f"analysis.flow_rule={flow}", "analysis.accuracy=standard"
+        _, result = case_of(DECK.format(cohesion=0.0), *settings, case=case)
         assert result.status is Status.SOLVED
         assert result.solution.mechanics is not None
         assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
