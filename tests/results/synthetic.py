@@ -318,7 +318,7 @@ def full_model(model: Model) -> Model:
     not_run = replace(
         model.load_cases[2],
         pushover=pushover,
-        travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
+        travel=replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5), spread=True),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
     )
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
