@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from mbla.arrays import FloatArray
 from mbla.deck import read_deck
@@ -71,7 +72,7 @@ def moment(found: Model, case: int = 0) -> float:
     return float(load[:, 4].sum() - found.blocks.centroids[:, 0] @ load[:, 2])
 
 
-def law_up_to(law: str, x: FloatArray, depth: FloatArray | float) -> FloatArray:
+def law_up_to(law: str, x: NDArray[np.floating], depth: FloatArray | float) -> FloatArray:
     """Share of a load left of x, at some depth."""
     if law == "uniform":
         return np.clip(x / depth + 0.5, 0, 1)  # 1:2
