@@ -20,6 +20,7 @@ from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import timing
 from mbla.program.build import build_program
 from mbla.results.assessment.assessment import with_remarks
+from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
@@ -148,4 +149,5 @@ def solve_case(
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
+    solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
     return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

@@ -14,14 +14,14 @@ from mbla.deck.references import GROUND
 from mbla.deck.section import given
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding, Notice
+from mbla.errors import Finding
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import touched_blocks
 from mbla.model.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
 from mbla.model.transform import AffineMap, repetitions
-from mbla.model.wording import vector
+from mbla.model.wording import counted, vector
 
 CLOSES = 1e-9
 """distance of the last point from the first, over the length of a line, at which it is closed"""
@@ -40,7 +40,7 @@ class _Line:
 
 
 def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray, tolerance: float) -> Ties:
-    """The ties of a deck; faults and notices go to the roster.
+    """The ties of a deck; faults go to the roster.
 
     fixed     : (n_blocks,) blocks that do not move
     tolerance : of contacts, relative to block size
@@ -51,14 +51,11 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
         lines = [
             line for copy in repetitions(section.repeat) for line in _lines(section, copy, path, roster, tolerance)
         ]
-        moving = [line for line in lines if _can_move(line.bodies, fixed)]
-        if len(moving) < len(lines) or not lines:
-            if not roster.faults and not moving:
-                roster.refuse(Finding("tie-without-effect", "ties nothing: no two blocks that can move apart", *path))
-            elif not roster.faults:
-                words = f"{len(lines) - len(moving)} of {len(lines)} ties nothing that can move, and is left out"
-                roster.remark(Notice("notice", "tie-without-effect", words))
-        parts.append(_ties(section, moving, counts))
+        idle = sum(not _can_move(line.bodies, fixed) for line in lines)
+        if idle and not roster.faults:
+            words = f"{idle} of {counted(len(lines), 'tie')} hold nothing: no two blocks that can move apart"
+            roster.refuse(Finding("tie-without-effect", words, *path))
+        parts.append(_ties(section, lines, counts))
     return joined_ties(parts)
 
 

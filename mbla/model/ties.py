@@ -18,9 +18,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.model.solids.ragged import items_of_rows
 
+AT_ONE_PLACE = ("strip", "fill")
+"""forms whose points lie at one place, and whose direction is that of their pulls"""
 OUTSIDE = -1
 """stands for a block where a tie is held outside of the model"""
 
@@ -67,6 +69,11 @@ class Ties:
         ends = self.stretches
         length = np.linalg.norm(self.places[ends[:, 1]] - self.places[ends[:, 0]], axis=1)
         return np.asarray(np.bincount(self.tie_of_point[ends[:, 0]], length, len(self)), dtype=np.float64)
+
+    @property
+    def lengths_known(self) -> BoolArray:
+        """Which are lines between places; strips are not, which cross a joint at one place, (n,)."""
+        return np.array([form not in AT_ONE_PLACE for form in self.forms], dtype=bool)
 
     @property
     def stretches(self) -> IntArray:

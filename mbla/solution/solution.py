@@ -143,10 +143,11 @@ class CurveRow:
     error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
     residual     : of the joint law, the greatest measure of the verification
     overlap      : m, the greatest of blocks
-    live_work, friction, potential : J since the first step: work of the live load, dissipated in sliding, gained by
-                   the dead load
+    live_work, friction, tie_work, potential : J since the first step: work of the live load, dissipated in sliding and
+                   by ties, gained by the dead load
     new_mechanism : whether it moves in another way than the step before
     debris       : blocks that have fallen without the rest
+    broken       : ties that have broken, or went with debris
     """
 
     step: int
@@ -158,9 +159,11 @@ class CurveRow:
     overlap: float
     live_work: float
     friction: float
+    tie_work: float
     potential: float
     new_mechanism: bool
     debris: int
+    broken: int
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,16 @@ class PlanarJoint:
 
 
 @dataclass(frozen=True)
+class PlanarTie:
+    """A line through points on bodies (GROUND or a block) with one force within limits, tension positive."""
+
+    bodies: tuple[int, ...]
+    points: tuple[tuple[float, float], ...]
+    least: float
+    greatest: float
+
+
+@dataclass(frozen=True)
 class Rectangle:
     """left, right, bottom, top."""
 
@@ -48,37 +58,26 @@ class Rectangle:
         return np.array([(self.left + self.right) / 2, (self.bottom + self.top) / 2])
 
 
-@dataclass(frozen=True)
-class Push:
-    """A force on a block along a direction, at a point, between two limits."""
-
-    body: int
-    point: Array
-    direction: Array
-    least: float
-    most: float
-
-
 def load_factor(
-    joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array, pushes: Sequence[Push] = ()
+    joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array, ties: Sequence[PlanarTie] = ()
 ) -> float | None:
     """Greatest factor on ``live`` in equilibrium with ``dead``; None where there is none, inf where there is no limit.
 
     centroids : (n, 2); dead, live : (n, 2) forces at the centroids, or (n, 3) with moments x Fz - z Fx about them
     """
-    m, p = len(joints), len(pushes)
+    m, k = len(joints), len(ties)
     unit = np.abs(dead).max()
     equilibrium, friction = _equilibrium(joints, centroids), _friction(joints)
     answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
-        np.append(np.zeros(3 * m + p), -1.0),
-        A_ub=sp.hstack([friction[:, :-1], sp.csr_array((2 * m, p + 1))]).tocsr(),
+        np.append(np.zeros(3 * m + k), -1.0),
+        A_ub=sp.hstack([friction, sp.csr_array((2 * m, k + 1))]).tocsr(),
         b_ub=np.zeros(2 * m),
         A_eq=sp.hstack(
-            [equilibrium, _of_pushes(pushes, centroids), sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]
+            [equilibrium, _pulls(ties, centroids), sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]
         ).tocsr(),
         b_eq=-_with_moments(dead).ravel() / unit,
         bounds=[(0, None), (0, None), (None, None)] * m
-        + [(push.least / unit, push.most / unit) for push in pushes]
+        + [(tie.least / unit, tie.greatest / unit) for tie in ties]
         + [(0, None)],
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
@@ -89,15 +88,6 @@ def load_factor(
         return float("inf")
     assert answer.status == 0, answer.message
     return float(-answer.fun)
-
-
-def _of_pushes(pushes: Sequence[Push], centroids: Array) -> sp.csr_array:
-    """Forces and moments on the blocks by each push, (3 n, p)."""
-    found = np.zeros((3 * len(centroids), len(pushes)))
-    for column, push in enumerate(pushes):
-        arm, (x, z) = push.point - centroids[push.body], push.direction
-        found[3 * push.body : 3 * push.body + 3, column] = x, z, arm[0] * z - arm[1] * x
-    return sp.csr_array(found)
 
 
 def _with_moments(loads: Array) -> Array:
@@ -124,15 +114,31 @@ def _equilibrium(joints: Sequence[PlanarJoint], centroids: Array) -> sp.csr_arra
     return sp.csr_array((values, (rows, columns)), shape=(3 * len(centroids), 3 * len(joints)))
 
 
+def _pulls(ties: Sequence[PlanarTie], centroids: Array) -> sp.csr_array:
+    """Forces and moments on the blocks, (3 n,), by the tension of each tie: along both stretches at each point."""
+    columns = np.zeros((3 * len(centroids), len(ties)))
+    for k, tie in enumerate(ties):
+        points = np.array(tie.points)
+        for i, body in enumerate(tie.bodies):
+            if body == GROUND:
+                continue
+            for other in (i - 1, i + 1):
+                if 0 <= other < len(points):
+                    way = (points[other] - points[i]) / np.linalg.norm(points[other] - points[i])
+                    arm = points[i] - centroids[body]
+                    columns[3 * body : 3 * body + 3, k] += [*way, arm[0] * way[1] - arm[1] * way[0]]
+    return sp.csr_array(columns)
+
+
 def _friction(joints: Sequence[PlanarJoint]) -> sp.csr_array:
-    """±T − μ (N at p + N at q) of each joint, (2 m,), by its forces and the load factor, (3 m + 1,)."""
+    """±T − μ (N at p + N at q) of each joint, (2 m,), by its forces, (3 m,)."""
     rows, columns, values = [], [], []
     for j, joint in enumerate(joints):
         for row, sign in ((2 * j, 1.0), (2 * j + 1, -1.0)):
             rows += [row] * 3
             columns += [3 * j, 3 * j + 1, 3 * j + 2]
             values += [-joint.mu, -joint.mu, sign]
-    return sp.csr_array((values, (rows, columns)), shape=(2 * len(joints), 3 * len(joints) + 1))
+    return sp.csr_array((values, (rows, columns)), shape=(2 * len(joints), 3 * len(joints)))
 
 
 def rectangles_in_contact(bricks: Sequence[Rectangle], mu: float, ground: float | None = 0.0) -> list[PlanarJoint]:
@@ -193,7 +199,7 @@ class Arch:
 
 
 def arch_load_factor(
-    arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None, pushes: Sequence[Push] = ()
+    arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None, ties: Sequence[PlanarTie] = ()
 ) -> float | None:
     """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``.
 
@@ -207,7 +213,7 @@ def arch_load_factor(
         a, b = i - 1, (i if i < n else GROUND)
         joints.append(PlanarJoint(a, b, arch.inner * ray, arch.outer * ray, normal, mu))
     dead = np.outer(arch.weights, [0.0, -1.0]) if dead is None else dead
-    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live, pushes)
+    return load_factor(joints, arch.points, dead, np.outer(arch.weights, [1.0, 0.0]) if live is None else live, ties)
 
 
 def centre_line_arch(thickness: float, voussoirs: int, radius: float = 1.0) -> Arch:

@@ -18,7 +18,7 @@ import pytest
 from scipy.integrate import quad
 
 from mbla.deck import read_deck
-from tests.analytic.planar import Arch, Array, Push, arch_load_factor, polygon_arch
+from tests.analytic.planar import GROUND, Arch, Array, PlanarTie, arch_load_factor, polygon_arch
 from tests.decks.folder import BENCHMARKS
 
 SPAN, RISE, THICKNESS, WIDTH, FRICTION, TOP, VOUSSOIRS = 6.0, 1.5, 0.45, 2.5, 0.6, 2.5, 25
@@ -83,7 +83,7 @@ def landed(place: float, force: float) -> Array:
     return np.array(found)
 
 
-def restraint() -> list[Push]:
+def restraint() -> list[PlanarTie]:
     """Soil against every chord: between K_a and m_p K_p times its weight times the slope of the chord."""
     x, h = corners()
     found = []
@@ -91,16 +91,16 @@ def restraint() -> list[Push]:
         drop = float(np.diff(h)[row])
         if abs(drop) > 1e-9:
             stress = EARTH * WIDTH * (h[row] + h[row + 1]) / 2 * abs(drop)
-            middle = np.array([(x[row] + x[row + 1] - SPAN) / 2, TOP + arch().inner - RISE - (h[row] + h[row + 1]) / 2])
-            inwards = np.array([-np.sign(drop), 0.0])
-            found.append(Push(row, middle, inwards, stress / K_P, MOBILISED * K_P * stress))
+            middle = (x[row] + x[row + 1] - SPAN) / 2, TOP + arch().inner - RISE - (h[row] + h[row + 1]) / 2
+            away = middle[0] + np.sign(drop), middle[1]
+            found.append(PlanarTie((row, GROUND), (middle, away), -MOBILISED * K_P * stress, -stress / K_P))
     return found
 
 
-def program(case: str, pushes: Sequence[Push] = ()) -> float:
+def program(case: str, ties: Sequence[PlanarTie] = ()) -> float:
     """Greatest load factor."""
     live = np.sum([landed(place, force) for place, force in LOADS[case]], axis=0)
-    factor = arch_load_factor(arch(), FRICTION, live, with_fill(), pushes)
+    factor = arch_load_factor(arch(), FRICTION, live, with_fill(), ties)
     assert factor is not None
     return factor
 

@@ -111,6 +111,9 @@ def tie(item: TieSection) -> Iterator[Finding]:
     elif item.on is not None and item.through is not None and len(item.on) != len(item.through):
         words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
         yield Finding("tie-misfit", words, "on")
+    if item.strip is not None and item.breaks_at:
+        words = "must be 0, or left out, for a strip, which has no length across a joint"
+        yield Finding("tie-misfit", words, "breaks_at")
     if item.points == "fixed" and item.strip is not None:
         yield Finding("key-of-another-choice", "does not apply to a strip, which is glued all along", "points")
     if item.acts != "tension":

@@ -8,10 +8,11 @@ from enum import StrEnum
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.errors import Message
 from mbla.model.model import Model
 from mbla.model.ties import OUTSIDE
 from mbla.solution.mechanics import AT_REST
-from mbla.solution.solution import Mechanics
+from mbla.solution.solution import Mechanics, Solution
 
 
 class TieState(StrEnum):
@@ -103,6 +104,22 @@ def _states(model: Model, mechanics: Mechanics | None) -> list[TieState]:
     return [
         TieState.YIELDS if y else TieState.SLACK if s else TieState.HOLDS for y, s in zip(yields, slack, strict=True)
     ]
+
+
+def brittle_remarks(model: Model, solution: Solution) -> tuple[Message, ...]:
+    """A remark where several ties yield together of which some break as soon as they do."""
+    if solution.mechanics is None or not len(model.ties) or solution.pushed is not None:
+        return ()
+    rows = tie_rows(model, solution.mechanics)
+    yielding = [number for number, row in enumerate(rows) if row.state is TieState.YIELDS]
+    brittle = sum(float(model.ties.breaks_at[number]) == 0.0 for number in yielding)
+    if not brittle or len(yielding) < 2:
+        return ()
+    words = (
+        f"{brittle} of the {len(yielding)} ties that yield are brittle: the load factor has all of them at their "
+        "capacity at once, which they need not be when the first one breaks"
+    )
+    return (Message("brittle-ties", words),)
 
 
 def tie_power(mechanics: Mechanics) -> float:
