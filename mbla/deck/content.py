@@ -148,15 +148,6 @@ def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
 
 
 @rule(DeckContent)
-def restraint_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
-    """What soil does against the images is not made of what it does against the half."""
-    for name, fill in deck.fill.items():
-        if fill.passive is not None and deck.symmetry:
-            words = "does not go with symmetry: give the whole structure"
-            yield Finding("symmetry-broken", words, "fill", name, "passive")
-
-
-@rule(DeckContent)
 def named_loads(deck: DeckContent) -> Iterator[Finding]:
     """Named loads can be added up: none travels or tilts, and none comes back to itself."""
     for name, loads in deck.loads.items():

@@ -71,6 +71,19 @@ def test_pushed_into_the_soil_and_away(flow: str) -> None:
         assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
 
 
+def test_of_a_half_with_its_image() -> None:
+    """The wedge cut along its middle: the strut on the half and its image push as that on the whole."""
+    halved = DECK.replace(",1,0]", ",0.5,0]").replace(",1,1]", ",0.5,1]")
+    halved = halved.replace("0.5, 0.1]", "0, 0.1]").replace("{{force: [1,", "{{force: [0.5,")
+    halved = halved.replace("load_cases:", "symmetry: [{{y: 0, halves: wedge}}]\nload_cases:")
+    model, result = case_of(halved.format(cohesion=0.0), "analysis.accuracy=standard")
+    assert len(model.ties) == 2
+    assert model.ties.least == pytest.approx([-0.5 * 3 * PRESSURE / 2] * 2)
+    assert result.solution.mechanics is not None
+    expected = 0.3 * (STONE + SOIL) + 0.5 * 3 * PRESSURE
+    assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_notice_says_that_it_is_calibrated(tmp_path: Path) -> None:
     notices = build_model(read_deck(write(tmp_path, 0.0))).notices
     text = next(notice.message for notice in notices if notice.identifier == "fill-restrains")
