@@ -25,7 +25,7 @@ from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks, carried_masses
 from mbla.model.solids.plane import cut, signed_areas, unit
-from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.ragged import items_of_rows, row_maxima
 from mbla.model.wording import counted, named
 
 ROUNDING = 1e-12
@@ -198,7 +198,7 @@ def _plans(faces: IntArray, blocks: Blocks) -> Any:
 def _heights(faces: IntArray, points: FloatArray, blocks: Blocks) -> FloatArray:
     """Height on the planes of faces (n,) at points (n, ..., 2), (n, ...)."""
     first, normals = blocks.vertices[blocks.loops[blocks.loop_start[faces]]], blocks.face_normals[faces]
-    shape = (len(faces), *[1] * (points.ndim - 2), -1)
+    shape = (len(faces), *[1] * (points.ndim - 2), 2)
     away = points - first[:, :2].reshape(shape)
     slope = (normals[:, :2] / normals[:, 2:]).reshape(shape)
     return np.asarray(first[:, 2].reshape(shape[:-1]) - (away * slope).sum(axis=-1))
@@ -218,15 +218,21 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
     over = np.flatnonzero(blocks.face_normals[:, 2] < -UPWARD)
     shadows = _plans(over, blocks)
     mine, other = shapely.STRtree(shadows).query(plans, predicate="intersects")
+    reach = tolerance * blocks.sizes[blocks.block_of_face[faces]]
+    corners = blocks.vertices[blocks.loops, 2]
+    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
+    near = high[over[other]] >= low[faces[mine]] - reach[mine]
+    mine, other = mine[near], other[near]
     common = shapely.intersection(plans[mine], shadows[other])
     middles = shapely.get_coordinates(shapely.centroid(common))
     seen = shapely.area(common) > 0.0
     mine, other, middles = mine[seen], other[seen], middles[seen[~shapely.is_empty(common)]]
     above = _heights(over[other], middles, blocks)
-    reach = tolerance * blocks.sizes[blocks.block_of_face[faces[mine]]]
-    covers = (above >= _heights(faces[mine], middles, blocks) - reach) & (above <= body.tops(middles))
-    for row in np.unique(mine[covers]).tolist():
-        plans[row] = shapely.difference(plans[row], shapely.union_all(shadows[other[covers & (mine == row)]]))
+    covers = (above >= _heights(faces[mine], middles, blocks) - reach[mine]) & (above <= body.tops(middles))
+    mine, other = mine[covers], other[covers]
+    covered, first = np.unique(mine, return_index=True)  # rows ascend
+    for row, against in zip(covered.tolist(), np.split(shadows[other], first[1:]), strict=False):
+        plans[row] = shapely.difference(plans[row], shapely.union_all(against))
     plans[shapely.area(plans) <= 2.0 * tolerance * areas] = shapely.Polygon()  # rounding of outlines
     parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(plans), return_index=True)
     flat = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]

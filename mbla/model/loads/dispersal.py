@@ -102,6 +102,8 @@ def spread(body: FillBody, place: FloatArray, along: FloatArray, width: float) -
     kept = float(ends[1] - ends[0])
     if kept <= NOTHING or not shares.sum() > NOTHING:
         return None
+    seen = shares > NOTHING**2 * shares.sum()  # others have nothing left of them
+    rows, shares, points = rows[seen], shares[seen], points[seen]
     blocks, row = np.unique(body.blocks[owner[rows]], return_inverse=True)
     total = summed(row, shares, len(blocks))
     means = summed(row, shares[:, None] * points, len(blocks)) / total[:, None]

@@ -155,6 +155,19 @@ def test_what_lies_behind_is_in_the_shade(tmp_path: Path) -> None:
     assert shares(found)[5:10].sum() == pytest.approx(100 * (1 - 0.4) / 2, rel=1e-6)
 
 
+def test_on_a_dome(tmp_path: Path) -> None:
+    """All of a force lands, on blocks of which none hides another, and a dome that is turned takes it alike."""
+    dome = "dome: {group: row, material: stone, span: 8, thickness: 0.4, oculus: 0.6, rings: 8, segments: 20}"
+    load = "travel: {force: [0, 0, -100], path: [[-2, 0.3, 9], [2, 0.3, 9]], positions: 5}"
+    found = model(tmp_path, load, dome, top="level: 5")
+    for case in range(5):
+        assert shares(found, case).sum() == pytest.approx(100, rel=1e-9)
+        assert np.isfinite(found.load_cases[case].live_load).all()
+    turned = load.replace("[-2, 0.3, 9], [2, 0.3, 9]", "[-0.3, -2, 9], [-0.3, 2, 9]")
+    other = model(tmp_path, turned, dome, top="level: 5")
+    assert np.sort(shares(other, 2)) == pytest.approx(np.sort(shares(found, 2)), rel=1e-9, abs=1e-9)
+
+
 def test_below_a_sloping_top(tmp_path: Path) -> None:
     """The depth is that under the load."""
     found = model(tmp_path, LINE, *ROW, top="surface: {point: [4.3, 0, 2.2], normal: [-0.1, 0, 1]}")
