@@ -71,6 +71,23 @@ def test_pushed_into_the_soil_and_away(flow: str) -> None:
         assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
 
 
+def test_units(tmp_path: Path) -> None:
+    """The same wedge in mm and N."""
+    text = DECK.format(cohesion=0.02).replace("units: {force: kN}", "units: {length: mm}")
+    text = text.replace("unit_weight: 24", 'unit_weight: "24 kN/m^3"').replace(
+        "unit_weight: 18", 'unit_weight: "18 kN/m^3"'
+    )
+    text = text.replace("level: 1.5", "level: 1500").replace(
+        "      faces:", "      transform: {scale: 1000}\n      faces:"
+    )
+    path = tmp_path / "mm.yaml"
+    path.write_text(text)
+    found, plain = build_model(read_deck(path)).ties, build_model(read_deck(write(tmp_path, 20.0))).ties
+    assert found.least == pytest.approx(1000 * plain.least, rel=1e-12)
+    assert found.greatest == pytest.approx(1000 * plain.greatest, rel=1e-12)
+    assert found.places == pytest.approx(1000 * plain.places, rel=1e-12)
+
+
 def test_of_a_half_with_its_image() -> None:
     """The wedge cut along its middle: the strut on the half and its image push as that on the whole."""
     halved = DECK.replace(",1,0]", ",0.5,0]").replace(",1,1]", ",0.5,1]")
