@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import PARALLEL
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
 from mbla.model.fill import FillBody
@@ -103,6 +104,11 @@ class Landing:
         flat = float(np.abs(way[:2]).max())
         if (self.through is not None or width > 0.0) and flat <= UPRIGHT * float(np.abs(way).max()):
             words = "is upright: what is level and across it is not known"
+            self.site.refuse(Finding("degenerate-line", words, *self.path))
+            return False
+        across = np.cross([0.0, 0.0, 1.0], level(way))
+        if width > 0.0 and self.through is None and np.linalg.norm(np.cross(across, self.below.down)) <= PARALLEL:
+            words = "looks for its blocks along the width of its axles: give another direction with towards"
             self.site.refuse(Finding("degenerate-line", words, *self.path))
             return False
         if self.through is None:

@@ -55,20 +55,19 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
     way = unit(stands.along)
     if not landing.sound(axles.forces, way, axles.width):
         return None
-    places = np.array(stands.at) - axles.behind[:, None] * way
+    places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.roster.faults)
     found = [landing.of(place, level(way), axles.width) for place in places]
     words = f"vehicle {stands.name} at {vector(stands.at)} {site.units.length} along {vector(way)}"
-    bare = next((place for place, each in zip(places, found, strict=True) if each is None), None)
-    if bare is not None or not any(each is not None and len(each.blocks) for each in found):
-        if through is None and bare is not None and not site.roster.partial:
-            message = (
-                f"the axle at {vector(bare)} {site.units.length} lies over no block; move it, or look for blocks in "
-            )
-            site.refuse(Finding("load-beside-structure", f"{message}another direction with towards", *here))
-        elif bare is None:
-            site.refuse(
-                Finding("load-beside-structure", "all of it goes beyond the blocks under the fill: move it", *here)
-            )
+    bare = [place for place, each in zip(places, found, strict=True) if each is None]
+    if bare or not any(each is not None and len(each.blocks) for each in found):
+        if len(site.roster.faults) == before and not site.roster.partial:
+            message = "all of it goes beyond the blocks under the fill: move it"
+            if bare:
+                message = (
+                    f"the axle at {vector(bare[0])} {site.units.length} lies over no block; move it, or look for "
+                    "blocks in another direction with towards"
+                )
+            site.refuse(Finding("load-beside-structure", message, *here))
         return None
     landed = [each for each in found if each is not None]
     under = np.concatenate([each.blocks for each in landed])
