@@ -18,6 +18,7 @@ from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterNa
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
+from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
@@ -25,6 +26,7 @@ from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.strengthen import StrengthenSection
 from mbla.deck.sections.supports import Support, SymmetryPlane
 from mbla.deck.sections.ties import TieSection
+from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.text.include import MAX_FILES
 from mbla.errors import Finding
 
@@ -120,6 +122,8 @@ class DeckContent(Section):
         default_factory=list, description="ties, rings, struts and strips: forces between blocks, or to the ground"
     )
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
+    fill: dict[Name, Fill] = Field(default_factory=dict, description="soil above arches and vaults, by name")
+    vehicles: dict[Name, Vehicle] = Field(default_factory=dict, description="vehicles by name")
     loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
         default_factory=dict, description="loads by name, for several load cases"
     )

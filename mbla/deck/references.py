@@ -37,6 +37,7 @@ SELECTORS = (
     "contacts.overrides.#.between.#",
     "supports.#.blocks",
     "masses.#.on",
+    "fill.*.on",
     *(f"{loads}.#.on" for loads in LOADS),
     "load_cases.*.settlement.on",
     "load_cases.*.objective.force.from",
@@ -64,12 +65,15 @@ REFERENCES = (
         for over in ("lintel", "arch")
     ),
     Reference("supports.#.joint", "joint law", BUILT_IN),
+    Reference("fill.*.material", "material"),
     *(
         Reference(f"{place}{form}", "group", (GROUND,) if place in WITH_GROUND and "group" not in form else ())
         for place in (*SELECTORS, "groups.*")
         for form in ("", ".group", ".#", ".#.group")
     ),
     *(Reference(f"{loads}.#.loads", "load") for loads in LOADS),
+    *(Reference(f"{loads}.#.through", "fill") for loads in LOADS),
+    *(Reference(f"{loads}.#.{place}", "vehicle") for loads in LOADS for place in ("travel.vehicle", "vehicle.name")),
 )
 
 
@@ -80,6 +84,8 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         "material": _keys(data.get("materials")),
         "joint law": _keys(data.get("joints")),
         "load": _keys(data.get("loads")),
+        "fill": _keys(data.get("fill")),
+        "vehicle": _keys(data.get("vehicles")),
         "group": list(dict.fromkeys(groups(data))),
     }
     choices = _keys(data.get("groups"))
@@ -111,8 +117,9 @@ def check_references(tree: Tree) -> Iterator[Fault]:
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """(section, name) of materials, joint laws and named loads that nothing uses."""
-    for section, kind in (("materials", "material"), ("joints", "joint law"), ("loads", "load")):
+    """(section, name) of materials, joint laws, named loads and vehicles that nothing uses."""
+    kinds = {"materials": "material", "joints": "joint law", "loads": "load", "vehicles": "vehicle"}
+    for section, kind in kinds.items():
         used = {
             name
             for reference in REFERENCES

@@ -22,8 +22,10 @@ from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.build_ties import build_ties
+from mbla.model.fill import Fill, build_fill, with_fill
+from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
-from mbla.model.items import collect_items, defects_in_words
+from mbla.model.items import collect_items, defects_in_words, density_of
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
@@ -35,7 +37,7 @@ from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
-from mbla.model.ties import Ties
+from mbla.model.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
 from mbla.process.sharing import once
 
@@ -59,8 +61,12 @@ def build_model(deck: Deck) -> Model:
         grounds=supports.grounds,
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
+        fill=structure.fill.bodies if structure.fill else {},
+        vehicles=deck.content.vehicles,
     )
     ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
+    if structure.fill is not None:
+        ties = joined_ties([ties, *fill_struts(structure.fill.bodies.values(), roster, supports.fixed)])
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports, ties))
     if roster.faults:
@@ -78,6 +84,7 @@ def build_model(deck: Deck) -> Model:
         interfaces=interfaces,
         ties=ties,
         bent=structure.bent,
+        fill=structure.fill,
     )
     return with_images(deck, model)
 
@@ -114,6 +121,7 @@ class Structure:
     """Blocks by name, with the masses that rest on them, and what holds them; faults go to the roster.
 
     bent          : faces that were split
+    fill          : soil on the blocks, None for none
     first_notices : before those on joint laws
     """
 
@@ -121,6 +129,7 @@ class Structure:
     supports: Supports
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
+    fill: Fill | None
     first_notices: tuple[Notice, ...]
 
 
@@ -141,6 +150,7 @@ def _bare(deck: Deck) -> Deck:
             "title": "",
             "parameters": {},
             "joints": dict.fromkeys(deck.content.joints, NO_LAW),
+            "vehicles": {},
             "loads": {},
             "ties": [],
             "load_cases": {},
@@ -170,9 +180,13 @@ def _build(deck: Deck) -> Structure:
     interfaces = read_interfaces(deck, roster, supports.grounds)
     if deck.content.masses:
         roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    fill = build_fill(deck, densities, roster, supports.fixed)
+    if fill is not None:
+        roster = replace(roster, blocks=with_fill(roster.blocks, fill))
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []))
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, first)  # places are those of one deck
+    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, fill, first)  # places are those of one deck
 
 
 UNLIMITED = 1e6

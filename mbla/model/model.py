@@ -11,6 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
+from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
@@ -56,7 +57,8 @@ class TravelPosition:
     points    : (n_axles, 3) m, where each axle stands, the first one first; off the path straight on from its ends
     distances : (n_axles,) m, of each from the beginning of the path; negative before it
     forces    : (n_axles, 3) N; those that are off the path do not act
-    blocks    : (n_axles,) that carry them; -1 off the path
+    blocks    : (n_axles,) that carry them, or most of them; -1 off the path, and where none does
+    spread    : they are shared between blocks, by the width of the axles or by fill
     """
 
     series: str
@@ -66,6 +68,7 @@ class TravelPosition:
     distances: FloatArray
     forces: FloatArray
     blocks: IntArray
+    spread: bool = False
 
     @property
     def point(self) -> FloatArray:
@@ -268,6 +271,7 @@ class Model:
                   files, which have the contacts that were made of them
     ties        : what holds blocks together or apart beside joints
     bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
+    fill        : soil that blocks carry, counted among their added masses; None for none
     """
 
     title: str
@@ -283,6 +287,7 @@ class Model:
     interfaces: PrescribedInterfaces | None = None
     ties: Ties = NO_TIES
     bent: BentFaces = NO_BENT_FACES
+    fill: Fill | None = None
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -21,6 +21,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
+from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.gravity import vector_of, with_gravity
@@ -38,7 +39,7 @@ from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 
 ON_MASSES = ("gravity", "acceleration")
-AT_PLACES = ("force", "moment", "line", "pressure")
+AT_PLACES = ("force", "moment", "line", "pressure", "vehicle")
 """kinds of loads that have to lie in the plane, and those of which images are taken"""
 
 ACROSS = 1e-9
@@ -81,6 +82,9 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
     live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
     for entry in (*with_gravity(dead, path, deck.units), *live):
         kind = given(entry.load, EXACTLY_ONE[Load])[0]
+        if entry.load.through is not None:
+            message = "a load that spreads in fill may do so across a plane of symmetry: give the whole structure"
+            yield Finding("symmetry-broken", message, *entry.path, "through")
         if kind in AT_PLACES:
             continue
         message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
@@ -144,9 +148,16 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
         f"mirrored about {mirror.label}: {counted(len(blocks), 'block')} given, {counted(len(others), 'image')} added"
         + (f", {counted(int(mirror.halves.sum()), 'block')} joined with its other half" if mirror.halves.any() else "")
     )
+    added = blocks.added_masses, blocks.added_mass_points
+    masses, points = _both_masses(built.blocks, *added, mirror)
+    fill = model.fill
+    if fill is not None:
+        of_fill = _both_masses(built.blocks, fill.masses, fill.points, mirror)
+        fill = Fill(*of_fill, tuple(f"{words}; with its mirror image twice as much" for words in fill.words))
     return replace(
         model,
-        blocks=_with_masses(built.blocks, blocks, mirror),
+        blocks=replace(built.blocks, added_masses=masses, added_mass_points=points),
+        fill=fill,
         fixed=np.concatenate([model.fixed, model.fixed[others]]),
         grounds=_grounds(model.grounds, mirror),
         guides=_guides(model.guides, mirror),
@@ -157,12 +168,13 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
     )
 
 
-def _with_masses(joined: Blocks, own: Blocks, mirror: Mirror) -> Blocks:
-    """The blocks with the added masses of what they are images of; those of both halves on a block joined of two."""
-    rows = np.concatenate([np.arange(len(own)), mirror.image_of])
-    points = np.concatenate([own.added_mass_points, mirror.reflection.points(own.added_mass_points)])
-    masses, centres = carried_masses(joined.centroids, rows, np.tile(own.added_masses, 2), points)
-    return replace(joined, added_masses=masses, added_mass_points=centres)
+def _both_masses(
+    joined: Blocks, masses: FloatArray, points: FloatArray, mirror: Mirror
+) -> tuple[FloatArray, FloatArray]:
+    """Masses (n,) at points (n, 3) on blocks and on their images; those of both halves on a block joined of two."""
+    rows = np.concatenate([np.arange(len(masses)), mirror.image_of])
+    both = np.concatenate([points, mirror.reflection.points(points)])
+    return carried_masses(joined.centroids, rows, np.tile(masses, 2), both)
 
 
 def _labels(model: Model, others: IntArray) -> Labels:

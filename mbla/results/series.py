@@ -107,8 +107,11 @@ ROUNDING = 1e-12
 
 
 def without_vehicle(blocks: Blocks, loads: FloatArray, travel: TravelPosition | None) -> FloatArray:
-    """Loads on blocks about their centroids less those of the axles that act, (n_blocks, 6) N and N m."""
-    if travel is None:
+    """Loads on blocks about their centroids less those of the axles that act, (n_blocks, 6) N and N m.
+
+    Axles that are shared between blocks stay: they act as what lands of them.
+    """
+    if travel is None or travel.spread:
         return loads
     acting = travel.acting
     forces, under = travel.forces[acting], travel.blocks[acting]

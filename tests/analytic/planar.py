@@ -229,11 +229,16 @@ class Arch:
     points: Array
 
 
-def arch_load_factor(arch: Arch, mu: float, live: Array | None = None) -> float | None:
-    """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``."""
-    dead = np.outer(arch.weights, [0.0, -1.0])
+def arch_load_factor(
+    arch: Arch, mu: float, live: Array | None = None, dead: Array | None = None, ties: Sequence[PlanarTie] = ()
+) -> float | None:
+    """Associative load factor of an arch between springings on ground; its weight pushes along +x unless ``live``.
+
+    live, dead : as of ``load_factor``; the dead load is the weight unless given
+    """
+    dead = np.outer(arch.weights, [0.0, -1.0]) if dead is None else dead
     push = np.outer(arch.weights, [1.0, 0.0]) if live is None else live
-    return load_factor(arch_joints(arch, mu), arch.points, dead, push)
+    return load_factor(arch_joints(arch, mu), arch.points, dead, push, ties)
 
 
 def arch_joints(arch: Arch, mu: float) -> list[PlanarJoint]:

@@ -21,7 +21,17 @@ from mbla.model.ties import joined_ties
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
-from tests.analytic.planar import Array, PlanarJoint, PlanarTie, _equilibrium, _friction, _pulls, _with_moments, rectangles_in_contact, wall
+from tests.analytic.planar import (
+    Array,
+    PlanarJoint,
+    PlanarTie,
+    _equilibrium,
+    _friction,
+    _pulls,
+    _with_moments,
+    rectangles_in_contact,
+    wall,
+)
 from tests.analytic.test_ties import DENSITY, DEPTH, GRAVITY, SLENDER, WEIGHT, random_tie
 from tests.line import HEAD
 
@@ -127,7 +137,7 @@ def random_case(seed: int) -> tuple[str, float]:
 def least_cost(
     joints: Sequence[PlanarJoint], centroids: Array, loads: Sequence[Array], ties: Sequence[PlanarTie], costs: Array
 ) -> float:
-    """By HiGHS: forces of the joints and tensions of every load case, and one capacity a tie; inf where none suffice."""
+    """By HiGHS: forces of joints, tensions of every load case, and one capacity a tie; inf where none suffice."""
     m, k, unit = len(joints), len(ties), float(np.abs(loads[0]).max())
     forces, limits, pulls = _equilibrium(joints, centroids), _friction(joints), _pulls(ties, centroids)
     one, n = sp.eye_array(k), len(loads)
@@ -137,7 +147,7 @@ def least_cost(
         [sp.block_diag([sp.hstack([limits, sp.csr_array((2 * m, k))])] * n), sp.csr_array((2 * m * n, k))]
     )
     below = sp.hstack([sp.block_diag([sp.hstack([sp.csr_array((k, 3 * m)), one])] * n), sp.vstack([-one] * n)])
-    answer = linprog(
+    answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
         np.concatenate([np.zeros(n * (3 * m + k)), costs]),
         A_ub=sp.csr_array(sp.vstack([friction, below])),
         b_ub=np.zeros(2 * m * n + k * n),

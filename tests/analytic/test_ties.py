@@ -96,7 +96,7 @@ def random_case(seed: int) -> tuple[str, float | None]:
     centroids = np.array([brick.centroid for brick in bricks])
     weights = np.array([brick.area for brick in bricks]) * DEPTH * DENSITY * GRAVITY
     mu = float(rng.uniform(0.3, 1.2))
-    ties = [_random_tie(rng, bricks, float(weights.sum())) for _ in range(int(rng.integers(1, 5)))]
+    ties = [random_tie(rng, bricks, float(weights.sum())) for _ in range(int(rng.integers(1, 5)))]
     blocks = "\n".join(
         f"  - box: {{group: b{i}, material: stone, min: [{b.left}, 0, {b.bottom}], max: [{b.right}, {DEPTH}, {b.top}]}}"
         for i, b in enumerate(bricks)

@@ -107,7 +107,9 @@ def test_keys_along_a_path() -> None:
 
 def test_mappings_of_names() -> None:
     names = [key for key in DeckContent.model_fields if takes_names(DeckContent, (key,))]
-    assert names == ["parameters", "materials", "joints", "groups", "loads", "load_cases", "expected"]
+    assert names == [
+        *("parameters", "materials", "joints", "groups", "fill", "vehicles", "loads", "load_cases", "expected")
+    ]
 
 
 def test_annotations_with_units_and_bounds() -> None:

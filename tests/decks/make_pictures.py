@@ -93,6 +93,7 @@ TABLE = (
     DeckPicture("room_push_y", "structures/room.yaml", "push_y", SMALLER),
     DeckPicture("colonnade_across", "structures/colonnade.yaml", "across", SMALLER),
     DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle", SMALLER),
+    DeckPicture("filled_bridge", "structures/filled_bridge.yaml", "lorry", SMALLER),
     DeckPicture("cross_vault_on_piers_spreading", "structures/cross_vault_on_piers.yaml", "spreading", SMALLER),
     DeckPicture("dome_on_drum_push_x", "structures/dome_on_drum.yaml", "push_x", SMALLER),
     DeckPicture("spiral_stair_one_tread", "structures/spiral_stair.yaml", "one_tread", SMALLER),

@@ -12,6 +12,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra, turn_faces
+from mbla.model.ties import OUTSIDE
 from tests.properties.scenes import Scene, with_section
 
 
@@ -41,8 +42,10 @@ def moved_scene(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
         turned = matrix @ np.array(normal)
         mirrors.append((*turned.tolist(), offset + float(turned @ shift)))
     guides = replace(model.guides, motions=_wrenches(model.guides.motions, matrix, side))
+    ties = replace(model.ties, places=model.ties.places @ matrix.T + shift, pulls=model.ties.pulls @ matrix.T)
     cases = tuple(_moved_case(case, matrix, side) for case in model.load_cases)
     model = replace(model, blocks=blocks, grounds=grounds, mirrors=tuple(mirrors), guides=guides, load_cases=cases)
+    model = replace(model, ties=ties)
     if model.interfaces is not None:
         model = _moved_table(model, matrix, shift, side)
     return replace(_moved_overrides(scene, matrix, shift), model=model)
@@ -129,6 +132,7 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
         fixed=model.fixed[order],
         grounds=grounds,
         guides=replace(model.guides, blocks=new[model.guides.blocks]),
+        ties=model.ties.with_bodies(np.where(model.ties.bodies == OUTSIDE, OUTSIDE, new[model.ties.bodies])),
         load_cases=tuple(cases),
     )
     return replace(scene, model=model)
@@ -155,4 +159,5 @@ def with_forces(model: Model, times: float) -> Model:
         )
         for name, joint in model.joints.items()
     }
-    return replace(model, load_cases=tuple(cases), joints=joints)
+    limits = {name: times * getattr(model.ties, name) for name in ("least", "greatest", "prestress")}
+    return replace(model, load_cases=tuple(cases), joints=joints, ties=replace(model.ties, **limits))

@@ -14,6 +14,7 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
+from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, labels_of
@@ -338,7 +339,7 @@ def full_model(model: Model) -> Model:
     not_run = replace(
         model.load_cases[2],
         pushover=pushover,
-        travel=standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5),
+        travel=replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5), spread=True),
         tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
         settlement=Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),
         objective=Objective(
@@ -356,6 +357,7 @@ def full_model(model: Model) -> Model:
             not_run,
         ),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
+        fill=Fill(0.5 * model.blocks.added_masses, model.blocks.added_mass_points, ("soil: 1 m deep",)),
         ties=TIE,
     )
 

@@ -60,7 +60,7 @@ def expanded(found: str, file: str) -> set[str]:
     if re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)+|mirrored", found):
         return {found}
     if file == "notices.py" and found == "identifier":  # names of sections in the singular
-        return {"parameter-unused", "material-unused", "joint-unused", "load-unused"}
+        return {"parameter-unused", "material-unused", "joint-unused", "load-unused", "vehicle-unused"}
     if file in ("findings.py", "outcome.py") and found == "identifier":
         return {"tries-disagree", "range-not-verified", "peak-not-verified"}
     return COMPUTED[found]

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 from pydantic import Field
 
 from mbla.deck.items.item import SpringingItem
-from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
+from mbla.deck.quantities import Count, EmbraceAngle, Length, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, given, one_of, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
@@ -26,6 +26,22 @@ class ArchPiers(Section):
     height: PositiveLength = Field(description="from the base to the springing of the intrados")
     width: PositiveLength = Field(description="extent along x, outwards from the intrados")
     courses: Count = Field(description="number of courses, one block each")
+
+
+class Backing(Section):
+    """Haunches on both sides: coursed masonry on the extrados up to a level top, between upright backs, in one block
+    through the width of an arch, in the bond of a barrel vault. Member `backing`, with `course` from the bottom and
+    `unit` from the left. They stand on the piers, over the width of these, or from the springing of the extrados
+    outwards on what the deck's supports give there, with `springers` on ground of their own.
+    """
+
+    top: Length = Field(description="height z of their top, over the springings of the line that has the shape")
+    unit: tuple[PositiveLength, PositiveLength] = Field(
+        description="length and height of a unit; courses are evened out to fit"
+    )
+    width: PositiveLength | None = Field(
+        None, description="extent beyond the springing of the extrados; with piers it is theirs"
+    )
 
 
 class ArchItem(SpringingItem):
@@ -74,6 +90,7 @@ class ArchItem(SpringingItem):
         "and the joints stay parallel to the abutments (false skew; no helicoidal courses)",
     )
     piers: ArchPiers | None = Field(None, description="piers under the springings; the deck's supports hold them")
+    backing: Backing | None = Field(None, description="haunches over the springings")
 
 
 SIDE_ANGLE = 60.0
@@ -101,6 +118,22 @@ def arch_shape(arch: ArchItem) -> Iterator[Finding]:
     if arch.piers is not None and arch.springers != "none":
         words = f"the springings have piers or springers: leave out one of them (springers: {arch.springers})"
         yield Finding("key-of-another-choice", words, "piers")
+
+
+@rule(ArchItem)
+def arch_backing(arch: ArchItem) -> Iterator[Finding]:
+    """Haunches are as wide as the piers, or as they say."""
+    if arch.backing is not None:
+        if arch.piers is not None and arch.backing.width is not None:
+            yield Finding("key-of-another-choice", "is that of the piers: leave it out", "backing", "width")
+        elif arch.piers is None:
+            yield from backing_width(arch.backing)
+
+
+def backing_width(backing: Backing) -> Iterator[Finding]:
+    """Without piers haunches need a width."""
+    if backing.width is None:
+        yield Finding("missing-key", "needs width", "backing")
 
 
 @rule(ArchItem)

@@ -59,8 +59,8 @@ class BridgeItem(Item):
     chords of the extrados and filling the space up to a level top without gaps. Beds of courses keep a quarter of the
     height of a unit away from crowns, and joints keep away from the tips of courses, so that no slivers arise. Members:
     `voussoir` (with `span`, `voussoir`, `ring`), `pier` and `abutment` (`course`, `unit` from the left), `springer`
-    (`unit`), `spandrel`, `backing` and `parapet` (`course`, `unit`; `leaf` 0 at y = 0, 1 at the far face). Fill is not
-    modelled: its weight can be given as a load.
+    (`unit`), `spandrel`, `backing` and `parapet` (`course`, `unit`; `leaf` 0 at y = 0, 1 at the far face). Fill
+    between the walls is a section of its own, `fill`.
     """
 
     spans: list[PositiveLength] = Field(min_length=1, description="clear span of each arch, from left to right")

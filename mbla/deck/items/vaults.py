@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.items.arch import range_of_rise, shape_keys
+from mbla.deck.items.arch import Backing, backing_width, range_of_rise, shape_keys
 from mbla.deck.items.item import SpringingItem
 from mbla.deck.quantities import EmbraceAngle, Integer, PositiveLength
 from mbla.deck.section import ROUNDING, rule
@@ -37,11 +37,12 @@ class BarrelVaultItem(VaultItem):
     """A barrel vault, its axis along +y, courses along the axis, in the bond of a wall.
 
     The left intrados springing is at x = 0, the right one at x = span, both at z = 0, from y = 0 to length. Labels:
-    `course` from the left springing, `unit` from y = 0.
+    `course` from the left springing, `unit` from y = 0. With haunches the vault itself is the member `barrel`.
     """
 
     span: PositiveLength = Field(description="distance between the intrados springings")
     length: PositiveLength = Field(description="extent along y")
+    backing: Backing | None = Field(None, description="haunches over the springings, in units along y as the vault")
 
 
 class CrossVaultItem(VaultItem):
@@ -93,6 +94,13 @@ def vault_curve(vault: VaultItem) -> Iterator[Finding]:
         yield from range_of_rise(vault.shape, span, vault.rise, None, ("rise",))
     if vault.shape == "pointed" and vault.courses % 2 and not isinstance(vault, PavilionVaultItem):
         yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
+
+
+@rule(BarrelVaultItem)
+def vault_backing(vault: BarrelVaultItem) -> Iterator[Finding]:
+    """Haunches of a vault need a width."""
+    if vault.backing is not None:
+        yield from backing_width(vault.backing)
 
 
 @rule(CrossVaultItem, PavilionVaultItem)

@@ -20,8 +20,6 @@ from mbla.deck.quantities import (
     Name,
     Number,
     Point,
-    Positions,
-    PositiveLength,
     PositiveMass,
     Stress,
     UnitWeight,
@@ -29,6 +27,7 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import EXACTLY_ONE, Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.vehicles import Travel, VehicleLoad
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
@@ -38,6 +37,8 @@ NEEDS_BLOCK = ("force", "moment")
 """kinds of loads that act on one block, which `on` names"""
 ON_ALL_BLOCKS = {"gravity": "acts on all blocks: use acceleration", "tilt": "turns the whole structure"}
 """kinds that `on` does not apply to, and why"""
+THROUGH_FILL = ("line", "vehicle", "travel")
+"""kinds that may stand on fill"""
 FOLLOWERS = ("force", "moment", "line", "pressure")
 """kinds that may turn with their block in a pushover"""
 LIVE_ONLY = ("travel", "tilt")
@@ -133,40 +134,6 @@ def pressure_load(pressure: PressureLoad) -> Iterator[Finding]:
         yield Finding("missing-key", "needs a value, or a level and per_depth")
 
 
-class Axle(Section):
-    """A force that follows the first one of a travelling load."""
-
-    behind: PositiveLength = Field(description="distance behind the first force, along the path")
-    force: tuple[Force, Force, Force] = Field(description="the force; it acts where the path is drawn, with its moment")
-
-
-class Travel(Section):
-    """A force, or several in a row, along a path: a load case for each position, and the worst of them."""
-
-    force: tuple[Force, Force, Force] = Field(description="the force; it acts where the path is drawn, with its moment")
-    path: list[Point] = Field(min_length=2, description="corners of the path")
-    positions: Positions = Field(
-        description="positions at equal distances along the path, its ends among them; with axles from the first force "
-        "at the beginning of the path to the last axle at its end"
-    )
-    axles: list[Axle] | None = Field(
-        None,
-        min_length=1,
-        max_length=100,
-        description="forces that follow the first one, as the axles of a lorry; none acts before it is on the path and "
-        "beyond its end",
-    )
-    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the block under it is sought")
-
-
-@rule(Travel)
-def travel(load: Travel) -> Iterator[Finding]:
-    """A path goes on."""
-    for number, (before, here) in enumerate(pairwise(load.path), start=1):
-        if before == here:
-            yield Finding("degenerate-line", "must not be the corner before it", "path", number)
-
-
 class Tilt(Section):
     """Tilting table: the structure turns with its supports until it collapses; the answer is an angle."""
 
@@ -181,7 +148,22 @@ Gravity: TypeAlias = Annotated[
 ]
 
 
-@exactly_one_of(*("gravity", "acceleration", "force", "moment", "line", "pressure", "table", "loads", "travel", "tilt"))
+KINDS = (
+    "gravity",
+    "acceleration",
+    "force",
+    "moment",
+    "line",
+    "pressure",
+    "vehicle",
+    "table",
+    "loads",
+    "travel",
+    "tilt",
+)
+
+
+@exactly_one_of(*KINDS)
 class Load(Section):
     """One load of exactly one kind; dead or live, save `travel` and `tilt`, which are live only."""
 
@@ -197,6 +179,7 @@ class Load(Section):
     moment: tuple[Moment, Moment, Moment] | None = Field(None, description="moment on one block")
     line: LineLoad | None = Field(None, description="load along a line")
     pressure: PressureLoad | None = Field(None, description="pressure on faces")
+    vehicle: VehicleLoad | None = Field(None, description="a vehicle that stands")
     loads: Name | None = Field(None, description="the loads of that name in section loads, all of them")
     travel: Travel | None = Field(None, description="force at one position after the other")
     tilt: Tilt | None = Field(None, description="gravity turns; the only load of its list")
@@ -209,6 +192,11 @@ class Load(Section):
     on: Selector | None = Field(
         None,
         description="force, moment: the block; other kinds: the only blocks that they may act on, all unless given",
+    )
+    through: Name | None = Field(
+        None,
+        description="line, vehicle, travel: the fill on which they stand, straight over or under where they are drawn, "
+        "and in which they spread; their forces are vertical",
     )
     at: Point | None = Field(
         None, description="point of application, carried with its moment; the centroid unless given"
@@ -241,8 +229,25 @@ def load_keys(load: Load) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "applies to acceleration only", "pattern")
     if load.follows and kind not in FOLLOWERS:
         yield Finding("key-of-another-choice", f"applies to {listed(FOLLOWERS)} only", "follows")
+    if load.through is not None:
+        yield from _through_fill(load, kind)
     if kind == "tilt" and load.factor != 1.0:
         yield Finding("key-of-another-choice", "does not apply to tilt: gravity turns as it is", "factor")
+
+
+def _through_fill(load: Load, kind: str) -> Iterator[Finding]:
+    if kind not in THROUGH_FILL:
+        yield Finding("key-of-another-choice", f"applies to {listed(THROUGH_FILL)} only", "through")
+        return
+    if load.on is not None:
+        yield Finding(
+            "key-of-another-choice", "does not apply with through: the fill says on which blocks it lies", "on"
+        )
+    if load.follows:
+        yield Finding("key-of-another-choice", "does not apply with through: fill does not turn with blocks", "follows")
+    if "towards" in getattr(load, kind).model_fields_set:
+        words = "does not apply with through: in fill a load spreads straight down"
+        yield Finding("key-of-another-choice", words, kind, "towards")
 
 
 class AddedMass(Section):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mbla.deck.items.arch import ArchItem
+from mbla.deck.items.arch import ArchItem, Backing
 from mbla.deck.items.bridge import BridgeItem
 from mbla.deck.items.column import ColumnItem
 from mbla.deck.items.cuboids import StackItem
@@ -26,11 +26,14 @@ def amount_of(item: Item) -> tuple[float, str]:
     match item:
         case ArchItem():
             courses = 2 * item.piers.courses if item.piers else 0
-            return item.voussoirs * item.rings * item.units_across + courses, "voussoirs"
+            carrying = item.voussoirs * item.rings * item.units_across + courses
+            return _with_backing(item.backing, carrying, "voussoirs", item.thickness + (item.span or 0.0))
         case BridgeItem():
             return _of_bridge(item)
         case BarrelVaultItem():
-            return item.courses * item.length / item.unit, "length"
+            along = item.length / item.unit
+            amount, key = _with_backing(item.backing, item.courses, "length", item.span + item.thickness)
+            return amount * along, key
         case CrossVaultItem():
             edge = item.edge or 2 * item.thickness * max(1.0, item.bay[1] / item.bay[0])
             return item.courses * (sum(item.bay) + 4 * edge) / item.unit, "unit"
@@ -59,6 +62,15 @@ def _of_walls(item: WallItem | WallsItem, length: float, gable: float) -> float:
     along = item.leaves * max(length / min(unit, width if item.leaves > 1 else unit), 1.0)
     across = sum(max((buttress.depth + item.leaves * width) / unit, 1.0) for buttress in item.buttresses)
     return (item.courses + gable / height) * (along + across)
+
+
+def _with_backing(backing: Backing | None, carrying: float, key: str, length: float) -> tuple[float, str]:
+    """Units with those of haunches on both sides of an arch, which are no longer than it and their width."""
+    if backing is None or not math.isfinite(length + backing.top):
+        return carrying, key
+    along = max((length + 2 * (backing.width or 0.0)) / backing.unit[0], 1.0)
+    filling = along * max(backing.top / backing.unit[1], 1.0)
+    return carrying + filling, "backing" if filling > carrying else key
 
 
 def _of_bridge(item: BridgeItem) -> tuple[float, str]:

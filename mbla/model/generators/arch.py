@@ -32,7 +32,8 @@ from mbla.model.generators.arch_sections import (
 )
 from mbla.model.generators.curves import Curve, named_curve
 from mbla.model.generators.curves.spline import through
-from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.generators.generator import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.generators.haunches import haunch_grounds, haunches
 from mbla.model.solids.polyhedra import Polyhedra, prisms
 
 
@@ -49,12 +50,19 @@ def generate_arch(item: ArchItem, site: Site) -> Generated:
     section = build_section(_curve(item), item.voussoirs, item.rings, item.thickness, springing, inside)
     shear = float(np.tan(np.radians(item.skew)))
     voussoirs = _voussoirs(item, section, shear)
+    parts, grounds = [voussoirs], tuple[GroundPart, ...]()
+    if item.backing is not None:
+        width = None if item.piers is None else item.piers.width
+        made = haunches(item.backing, section, width, lambda _: np.array([[0.0, item.width]]), shear)
+        parts.append(made[0])
+        if item.springers != "none":
+            grounds = haunch_grounds(*made[1:], len(voussoirs.polyhedra), item.joint)
     if item.springers == "blocks":
-        behind = _through(item, springer_polygons(section, springing), shear)
-        return Generated((voussoirs, Part(behind, "_springers", fixed=True)))
+        parts.append(Part(_through(item, springer_polygons(section, springing), shear), "_springers", fixed=True))
     if item.springers == "ground":
-        return Generated((voussoirs,), springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear))
-    return Generated((voussoirs, *(_piers(item, item.piers, section, shear) if item.piers else ())))
+        grounds = (*springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear), *grounds)
+    parts += _piers(item, item.piers, section, shear) if item.piers else ()
+    return Generated(tuple(parts), grounds)
 
 
 def _curve(item: ArchItem) -> Curve:
@@ -117,18 +125,30 @@ NO_UNIT = 1e-6
 
 
 def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
-    """Units course by course from the left springing, along +y in each."""
+    """Units course by course from the left springing, along +y in each; haunches.
+
+    Raises ItemRefused where haunches do not fit.
+    """
     section = vault_section(item, item.span)
     rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
     course = np.repeat(np.arange(item.courses), [len(row) for row in rows])
     polygons = voussoir_polygons(section)[0]
     units = prisms([polygons[number] for number in course.tolist()], np.concatenate(rows))
     labels = {"course": course, "unit": np.concatenate([np.arange(len(row)) for row in rows])}
-    parts = [Part(units, labels=labels)]
+    member = "barrel" if item.backing else ""
+    parts, grounds = [Part(units, member=member, labels=labels)], tuple[GroundPart, ...]()
+    if item.backing is not None:
+        made = haunches(
+            item.backing, section, None, lambda course: _ends(item, item.bond == "running" and course % 2 == 1)
+        )
+        parts.append(made[0])
+        if item.springers != "none":
+            grounds = haunch_grounds(*made[1:], len(units), item.joint)
     if item.springers == "blocks":
         behind = prisms(springer_polygons(section, item.thickness), np.tile([0.0, item.length], (2, 1)))
         parts.append(Part(behind, "_springers", fixed=True))
-    grounds = springing_grounds(section, course, item.joint) if item.springers == "ground" else ()
+    if item.springers == "ground":
+        grounds = (*springing_grounds(section, course, item.joint), *grounds)
     return Generated(tuple(parts), grounds)
 
 

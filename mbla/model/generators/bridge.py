@@ -38,6 +38,7 @@ from mbla.model.generators.spandrels import (
     bond_of_course,
     build_outline,
     course_pieces,
+    coursed,
 )
 from mbla.model.solids.polyhedra import prisms
 
@@ -173,20 +174,11 @@ def _spandrels(item: BridgeItem, frame: _Frame) -> list[Part]:
     masonry = Masonry(*item.unit, extent=min(top, frame.right - frame.left))
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, masonry)
-    polygons: list[FloatArray] = []
-    levels, units = [], []
-    pits: tuple[tuple[float, float], ...] = ()
-    for course in range(len(beds) - 1):
-        bond = bond_of_course(frame.left, frame.right, course % 2 == 1, masonry.length)
-        pieces, pits = course_pieces(outline, Course(beds[course], beds[course + 1], bond, pits), masonry)
-        polygons += pieces
-        levels += [course] * len(pieces)
-        units += list(range(len(pieces)))
+    polygons, course, unit = coursed(outline, beds, (frame.left, frame.right), masonry)
     if not polygons:
         message = "is too large for what lies above the arches: take a smaller unit, or more cover"
         raise ItemRefused(Finding("out-of-bounds", message, "unit"))
-    labels = {"course": np.array(levels, dtype=np.int64), "unit": np.array(units, dtype=np.int64)}
-    rows = _in_place(item, polygons, labels)
+    rows = _in_place(item, polygons, {"course": course, "unit": unit})
     if item.parapets is not None:
         rows.append(_parapets(item, frame, masonry, top, len(beds) - 1))
     return rows

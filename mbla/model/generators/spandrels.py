@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.solids.plane import signed_areas
 
 SAME_POINT = 1e-12
@@ -149,6 +149,22 @@ def course_pieces(
         else:
             pieces += _cut(outline, course, (start, end), masonry)
     return pieces, tuple(pits)
+
+
+def coursed(
+    outline: Outline, beds: FloatArray, ends: tuple[float, float], masonry: Masonry
+) -> tuple[list[FloatArray], IntArray, IntArray]:
+    """Polygons (k, 2) of all courses between beds (n + 1,), with course and position of each, (m,)."""
+    polygons: list[FloatArray] = []
+    levels, units = [], []
+    pits: tuple[tuple[float, float], ...] = ()
+    for course in range(len(beds) - 1):
+        bond = bond_of_course(*ends, course % 2 == 1, masonry.length)
+        pieces, pits = course_pieces(outline, Course(beds[course], beds[course + 1], bond, pits), masonry)
+        polygons += pieces
+        levels += [course] * len(pieces)
+        units += list(range(len(pieces)))
+    return polygons, np.array(levels, dtype=np.int64), np.array(units, dtype=np.int64)
 
 
 def bond_of_course(left: float, right: float, odd: bool, length: float) -> FloatArray:

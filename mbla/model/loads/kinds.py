@@ -8,6 +8,7 @@ from mbla.model.loads.line import line_load
 from mbla.model.loads.load_kind import LoadKind
 from mbla.model.loads.pressure import pressure_load
 from mbla.model.loads.table import table_load
+from mbla.model.loads.vehicle import vehicle_load
 
 LOAD_KINDS: dict[str, LoadKind] = {
     "gravity": gravity_load,
@@ -16,5 +17,6 @@ LOAD_KINDS: dict[str, LoadKind] = {
     "moment": moment_load,
     "line": line_load,
     "pressure": pressure_load,
+    "vehicle": vehicle_load,
     "table": table_load,
 }

@@ -2,7 +2,7 @@
 
 Each part of the line acts on the block under it: of a part of length l about its middle m, the force q l at m. The sum
 of forces is q L and their moment that of q L at the middle of the line, whatever the blocks. Where the line runs along
-the joint of two blocks each carries half.
+the joint of two blocks each carries half. On fill it spreads to both sides (:mod:`mbla.model.loads.dispersal`).
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from mbla.deck.sections.loads import LineLoad, Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
+from mbla.model.loads.dispersal import Spread
+from mbla.model.loads.landing import Landing, level
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.wording import counted, vector
 
@@ -22,45 +24,47 @@ def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite
     """A line load on all blocks under it, or on those of them that are selected, (n,)."""
     assert load.line is not None  # what makes it this kind
     line, chosen = load.line, np.arange(len(site.blocks)) if blocks is None else blocks
+    if load.through is not None and load.through not in site.fill:
+        return None  # its blocks could not be built
     begin, end = np.array(line.from_), np.array(line.to)
-    ends, carriers = _parts(begin, end, np.array(line.towards), chosen, site)
-    bare = np.asarray((carriers < 0).all(axis=0))
-    if bare.any() and site.roster.partial:  # what could not be built may well lie there
-        return None
-    if bare.any():
-        _refuse_bare(line, ends, bare, path, site)
-        return None
-    shares = np.where(carriers >= 0, 1.0, 0.0)
-    shares *= np.diff(ends) / shares.sum(axis=0)
-    side, part = np.nonzero(shares > 0.0)
-    loaded = carriers[side, part]
-    length = float(np.linalg.norm(end - begin))
-    forces = (length * shares[side, part])[:, None] * np.array(line.force_per_length)
-    points = begin + ((ends[:-1] + ends[1:]) / 2)[part, None] * (end - begin)
+    through = None if load.through is None else site.fill[load.through]
+    landing = Landing(Below(site.blocks, np.array(line.towards), chosen), through, (*path, "line"), site)
     words = (
         f"line load {vector(line.force_per_length)} {site.units.force}/{site.units.length} "
         f"from {vector(line.from_)} to {vector(line.to)} {site.units.length}"
     )
-    wrenches = wrenches_of(forces, points, site.blocks.centroids[loaded])
-    unique, total = sum_on_blocks(loaded, wrenches)
-    return AppliedLoad(unique, total, f"{words} on {counted(len(unique), 'block')}")
+    found = _landed(landing, line, begin, end, words)
+    if found is None:
+        return None
+    length = float(np.linalg.norm(end - begin))
+    forces = (length * found.shares)[:, None] * np.array(line.force_per_length)
+    wrenches = wrenches_of(forces, found.points, site.blocks.centroids[found.blocks])
+    unique, total = sum_on_blocks(found.blocks, wrenches)
+    spread = "" if through is None else f" through fill {through.name}"
+    return AppliedLoad(unique, total, f"{words}{spread} on {counted(len(unique), 'block')}")
 
 
-def _parts(
-    begin: FloatArray, end: FloatArray, towards: FloatArray, chosen: IntArray, site: LoadSite
-) -> tuple[FloatArray, IntArray]:
-    """Ends of the parts of a line, (n + 1,), and the blocks under them left and right of it, (2, n).
-
-    Bare parts that are narrower than the tolerance of contacts are joints that are not quite closed: they count to the
-    part before them, or after them at the beginning.
-    """
-    ends, carriers = Below(site.blocks, towards, chosen).parts(begin, end)
-    bare = np.asarray((carriers < 0).all(axis=0))
-    narrow = site.tolerance * float(site.blocks.sizes[chosen].min()) / float(np.linalg.norm(end - begin))
-    for part in np.flatnonzero(bare & (np.diff(ends) <= narrow)):  # few: open joints
-        near = next((other for other in (part - 1, part + 1) if 0 <= other < len(bare) and not bare[other]), part)
-        carriers[:, part] = carriers[:, near]
-    return ends, carriers
+def _landed(landing: Landing, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:
+    """Where it lands; None, and a fault, where part of it lies over no block, or, on fill, all of it goes beyond."""
+    site = landing.site
+    if landing.through is None:
+        ends, carriers = landing.parts_of_line(begin, end)
+        bare = np.asarray((carriers < 0).all(axis=0))
+        if bare.any() and not site.roster.partial:  # what could not be built may well lie there
+            _refuse_bare(line, ends, bare, landing.path, site)
+        return None if bare.any() else landing.of_line(begin, end)
+    across = end - begin
+    if not landing.sound(np.array([line.force_per_length]), across, 0.0):
+        return None
+    along, width = level([across[1], -across[0]]), float(np.hypot(across[0], across[1]))
+    found = landing.of((begin + end) / 2, along, width)
+    if found is not None and not len(found.blocks):
+        message = f"all of it goes beyond the blocks under the fill {landing.through.name}: move it"
+        site.refuse(Finding("load-beside-structure", message, *landing.path))
+        return None
+    if found is not None:
+        landing.remark_beyond(words, found.beyond)
+    return found
 
 
 def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPath, site: LoadSite) -> None:
@@ -73,4 +77,4 @@ def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPat
         f"{lost:.6g} of its {length:.6g} {site.units.length} lie over no block, from {vector(first)} on; "
         "shorten the line, or look for blocks in another direction with towards"
     )
-    site.refuse(Finding("load-beside-structure", message, *path, "line"))
+    site.refuse(Finding("load-beside-structure", message, *path))

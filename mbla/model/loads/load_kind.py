@@ -16,9 +16,11 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.loads import Load
+from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
+from mbla.model.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
@@ -33,6 +35,8 @@ class LoadSite:
     grounds : planes of rigid ground
     named   : loads of the deck by name
     tolerance : of contacts, relative to block size
+    fill    : fills by name, through which loads spread
+    vehicles : of the deck by name
     """
 
     roster: Roster
@@ -42,6 +46,8 @@ class LoadSite:
     grounds: tuple[Ground, ...] = ()
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3
+    fill: Mapping[str, FillBody] = field(default_factory=dict)
+    vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
 
     @property
     def blocks(self) -> Blocks:

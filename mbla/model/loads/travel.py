@@ -1,4 +1,4 @@
-"""A force that travels: its positions along a path, each landing on the block under it.
+"""A force that travels: its positions along a path, each landing on the block under it, or through fill on several.
 
 Positions lie at equal distances along the path, both ends among them. The load case NAME becomes NAME@01, NAME@02, ...:
 a name of the deck cannot have an @, files and HDF5 groups can.
@@ -9,16 +9,22 @@ path to the last at its end; of each position those forces act that are on the p
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TypeAlias
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.loads import Travel
+from mbla.deck.sections.vehicles import Travel
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
+from mbla.model.loads.dispersal import Spread
+from mbla.model.loads.landing import Landing, level
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.loads.vehicle import axles_of, beyond_of
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
-from mbla.model.wording import vector
+from mbla.model.wording import counted, vector
 
 ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""
@@ -26,58 +32,128 @@ ON_PATH = 1e-9
 
 def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPosition, AppliedLoad]] | None:
     """The load at every position; None where a fault was left, as for positions over no block."""
-    travel = entry.load.travel
+    travel, through = entry.load.travel, entry.load.through
     assert travel is not None  # what makes it this kind
     chosen: IntArray | None = np.arange(len(site.blocks))
     if entry.load.on is not None:
         chosen = select_blocks(entry.load.on, (*entry.path, "on"), site.roster)
-    if chosen is None:
+    if chosen is None or (through is not None and through not in site.fill):
         return None
-    vehicle = vehicle_on_path(travel)
+    axles, path = axles_of(travel, site), (*entry.path, "travel")
+    vehicle = vehicle_on_path(travel, axles.behind)
     empty = [number for number, (_, _, acting) in enumerate(vehicle, start=1) if not acting.any()]
     if empty:
         words = (
             f"at position {empty[0]} of {len(vehicle)} no force is on the path: make it longer than the gaps between "
             "them"
         )
-        site.refuse(Finding("load-beside-structure", words, *entry.path, "travel", "axles"))
+        site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
         return None
-    below = Below(site.blocks, np.array(travel.towards), chosen)
-    forces = entry.factor * np.array([travel.force, *(axle.force for axle in travel.axles or [])])
-    positions, bare = [], []
-    for number, (points, distances, acting) in enumerate(vehicle, start=1):
-        under = np.full(len(points), -1)
-        under[acting] = below.at(points[acting])
-        positions.append(TravelPosition(name, number, len(vehicle), points, distances, forces, under))
-        bare += [(number, points[axle]) for axle in np.flatnonzero(acting & (under < 0))[:1]]
-    if bare and not site.roster.partial:
-        (first, point), more = bare[0], len(bare) - 1
-        words = (
-            f"position {first} of {len(vehicle)}, at {vector(point)} {site.units.length},"
-            f"{f' and {more} more lie' if more else ' lies'} over no block; change the path, or look for blocks in "
-            "another direction with towards"
-        )
-        site.refuse(Finding("load-beside-structure", words, *entry.path, "travel"))
+    landing = Landing(
+        Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
+    )
+    steps = np.diff(np.array(travel.path), axis=0)
+    if not all(landing.sound(axles.forces, step, axles.width) for step in steps):
+        return None
+    before = len(site.roster.faults)
+    found = [_landed(landing, travel, axles.width, *each) for each in vehicle]
+    bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
+    if bare and len(site.roster.faults) == before and not site.roster.partial:
+        _refuse_bare(bare, len(vehicle), landing)
     if bare:
         return None
-    return [(position, _applied(position, site)) for position in positions]
+    positions, forces = [], entry.factor * axles.forces
+    for number, ((points, distances, _), (landed, _)) in enumerate(zip(vehicle, found, strict=True), start=1):
+        if landing.through is not None:
+            points[:, 2] = landing.through.tops(points)
+        under = np.array([_most(each) for each in landed])
+        spread = landing.through is not None or axles.width > 0.0
+        position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
+        positions.append((position, _applied(position, landed, landing)))
+    _remark_beyond(name, axles.forces, [landed for landed, _ in found], landing)
+    return positions
 
 
-def _applied(position: TravelPosition, site: LoadSite) -> AppliedLoad:
-    """The forces on the path, on the blocks under them, which may be the same for some."""
-    acting, units = position.acting, site.units
-    forces, points, under = position.forces[acting], position.points[acting], position.blocks[acting]
+Landed: TypeAlias = Sequence[Spread | None]
+"""where each axle lands; None off the path"""
+
+
+def _landed(
+    landing: Landing, travel: Travel, width: float, points: FloatArray, distances: FloatArray, acting: BoolArray
+) -> tuple[Landed, FloatArray | None]:
+    """Where the axles land, and the first place, (3,), where one lies over no block; on fill, where all of them do."""
+    found: list[Spread | None] = [None] * len(points)
+    bare = []
+    for axle in np.flatnonzero(acting).tolist():
+        way = level(_way_at(travel, float(distances[axle])))
+        found[axle] = landing.of(points[axle], way, width)
+        if found[axle] is None:
+            bare.append(points[axle])
+    if not bare and not any(each is not None and len(each.blocks) for each in found):
+        bare.append(points[acting][0])
+    return found, bare[0] if bare else None
+
+
+def _way_at(travel: Travel, distance: float) -> FloatArray:
+    """The way of the path at a distance from its beginning, (3,)."""
+    steps = np.diff(np.array(travel.path), axis=0)
+    ends = np.cumsum(np.linalg.norm(steps, axis=1))
+    return np.asarray(steps[min(int(np.searchsorted(ends, distance)), len(steps) - 1)])
+
+
+def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, landing: Landing) -> None:
+    (first, point), more = bare[0], len(bare) - 1
+    over = "over no block; change the path, or look for blocks in another direction with towards"
+    if landing.through is not None:
+        over = f"beyond the blocks under the fill {landing.through.name}; change the path"
+    words = (
+        f"position {first} of {count}, at {vector(point)} {landing.site.units.length},"
+        f"{f' and {more} more lie' if more else ' lies'} {over}"
+    )
+    landing.site.refuse(Finding("load-beside-structure", words, *landing.path))
+
+
+def _most(landed: Spread | None) -> int:
+    """The block that carries most of an axle; -1 for none."""
+    return -1 if landed is None or not len(landed.blocks) else int(landed.blocks[np.argmax(landed.shares)])
+
+
+def _applied(position: TravelPosition, landed: Landed, landing: Landing) -> AppliedLoad:
+    """The forces on the path, on the blocks they land on, which may be the same for some."""
+    site, units = landing.site, landing.site.units
+    there = [(axle, each) for axle, each in enumerate(landed) if each is not None and len(each.blocks)]
+    under = np.concatenate([each.blocks for _, each in there])
+    forces = np.concatenate([each.shares[:, None] * position.forces[axle] for axle, each in there])
+    points = np.concatenate([each.points for _, each in there])
     blocks, wrenches = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
-    each = [
-        f"force {vector(force)} {units.force} at {vector(point)} {units.length} on {site.blocks.name(int(block))}"
-        for force, point, block in zip(forces, points, under, strict=True)
+    through = f" through fill {landing.through.name}" if landing.through is not None else ""
+    each_on = [
+        f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"
+        f"{through} on {_blocks_in_words(each, site)}"
+        for axle, each in there
     ]
     words = f"position {position.number} of {position.count}"
-    if len(acting) > 1:
+    if len(landed) > 1:
         words += f", first axle {position.distance:.6g} {units.length} along the path"
-    off = int(np.sum(~acting))
-    words += f", {off} of {len(acting)} axles off the path" if off else ""
-    return AppliedLoad(blocks, wrenches, f"{' and '.join(each)}, {words}")
+    off = sum(each is None for each in landed)
+    words += f", {off} of {len(landed)} axles off the path" if off else ""
+    return AppliedLoad(blocks, wrenches, f"{' and '.join(each_on)}, {words}")
+
+
+def _blocks_in_words(landed: Spread, site: LoadSite) -> str:
+    """``ring[4]``, ``7 blocks``."""
+    under = np.unique(landed.blocks)
+    return site.blocks.name(int(under[0])) if len(under) == 1 else counted(len(under), "block")
+
+
+def _remark_beyond(name: str, forces: FloatArray, positions: Sequence[Landed], landing: Landing) -> None:
+    """The position at which most of the load goes beyond the ends of the blocks, if some does."""
+    shares = []
+    for landed in positions:
+        acting = [axle for axle, each in enumerate(landed) if each is not None]
+        shares.append(beyond_of(forces[acting], np.array([each.beyond for each in landed if each is not None])))
+    worst = int(np.argmax(shares))
+    landing.remark_beyond(f"{name}: at position {worst + 1} of {len(shares)}, where it is most", shares[worst])
 
 
 def case_name(position: TravelPosition) -> str:
@@ -85,15 +161,16 @@ def case_name(position: TravelPosition) -> str:
     return f"{position.series}@{position.number:0{len(str(position.count))}d}"
 
 
-def vehicle_on_path(travel: Travel) -> list[tuple[FloatArray, FloatArray, BoolArray]]:
+def vehicle_on_path(travel: Travel, behind: FloatArray) -> list[tuple[FloatArray, FloatArray, BoolArray]]:
     """For each position of all axles: their points (n, 3), distances from the beginning of the path (n,), and which of
     them are on it (n,), ends included; the others stand straight on from its ends.
+
+    behind : (n,) distance of each axle behind the first
     """
     corners = np.array(travel.path)
     steps = np.diff(corners, axis=0)
     along = np.append(0.0, np.cumsum(np.linalg.norm(steps, axis=1)))
     ways = steps[[0, -1]] / np.linalg.norm(steps[[0, -1]], axis=1, keepdims=True)
-    behind = np.array([0.0, *(axle.behind for axle in travel.axles or [])])
     found = []
     for first in np.linspace(0.0, along[-1] + behind.max(), travel.positions):
         distances = first - behind

@@ -170,6 +170,9 @@ def _model(model: Model) -> Content:
     if len(guides):
         content |= {"guided_blocks": guides.blocks, "guided_bodies": guides.bodies}
         content |= {"guide_motions": guides.motions, "guide_words": guides.words}
+    if model.fill is not None:
+        fill = model.fill
+        content |= {"fill_masses": fill.masses, "fill_points": fill.points, "fill_words": fill.words}
     if len(model.ties):
         content |= {f"tie_{name}": getattr(model.ties, name) for name in Ties.__dataclass_fields__}
     return _below("model", content) | _notices("model/notices", model.notices)

@@ -19,6 +19,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
+from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import BlockLabels, Blocks
@@ -130,8 +131,17 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
         load_cases=load_cases,
         notices=_notices(_part(get, "notices/")),
         guides=_guides(get),
+        fill=_fill(get),
         ties=_ties(get),
     )
+
+
+def _fill(get: dict[str, Any]) -> Fill | None:
+    if "fill_masses" not in get:
+        return None
+    if np.any(get["fill_masses"] > get["added_masses"] * (1.0 + ROUNDING)):
+        raise ValueError("mass of the fill on a block")
+    return Fill(get["fill_masses"], get["fill_points"], tuple(get["fill_words"]))
 
 
 def _ties(get: dict[str, Any]) -> Ties:

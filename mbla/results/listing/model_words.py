@@ -31,6 +31,9 @@ from mbla.results.listing.tie_words import tie_lines
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
+ROUNDING = 1e-9
+"""share of the added mass of a block that is none beside its fill"""
+
 
 def check_listing(results: Results, needs: Mapping[str, CaseNeeds]) -> str:
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
@@ -83,10 +86,14 @@ def model_lines(model: Model) -> list[str]:
     lines += _extents(model)
     lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
     lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
-    added = int((blocks.added_masses > 0.0).sum())
+    others = blocks.added_masses if model.fill is None else blocks.added_masses - model.fill.masses
+    added = int((others > ROUNDING * blocks.added_masses).sum())
     if added:
-        mass = f"{number(float(blocks.added_masses.sum()))} {units.mass} on {counted(added, 'block')}"
+        mass = f"{number(float(others.sum()))} {units.mass} on {counted(added, 'block')}"
         lines += entry("added masses", f"{mass}; they count to the weights")
+    if model.fill is not None:
+        counts = "its mass moves with the blocks under it and counts to their weights"
+        lines += [line for words in model.fill.words for line in entry("fill", f"{words}; {counts}")]
     lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
     if ties := tie_lines(model):

@@ -14,9 +14,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.model.fill import UPWARD
 from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
 from mbla.results.pictures.marks import Mark, arrows, rings
-from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
+from mbla.results.pictures.page import CASES, DEAD_LOAD, FILL, LIVE_LOAD
 from mbla.results.pictures.scene import Scene
 from mbla.results.series import without_vehicle
 
@@ -41,6 +42,8 @@ def shown_loads(scene: Scene, kind: str) -> list[Mark]:
     if kind == "model" or falls:
         text = _text("dead load", case.dead_words)
         found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead_words)
+    if kind == "model":
+        found += fill_marks(scene)
     if kind != "model":
         return found + live_marks(scene, case, "live load", LIVE_LOAD, place=bool(found))
     cases: dict[str, list[LoadCase]] = {}
@@ -52,6 +55,32 @@ def shown_loads(scene: Scene, kind: str) -> list[Mark]:
         for each in together:
             found += live_marks(scene, each, label, colour, row + 1, len(together))
     return found
+
+
+def fill_marks(scene: Scene) -> list[Mark]:
+    """Arrows of the weight of the fill on free blocks, where its columns stand; none without fill."""
+    model = scene.model
+    if model.fill is None:
+        return []
+    carrying = np.flatnonzero((model.fill.masses > 0) & ~model.fixed)
+    if not len(carrying):
+        return []
+    weights = model.fill.masses[carrying, None] * np.array([0.0, 0.0, -1.0])
+    tips = np.column_stack([model.fill.points[carrying, :2], _tops(model, carrying)])
+    text, both = _text("fill", model.fill.words), np.column_stack([carrying, carrying])
+    return [arrows(text, FILL, tips, arrow_steps(weights, scene.size), both, [text] * len(carrying))]
+
+
+def _tops(model: Model, carrying: IntArray) -> FloatArray:
+    """Height of the tops of blocks under the fill they carry, (n,): the lowest of the planes of their upward faces."""
+    blocks, points = model.blocks, model.fill.points if model.fill else model.blocks.centroids
+    faces = np.flatnonzero(blocks.face_normals[:, 2] > UPWARD)
+    owner, normals = blocks.block_of_face[faces], blocks.face_normals[faces]
+    first = blocks.vertices[blocks.loops[blocks.loop_start[faces]]]
+    away = ((points[owner] - first)[:, :2] * normals[:, :2]).sum(axis=1)
+    lowest = np.full(len(blocks), np.inf)
+    np.minimum.at(lowest, owner, first[:, 2] - away / normals[:, 2])
+    return np.asarray(lowest[carrying])
 
 
 def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int = 0, positions: int = 1) -> list[Mark]:
@@ -115,6 +144,8 @@ def marks_of_load(
         points = np.vstack([points, travel.points[acting]])
     if len(under):
         tips, both = _entries(model, under, points, forces), np.column_stack([under, under])
+        if travel is not None and travel.spread:  # the axles on top, and below what lands of them
+            tips[len(tips) - int(acting.sum()) :] = travel.points[acting]
         found.append(arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under)))
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > NOTHING * _moment_size(model, loads))
     if len(turned):

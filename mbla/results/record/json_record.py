@@ -118,6 +118,7 @@ def model_json(model: Model) -> dict[str, Any]:
         "total_volume": number(model.blocks.volumes.sum()),
         "total_weight": number(model.total_weight),
         "added_mass": number(float(model.blocks.added_masses.sum())),
+        "fill_mass": number(0.0 if model.fill is None else float(model.fill.masses.sum())),
         "units": {"length": units.length, "force": units.force, "mass": units.mass},
     }
 

@@ -3,7 +3,8 @@
 Dead loads, live loads and reactions are vectors where they act. A force F and a moment M about the centroid c of a
 block are, where M is across F, a single force on the line through c + F × M / F². It is drawn there, level with the
 centroid along its own direction; where that point lies outside the box around the block, or a moment along F is left,
-at the centroid together with the moment. The axles of a load that travels are drawn where they stand. Whatever the
+at the centroid together with the moment. The axles of a load that travels are drawn where they
+stand, or, shared between blocks, as what lands on each. Whatever the
 point, force and moment at it are statically the load of the deck.
 """
 
@@ -101,8 +102,8 @@ def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
 
 
 def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
-    """The axles of a travelling load that act, each where it stands."""
-    if travel is None:
+    """The axles of a travelling load that act, each where it stands; none that are shared between blocks."""
+    if travel is None or travel.spread:
         return ()
     acting = travel.acting
     forces = travel.forces[acting]

@@ -1,0 +1,269 @@
+"""Fill above arches and vaults: columns of soil on the free upward faces of blocks, up to a top surface.
+
+Over a piece of a face with the plan P the column has the height h(x, y) = top − face, which is linear, so that
+
+    volume = ∫ h dA,    centroid = ∫ (x, y, z + h/2) h dA / volume    over P, with z on the face,
+
+are integrals of the second degree, for which the middles of the edges of triangles are exact. Of a face the pieces
+count that lie below the top and that no other block covers, seen from above: what lies on the face or over it is not
+fill. The mass of each column moves with the block under it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
+from mbla.deck.deck import Deck
+from mbla.deck.sections.fill import Dispersal, Passive
+from mbla.deck.sections.fill import Fill as FillSection
+from mbla.errors import Finding, Notice
+from mbla.model.selectors import Roster, select_blocks
+from mbla.model.solids.blocks import Blocks, carried_masses
+from mbla.model.solids.plane import cut, signed_areas, unit
+from mbla.model.solids.ragged import items_of_rows, row_maxima
+from mbla.model.wording import counted, named
+
+ROUNDING = 1e-12
+"""volume over that of all columns on the block below which a column is none"""
+UPWARD = 1e-6
+"""vertical component of the unit normal of a face, up to which it is upright and carries nothing"""
+
+
+@dataclass(frozen=True)
+class FillBody:
+    """One fill of the deck, and the pieces of faces that it may lie on.
+
+    point, normal : (3,) of its top plane, normal unit and upwards
+    triangles     : (n, 3, 3) pieces of faces, counter-clockwise seen from above; they may reach above the top
+    blocks, faces : (n,) block and face of each
+    unit_weight   : force per volume under standard gravity
+    dispersal     : how loads on it spread
+    passive       : how it holds blocks sideways, None where it does not
+    """
+
+    name: str
+    point: FloatArray
+    normal: FloatArray
+    triangles: FloatArray
+    blocks: IntArray
+    faces: IntArray
+    unit_weight: float
+    dispersal: Dispersal
+    passive: Passive | None
+
+    def tops(self, points: FloatArray) -> FloatArray:
+        """Height of the top surface at points (..., 2 or 3), (...)."""
+        away = points[..., :2] - self.point[:2]
+        return np.asarray(self.point[2] - away @ self.normal[:2] / self.normal[2])
+
+    def depths(self, points: FloatArray) -> FloatArray:
+        """Of points (..., 3) below the top, (...); negative above it."""
+        return np.asarray(self.tops(points) - points[..., 2])
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns of one fill, n of them.
+
+    rows      : (n,) pieces of faces of the fill that they stand on; blocks : (n,)
+    volumes   : (n,); centroids : (n, 3)
+    depths    : (n, 2) least and greatest height
+    areas     : (n,) of the pieces below the top, seen from above; middles : (n, 3) of these pieces
+    """
+
+    rows: IntArray
+    blocks: IntArray
+    volumes: FloatArray
+    centroids: FloatArray
+    depths: FloatArray
+    areas: FloatArray
+    middles: FloatArray
+
+
+@dataclass(frozen=True)
+class Fill:
+    """What blocks carry of all fills.
+
+    masses : (n_blocks,) part of their added masses
+    points : (n_blocks, 3) its centroid; that of the block where there is none
+    words  : one of each fill, for the listing
+    bodies : by name; none in models from result files
+    """
+
+    masses: FloatArray
+    points: FloatArray
+    words: tuple[str, ...]
+    bodies: Mapping[str, FillBody] = field(default_factory=dict)
+
+
+def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed: BoolArray) -> Fill | None:
+    """All fills of the deck on its blocks; None where it has none. Refuses fill on nothing, and two fills on one face.
+
+    densities : of materials by name
+    fixed     : (n_blocks,) blocks that do not move
+    """
+    if not deck.content.fill:
+        return None
+    blocks, units = roster.blocks, deck.units
+    found: dict[str, tuple[FillBody, Columns]] = {}
+    for name, section in deck.content.fill.items():
+        chosen = select_blocks(section.on, ("fill", name, "on"), roster)
+        if chosen is None:
+            continue
+        weight = densities[section.material] * units.standard_gravity * units.force_per_mass_acceleration
+        body = _body(name, section, weight, chosen, blocks, deck.contacts.tolerance)
+        own = columns(body, blocks)
+        if len(own.rows):
+            _refuse_twice(body, own, found, roster)
+            found[name] = body, own
+        elif not roster.partial:
+            message = "lies on nothing: no free upward face of these blocks is below its top; look at on and its top"
+            roster.refuse(Finding("fill-on-nothing", message, "fill", name))
+        if len(own.rows) and fixed[own.blocks].all() and not fixed.all():
+            where = named(np.unique(own.blocks), blocks.name)
+            roster.remark(
+                Notice("warning", "mass-on-support", f"the fill {name} on {where} has no effect: nothing of it moves")
+            )
+    masses = [densities[deck.content.fill[name].material] * own.volumes for name, (_, own) in found.items()]
+    total, centres = carried_masses(
+        blocks.centroids,
+        np.concatenate([np.empty(0, np.int64), *(own.blocks for _, own in found.values())]),
+        np.concatenate([np.empty(0), *masses]),
+        np.concatenate([np.empty((0, 3)), *(own.centroids for _, own in found.values())]),
+    )
+    words = tuple(_in_words(deck.content.fill[name], *each, deck, blocks) for name, each in found.items())
+    return Fill(total, centres, words, {name: body for name, (body, _) in found.items()})
+
+
+def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], roster: Roster) -> None:
+    """A fault where a face carries another fill already."""
+    for name, (other, theirs) in others.items():
+        both = np.intersect1d(body.faces[own.rows], other.faces[theirs.rows])
+        if len(both):
+            where = named(np.unique(roster.blocks.block_of_face[both]), roster.blocks.name)
+            words = f"lies where {name} does, on {where}: give layers as one fill of their mean density"
+            roster.refuse(Finding("fill-on-fill", words, "fill", body.name))
+
+
+def with_fill(blocks: Blocks, fill: Fill) -> Blocks:
+    """The blocks with the mass of the fill besides what they carry."""
+    rows = np.tile(np.arange(len(blocks)), 2)
+    points = np.concatenate([blocks.added_mass_points, fill.points])
+    masses, centres = carried_masses(blocks.centroids, rows, np.concatenate([blocks.added_masses, fill.masses]), points)
+    return replace(blocks, added_masses=masses, added_mass_points=centres)
+
+
+def _in_words(section: FillSection, body: FillBody, own: Columns, deck: Deck, blocks: Blocks) -> str:
+    units, under = deck.units, np.unique(own.blocks)
+    groups = list(dict.fromkeys(blocks.groups[block] for block in under.tolist()))
+    where = f"z = {section.level:.6g} {units.length}" if section.level is not None else "its sloping top"
+    depths = f"{own.depths.min():.4g} to {own.depths.max():.4g} {units.length} deep"
+    weight = f"weight {body.unit_weight * float(own.volumes.sum()):.6g} {units.force}"
+    place = f"on {counted(len(under), 'block')} of {', '.join(groups)}"
+    return f"{body.name}: {section.material} below {where}, {depths} {place}; {weight}"
+
+
+def _body(
+    name: str, section: FillSection, unit_weight: float, chosen: IntArray, blocks: Blocks, tolerance: float
+) -> FillBody:
+    if section.surface is None:
+        point, normal = np.array([0.0, 0.0, section.level]), np.array([0.0, 0.0, 1.0])
+    else:
+        point, normal = np.array(section.surface.point), unit(section.surface.normal)
+    none = np.empty(0, np.int64)
+    body = FillBody(
+        name, point, normal, np.empty((0, 3, 3)), none, none, unit_weight, section.dispersal, section.passive
+    )
+    faces = items_of_rows(blocks.face_start, chosen)
+    faces = faces[blocks.face_normals[faces, 2] > UPWARD]
+    triangles, row = _free_triangles(faces, body, blocks, tolerance)
+    return replace(body, triangles=triangles, blocks=blocks.block_of_face[faces[row]], faces=faces[row])
+
+
+def _plans(faces: IntArray, blocks: Blocks) -> Any:
+    """Faces as polygons seen from above, (n,)."""
+    import shapely
+
+    ring = np.repeat(np.arange(len(faces)), np.diff(blocks.loop_start)[faces])
+    points = blocks.vertices[blocks.loops[items_of_rows(blocks.loop_start, faces)]][:, :2]
+    found = np.atleast_1d(shapely.polygons(shapely.linearrings(points, indices=ring)))
+    return np.where(shapely.is_valid(found), found, shapely.make_valid(found))
+
+
+def _heights(faces: IntArray, points: FloatArray, blocks: Blocks) -> FloatArray:
+    """Height on the planes of faces (n,) at points (n, ..., 2), (n, ...)."""
+    first, normals = blocks.vertices[blocks.loops[blocks.loop_start[faces]]], blocks.face_normals[faces]
+    shape = (len(faces), *[1] * (points.ndim - 2), 2)
+    away = points - first[:, :2].reshape(shape)
+    slope = (normals[:, :2] / normals[:, 2:]).reshape(shape)
+    return np.asarray(first[:, 2].reshape(shape[:-1]) - (away * slope).sum(axis=-1))
+
+
+def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: float) -> tuple[FloatArray, IntArray]:
+    """What of upward faces (n,) no other face covers below the top: triangles (m, 3, 3), and their faces' rows (m,).
+
+    A face above covers what lies under it, from contact, within the tolerance, up to the top surface.
+    """
+    import shapely
+
+    if not len(faces):
+        return np.empty((0, 3, 3)), np.empty(0, np.int64)
+    plans = _plans(faces, blocks)
+    areas = shapely.area(plans)
+    over = np.flatnonzero(blocks.face_normals[:, 2] < -UPWARD)
+    shadows = _plans(over, blocks)
+    mine, other = shapely.STRtree(shadows).query(plans, predicate="intersects")
+    reach = tolerance * blocks.sizes[blocks.block_of_face[faces]]
+    corners = blocks.vertices[blocks.loops, 2]
+    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
+    near = high[over[other]] >= low[faces[mine]] - reach[mine]
+    mine, other = mine[near], other[near]
+    common = shapely.intersection(plans[mine], shadows[other])
+    middles = shapely.get_coordinates(shapely.centroid(common))
+    seen = shapely.area(common) > 0.0
+    mine, other, middles = mine[seen], other[seen], middles[seen[~shapely.is_empty(common)]]
+    above = _heights(over[other], middles, blocks)
+    covers = (above >= _heights(faces[mine], middles, blocks) - reach[mine]) & (above <= body.tops(middles))
+    mine, other = mine[covers], other[covers]
+    covered, first = np.unique(mine, return_index=True)  # rows ascend
+    for row, against in zip(covered.tolist(), np.split(shadows[other], first[1:]), strict=False):
+        plans[row] = shapely.difference(plans[row], shapely.union_all(against))
+    plans[shapely.area(plans) <= 2.0 * tolerance * areas] = shapely.Polygon()  # rounding of outlines
+    parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(plans), return_index=True)
+    flat = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
+    flat = np.where((signed_areas(flat) < 0)[:, None, None], flat[:, ::-1], flat)
+    return np.concatenate([flat, _heights(faces[row], flat, blocks)[..., None]], axis=2), row.astype(np.int64)
+
+
+def columns(body: FillBody, blocks: Blocks) -> Columns:
+    """Columns of the fill on the pieces of faces that lie below its top."""
+    origins = blocks.centroids[body.blocks]
+    depths = body.depths(body.triangles)
+    local = np.concatenate([body.triangles - origins[:, None], depths[..., None]], axis=2)
+    loops = cut(local, depths)
+    a, b, c = np.broadcast_arrays(loops[:, :1], loops[:, 1:-1], loops[:, 2:])
+    ab, ac = (b - a)[..., :2], (c - a)[..., :2]
+    areas = (ab[..., 0] * ac[..., 1] - ab[..., 1] * ac[..., 0]) / 2
+    plan, volumes = areas.sum(axis=1), np.zeros(len(loops))
+    moments, middles = np.zeros((2, len(loops), 3))
+    for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
+        share = areas / 3 * middle[..., 3]
+        volumes += share.sum(axis=1)
+        lifted = middle[..., :3] + np.array([0.0, 0.0, 0.5]) * middle[..., 3:]
+        moments += (share[..., None] * lifted).sum(axis=1)
+        middles += (areas[..., None] / 3 * middle[..., :3]).sum(axis=1)
+    kept = np.flatnonzero(volumes > ROUNDING * summed(body.blocks, volumes, len(blocks))[body.blocks])
+    return Columns(
+        rows=kept,
+        blocks=body.blocks[kept],
+        volumes=volumes[kept],
+        centroids=origins[kept] + moments[kept] / volumes[kept, None],
+        depths=np.stack([loops[kept, :, 3].min(axis=1), loops[kept, :, 3].max(axis=1)], axis=1),
+        areas=plan[kept],
+        middles=origins[kept] + middles[kept] / plan[kept, None],
+    )

@@ -1,0 +1,143 @@
+"""Where a vertical or other force that stands above the structure lands: on the block under it, on those under the line
+over which it is shared, or through fill on all blocks that it spreads to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import PARALLEL
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Finding, Notice
+from mbla.model.fill import FillBody
+from mbla.model.loads.blocks_under import Below
+from mbla.model.loads.dispersal import Spread, beside, emerging, spread
+from mbla.model.loads.load_kind import LoadSite
+from mbla.model.wording import vector
+
+UPRIGHT = 1e-9
+"""horizontal component relative to a force, a line or a path, up to which it is none"""
+NEAR = 1e-3
+"""share of the size of a block that a load may stand beside the fill, or a block rise out of it under the load"""
+
+
+@dataclass(frozen=True)
+class Landing:
+    """How loads of one entry of the deck land.
+
+    below : blocks that they may land on; through : the fill on which they stand, None for none
+    path  : of the load, for faults
+    """
+
+    below: Below
+    through: FillBody | None
+    path: KeyPath
+    site: LoadSite
+
+    def of(self, place: FloatArray, along: FloatArray, width: float) -> Spread | None:
+        """Of a force at a place, (3,), shared over a width across the way along, (3,) unit and level; 0 at the place.
+
+        None where part of it lies over no block, in fill where it stands beside it, which leaves a fault.
+        """
+        if self.through is not None:
+            return self._through(self.through, place, along, width)
+        if width > 0.0:
+            across = width / 2 * np.array([-along[1], along[0], 0.0])
+            return self.of_line(place - across, place + across)
+        block = self.below.at(place[None])
+        return Spread(block, np.ones(1), place[None], 0.0) if block[0] >= 0 else None
+
+    def of_line(self, begin: FloatArray, end: FloatArray) -> Spread | None:
+        """Of a force that is shared evenly over a line; None where part of it lies over no block."""
+        ends, carriers = self.parts_of_line(begin, end)
+        if (carriers < 0).all(axis=0).any():
+            return None
+        shares = np.where(carriers >= 0, 1.0, 0.0)
+        shares *= np.diff(ends) / shares.sum(axis=0)
+        side, part = np.nonzero(shares > 0.0)
+        points = begin + ((ends[:-1] + ends[1:]) / 2)[part, None] * (end - begin)
+        return Spread(carriers[side, part], shares[side, part], points, 0.0)
+
+    def parts_of_line(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, IntArray]:
+        """Ends of the parts of a line, (n + 1,), and the blocks under them left and right of it, (2, n).
+
+        Bare parts that are narrower than the tolerance of contacts are joints that are not quite closed: they count to
+        the part before them, or after them at the beginning.
+        """
+        ends, carriers = self.below.parts(begin, end)
+        bare = np.asarray((carriers < 0).all(axis=0))
+        size = float(self.site.blocks.sizes[self.below.chosen].min())
+        narrow = self.site.tolerance * size / float(np.linalg.norm(end - begin))
+        for part in np.flatnonzero(bare & (np.diff(ends) <= narrow)):  # few: open joints
+            near = next((other for other in (part - 1, part + 1) if 0 <= other < len(bare) and not bare[other]), part)
+            carriers[:, part] = carriers[:, near]
+        return ends, carriers
+
+    def _through(self, body: FillBody, place: FloatArray, along: FloatArray, width: float) -> Spread | None:
+        across = width / 2 * np.array([-along[1], along[0], 0.0])
+        places = np.stack([place - across, place, place + across])
+        reach = NEAR * float(self.site.blocks.sizes[body.blocks].min())
+        if beside(body, places, along, reach).any():
+            words = f"at {vector(place)} it stands beside the fill {body.name}: move it, or make its width smaller"
+            self.site.refuse(Finding("load-beside-structure", words, *self.path))
+            return None
+        for each in places:
+            block = emerging(body, each, reach)
+            if block is not None:
+                name = self.site.blocks.name(block)
+                words = (
+                    f"at {vector(each)} {name} rises out of the fill {body.name}: leave out through, or raise the fill"
+                )
+                self.site.refuse(Finding("load-not-on-fill", words, *self.path))
+                return None
+        return spread(body, place, along, width) or NOWHERE
+
+    def sound(self, forces: FloatArray, way: FloatArray, width: float) -> bool:
+        """Whether forces (n, 3) that come along a way, (3,), can be spread so; a fault where not.
+
+        In fill they are vertical; what spreads, or has a width, needs to know what across is.
+        """
+        flat = float(np.abs(way[:2]).max())
+        if (self.through is not None or width > 0.0) and flat <= UPRIGHT * float(np.abs(way).max()):
+            words = "is upright: what is level and across it is not known"
+            self.site.refuse(Finding("degenerate-line", words, *self.path))
+            return False
+        across = np.cross([0.0, 0.0, 1.0], level(way))
+        if width > 0.0 and self.through is None and np.linalg.norm(np.cross(across, self.below.down)) <= PARALLEL:
+            words = "looks for its blocks along the width of its axles: give another direction with towards"
+            self.site.refuse(Finding("degenerate-line", words, *self.path))
+            return False
+        if self.through is None:
+            return True
+        slanting = np.abs(forces[:, :2]).max(axis=1) > UPRIGHT * np.abs(forces).max(axis=1)
+        if slanting.any():
+            words = (
+                f"has the force {vector(forces[slanting][0])}, and only vertical ones spread in fill: give what is "
+                "horizontal as a load of its own on blocks"
+            )
+            self.site.refuse(Finding("load-not-on-fill", words, *self.path))
+        return not slanting.any()
+
+    def remark_beyond(self, words: str, share: float) -> None:
+        """A notice where part of a load goes past the ends of the blocks."""
+        if self.through is not None and share > 0.0:
+            message = (
+                f"{words}: {100 * share:.3g} % of it goes through the fill {self.through.name} beyond the ends of the "
+                "blocks under it, and does not act on the structure: the ground there carries it"
+            )
+            self.site.roster.remark(Notice("notice", "load-beyond-fill", message))
+
+
+NOWHERE = Spread(np.empty(0, np.int64), np.empty(0), np.empty((0, 3)), 1.0)
+"""All of a load goes beyond the ends of the blocks."""
+
+
+def level(way: Sequence[float] | FloatArray) -> FloatArray:
+    """The level direction of a way, (3,) unit; nothing of one that is upright."""
+    flat = np.array([way[0], way[1], 0.0])
+    flat = flat / (np.abs(flat).max() or 1.0)
+    return np.asarray(flat / (np.linalg.norm(flat) or 1.0))

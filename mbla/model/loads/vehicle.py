@@ -1,0 +1,87 @@
+"""The axles of a vehicle, and load `vehicle`: one that stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.sections.loads import Load
+from mbla.deck.sections.vehicles import Travel, Vehicle
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Finding
+from mbla.model.loads.blocks_under import Below
+from mbla.model.loads.landing import Landing, level
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.solids.plane import unit
+from mbla.model.wording import counted, vector
+
+
+@dataclass(frozen=True)
+class Axles:
+    """Forces in a row.
+
+    forces : (n, 3), the first one first
+    behind : (n,) distance of each behind the first
+    width  : over which each is shared across; 0 at a point
+    """
+
+    forces: FloatArray
+    behind: FloatArray
+    width: float
+
+
+def axles_of(load: Vehicle | Travel, site: LoadSite) -> Axles:
+    """Axles of a vehicle, or of a load that travels and may name one."""
+    if isinstance(load, Travel) and load.vehicle is not None:
+        return axles_of(site.vehicles[load.vehicle], site)
+    others = load.axles or []
+    assert load.force is not None  # a rule of the deck: a force, or a vehicle
+    forces = np.array([load.force, *(axle.force for axle in others)])
+    return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), load.width or 0.0)
+
+
+def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+    """All axles of a vehicle where they stand; a fault where one lies over no block, in fill where all do."""
+    assert load.vehicle is not None  # what makes it this kind
+    if load.through is not None and load.through not in site.fill:
+        return None  # its blocks could not be built
+    stands, axles = load.vehicle, axles_of(site.vehicles[load.vehicle.name], site)
+    through = None if load.through is None else site.fill[load.through]
+    chosen = np.arange(len(site.blocks)) if blocks is None else blocks
+    here = (*path, "vehicle")
+    landing = Landing(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
+    way = unit(stands.along)
+    if not landing.sound(axles.forces, way, axles.width):
+        return None
+    places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.roster.faults)
+    found = [landing.of(place, level(way), axles.width) for place in places]
+    words = f"vehicle {stands.name} at {vector(stands.at)} {site.units.length} along {vector(way)}"
+    bare = [place for place, each in zip(places, found, strict=True) if each is None]
+    if bare or not any(each is not None and len(each.blocks) for each in found):
+        if len(site.roster.faults) == before and not site.roster.partial:
+            message = "all of it goes beyond the blocks under the fill: move it"
+            if bare:
+                message = (
+                    f"the axle at {vector(bare[0])} {site.units.length} lies over no block; move it, or look for "
+                    "blocks in another direction with towards"
+                )
+            site.refuse(Finding("load-beside-structure", message, *here))
+        return None
+    landed = [each for each in found if each is not None]
+    under = np.concatenate([each.blocks for each in landed])
+    forces = np.concatenate([each.shares[:, None] * force for each, force in zip(landed, axles.forces, strict=True)])
+    points = np.concatenate([each.points for each in landed])
+    unique, total = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
+    landing.remark_beyond(words, beyond_of(axles.forces, np.array([each.beyond for each in landed])))
+    spread = "" if through is None else f" through fill {through.name}"
+    return AppliedLoad(
+        unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"
+    )
+
+
+def beyond_of(forces: FloatArray, shares: FloatArray) -> float:
+    """Share of the sum of forces (n, 3) that goes beyond, by the share of each, (n,)."""
+    sizes = np.linalg.norm(forces, axis=1)
+    return float(sizes @ shares / sizes.sum()) if sizes.any() else 0.0

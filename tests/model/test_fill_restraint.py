@@ -1,0 +1,107 @@
+"""Fill that holds blocks sideways: a wedge pushed into it and away from it, in closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.deck import read_deck
+from mbla.model import build_model
+from mbla.model.ties import OUTSIDE
+from mbla.solution.solution import Status
+from tests.line import case_of
+
+DECK = """mbla: 1
+units: {{force: kN}}
+materials: {{stone: {{unit_weight: 24}}, earth: {{unit_weight: 18}}}}
+joints: {{dry: {{friction: 0.3}}}}
+blocks:
+  - polyhedron:
+      group: wedge
+      material: stone
+      vertices: [[0,0,0],[6,0,0],[6,1,0],[0,1,0],[0,0,1],[4,0,1],[4,1,1],[0,1,1]]
+      faces: [[0,3,2,1],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]
+contacts: {{joint: dry}}
+supports: [{{ground: {{z: 0}}}}]
+fill:
+  soil:
+    on: wedge
+    material: earth
+    level: 1.5
+    passive: {{friction_angle: 30, mobilisation: 0.5, cohesion: {cohesion}, cohesion_mobilisation: 0.1}}
+load_cases:
+  into: {{live: [{{force: [1, 0, 0], on: wedge, at: [3, 0.5, 0.1]}}]}}
+  away: {{live: [{{force: [-1, 0, 0], on: wedge, at: [3, 0.5, 0.1]}}]}}
+analysis: {{flow_rule: associative, accuracy: reference}}
+"""
+STONE, SOIL = 24 * 5.0, 18 * (0.5 * 4 + 2 * 1.0)
+"""weights; the soil on the slope is 0.5 to 1.5 m deep"""
+PRESSURE = 18 * (0.5 + 1.5) / 2 * 1.0
+"""integral of the vertical stress over the height of the slope"""
+
+
+def write(folder: Path, cohesion: float) -> Path:
+    path = folder / "deck.yaml"
+    path.write_text(DECK.format(cohesion=cohesion))
+    return path
+
+
+@pytest.mark.parametrize("cohesion", [0.0, 20.0])
+def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
+    ties = build_model(read_deck(write(tmp_path, cohesion))).ties
+    assert len(ties) == 1  # none on the level top
+    cohesive = 0.1 * 2 * np.sqrt(3) * cohesion * 1.0
+    assert ties.least == pytest.approx([-(0.5 * 3 * PRESSURE + cohesive)], rel=1e-12)
+    assert ties.greatest == pytest.approx([-PRESSURE / 3], rel=1e-12)
+    assert ties.places[0] == pytest.approx([5, 0.5, 0.5])
+    assert ties.pulls[0] == pytest.approx([1, 0, 0])
+    assert ties.bodies.tolist() == [0, OUTSIDE]
+
+
+@pytest.mark.parametrize("flow", ["associative", "non_associative"])
+def test_pushed_into_the_soil_and_away(flow: str) -> None:
+    friction = 0.3 * (STONE + SOIL)
+    for case, expected in enumerate((friction + 0.5 * 3 * PRESSURE, friction - PRESSURE / 3)):
+        settings = f"analysis.flow_rule={flow}", "analysis.accuracy=standard"
+        _, result = case_of(DECK.format(cohesion=0.0), *settings, case=case)
+        assert result.status is Status.SOLVED
+        assert result.solution.mechanics is not None
+        assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
+def test_units(tmp_path: Path) -> None:
+    """The same wedge in mm and N."""
+    text = DECK.format(cohesion=0.02).replace("units: {force: kN}", "units: {length: mm}")
+    text = text.replace("unit_weight: 24", 'unit_weight: "24 kN/m^3"').replace(
+        "unit_weight: 18", 'unit_weight: "18 kN/m^3"'
+    )
+    text = text.replace("level: 1.5", "level: 1500").replace(
+        "      faces:", "      transform: {scale: 1000}\n      faces:"
+    )
+    path = tmp_path / "mm.yaml"
+    path.write_text(text)
+    found, plain = build_model(read_deck(path)).ties, build_model(read_deck(write(tmp_path, 20.0))).ties
+    assert found.least == pytest.approx(1000 * plain.least, rel=1e-12)
+    assert found.greatest == pytest.approx(1000 * plain.greatest, rel=1e-12)
+    assert found.places == pytest.approx(1000 * plain.places, rel=1e-12)
+
+
+def test_of_a_half_with_its_image() -> None:
+    """The wedge cut along its middle: the strut on the half and its image push as that on the whole."""
+    halved = DECK.replace(",1,0]", ",0.5,0]").replace(",1,1]", ",0.5,1]")
+    halved = halved.replace("0.5, 0.1]", "0, 0.1]").replace("{{force: [1,", "{{force: [0.5,")
+    halved = halved.replace("load_cases:", "symmetry: [{{y: 0, halves: wedge}}]\nload_cases:")
+    model, result = case_of(halved.format(cohesion=0.0), "analysis.accuracy=standard")
+    assert len(model.ties) == 2
+    assert model.ties.least == pytest.approx([-0.5 * 3 * PRESSURE / 2] * 2)
+    assert result.solution.mechanics is not None
+    expected = 0.3 * (STONE + SOIL) + 0.5 * 3 * PRESSURE
+    assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_notice_says_that_it_is_calibrated(tmp_path: Path) -> None:
+    notices = build_model(read_deck(write(tmp_path, 0.0))).notices
+    text = next(notice.message for notice in notices if notice.identifier == "fill-restrains")
+    assert "1 face with 0.3333 to 1.5 times the vertical stress" in text
