@@ -147,4 +147,8 @@ def solve_case(
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
+    if deck.analysis.sensitivity is not False:
+        from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
+
+        solution = with_sensitivity(deck, moving, contacts, answer.load_case, solution, answer.checks)
     return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

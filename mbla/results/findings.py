@@ -56,6 +56,7 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-rough",
         "range-not-found",
         "force-range-not-found",
+        "sensitivity-not-done",
         "tilt-between-not-proved",
     }
 )

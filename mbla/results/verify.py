@@ -38,8 +38,9 @@ from mbla.results.provenance import as_expected, deck_of, notices_of, settings_i
 from mbla.results.results import CaseResult, Results
 from mbla.solution.glued import with_derived
 from mbla.solution.pushover.curve import begun_by, curve_of
+from mbla.solution.sensitivity.sensitivity import with_sensitivity
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Solution, Standing, Status
+from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.verify import level_bound, verify
@@ -90,7 +91,19 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         upright = level_bound(model, contacts, load_case, solution)
         load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
     checks = verify(model, contacts, load_case, solution)
+    if deck is not None and solution.sensitivity:
+        solution = _with_slopes(results, model, load_case, solution, checks)
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
+
+
+def _with_slopes(
+    results: Results, model: Model, load_case: LoadCase, solution: Solution, checks: Checks
+) -> Solution:
+    """The solution with slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
+    with tempfile.TemporaryDirectory() as name:
+        deck = deck_of(results.deck, Path(name), expected=False)
+        bare = replace(solution, sensitivity=())
+        return with_sensitivity(deck, model, results.contacts, load_case, bare, checks)
 
 
 def _as_asked_for(solution: Solution, deck: Deck, stress_blocks: bool) -> Solution:
@@ -135,6 +148,8 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     said = {remark.identifier for remark in solution.remarks}
     pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
     missing = [] if pushed else ["pushover"]
+    slopes = bool(solution.sensitivity) or "sensitivity-not-done" in said
+    missing += ["sensitivity"] if deck.analysis.sensitivity is not False and not slopes else []
     missing += ["standing"] if knobs.standing and claims and solution.standing is None else []
     if solution.mechanics is None or solution.conditions_on_interfaces:
         return [_lacks(what) for what in missing]

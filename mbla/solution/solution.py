@@ -199,6 +199,38 @@ class PushedSteps:
             yield pose
 
 
+class Side(StrEnum):
+    """To which side of the value of a parameter a slope holds."""
+
+    BOTH = "both"
+    ABOVE = "above"
+    BELOW = "below"
+    KINK = "above, another below"
+    NONE = "not known"
+
+
+@dataclass(frozen=True)
+class Slope:
+    """How the associative load factor changes with a parameter.
+
+    parameter  : key path in the deck; ``dead load`` or ``live load``: a factor on all of it
+    value      : in the deck's unit
+    unit       : empty for plain numbers, and for parameters of expressions
+    slope      : derivative of the load factor by it, nan where it is not known
+    elasticity : relative change of the load factor over that of the parameter; nan where the load factor is 0
+    side       : see ``Side``
+    remark     : in words; empty for nothing
+    """
+
+    parameter: str
+    value: float
+    unit: str
+    slope: float
+    elasticity: float
+    side: Side
+    remark: str
+
+
 @dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
@@ -256,6 +288,7 @@ class Solution:
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
     pushed      : forces and mechanisms of its steps
+    sensitivity : slopes of the associative load factor, by the parameters that the deck asks for
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -287,6 +320,7 @@ class Solution:
     curve: tuple[CurveRow, ...] = ()
     curve_end: CurveEnd = CurveEnd.NONE
     pushed: PushedSteps | None = field(default=None, compare=False)
+    sensitivity: tuple[Slope, ...] = ()
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"

@@ -23,6 +23,8 @@ from mbla.solution.solution import (
     Mechanics,
     ModelSize,
     PushedSteps,
+    Side,
+    Slope,
     Solution,
     Standing,
     StandingResult,
@@ -57,6 +59,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
         "curve_end": CurveEnd(get.get("curve_end", "")),
         **_pushed(get),
+        "sensitivity": _records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
     }
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())
@@ -160,6 +163,7 @@ def _records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Recor
     names = stored(kind, f"cases/*/{group}")
     found = [get[f"{group}/{name}"] for name in names]
     columns = [column if isinstance(column, list) else column.tolist() for column in found]
-    if "status" in names:
-        columns[names.index("status")] = [Status(value) for value in columns[names.index("status")]]
+    for name, choice in (("status", Status), ("side", Side)):
+        if name in names:
+            columns[names.index(name)] = [choice(value) for value in columns[names.index(name)]]
     return tuple(kind(**dict(zip(names, row, strict=True))) for row in zip(*columns, strict=True))

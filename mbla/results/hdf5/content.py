@@ -30,6 +30,7 @@ from mbla.solution.solution import (
     PathPoint,
     ProgramRecord,
     PushedSteps,
+    Slope,
     ReductionStep,
     Solution,
     StandingResult,
@@ -220,6 +221,8 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
     else:
         del content["curve_end"]
+    if solution.sensitivity:
+        content |= _columns("sensitivity", Slope, solution.sensitivity)
     assessment = assessment_of(model, contacts, case)
     if assessment is not None:
         content |= _columns("assessment", Figure, assessment.figures)

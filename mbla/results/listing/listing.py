@@ -37,6 +37,7 @@ from mbla.results.listing.model_words import (
     spaced,
 )
 from mbla.results.listing.pushover import curve_lines
+from mbla.results.listing.sensitivity import sensitivity_lines
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
@@ -84,6 +85,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         Section("Reductions", spaced(reduction_lines(solution.reductions))),
         Section("Load path", path_lines(model, case)),
         Section("Pushover", curve_lines(model, case)),
+        Section("Sensitivity", sensitivity_lines(case)),
         Section("Assessment", assessment_lines(model, contacts, case)),
         Section("Solver programs", program_lines(solution)),
     ]

@@ -156,6 +156,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "curve": as_json(solution.curve),
         "curve_end": solution.curve_end,
+        "sensitivity": as_json(solution.sensitivity),
         "assessment": as_json(assessment_of(model, scene.contacts, case)),
         "mechanism": None
         if mechanics is None
