@@ -96,9 +96,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
 
-def _with_slopes(
-    results: Results, model: Model, load_case: LoadCase, solution: Solution, checks: Checks
-) -> Solution:
+def _with_slopes(results: Results, model: Model, load_case: LoadCase, solution: Solution, checks: Checks) -> Solution:
     """The solution with slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
     with tempfile.TemporaryDirectory() as name:
         deck = deck_of(results.deck, Path(name), expected=False)

@@ -200,12 +200,12 @@ class PushedSteps:
 
 
 class Side(StrEnum):
-    """To which side of the value of a parameter a slope holds."""
+    """To which side of the value of a parameter a slope holds; of a kink it is the one above."""
 
     BOTH = "both"
     ABOVE = "above"
     BELOW = "below"
-    KINK = "above, another below"
+    KINK = "kink"
     NONE = "not known"
 
 

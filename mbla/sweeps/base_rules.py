@@ -15,11 +15,11 @@ from mbla.deck.content import DeckContent
 from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
+from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Finding, Message, Place
-from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts

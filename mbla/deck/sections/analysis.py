@@ -13,7 +13,6 @@ from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
-
 Sensitivity: TypeAlias = Annotated[
     Annotated[Switch, Tag("switch")] | Annotated[list[Line], Field(min_length=1), Tag("list")],
     Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "switch"),

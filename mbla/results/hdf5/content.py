@@ -30,8 +30,8 @@ from mbla.solution.solution import (
     PathPoint,
     ProgramRecord,
     PushedSteps,
-    Slope,
     ReductionStep,
+    Slope,
     Solution,
     StandingResult,
 )

@@ -7,16 +7,24 @@ import math
 from mbla.results.listing.text import number, sentence, table
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Side
+from mbla.solution.solution import Side, Slope
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
-OF_ASSOCIATIVE = "Slopes are of the associative load factor, {}"
+OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"
 WITHOUT_DILATANCY = ": the load factor shown is not unique, and has no derivative of its own"
 THE_SAME = ", which is the load factor shown as well"
 MEANING = (
     "Elasticity: relative change of the load factor over that of the parameter. Where several mechanisms or fields of "
     "force give the same load factor, the slopes to both sides differ, and the one given lies between them."
 )
+
+
+SIDES = {Side.ABOVE: "above only", Side.BELOW: "below only", Side.KINK: "above"}
+"""to which side a slope holds, where not to both"""
+
+
+ROUNDING = 1e-7
+"""Elasticity below which a slope is nothing but rounding."""
 
 
 def sensitivity_lines(case: CaseResult) -> list[str]:
@@ -28,8 +36,8 @@ def sensitivity_lines(case: CaseResult) -> list[str]:
         [
             each.parameter,
             f"{number(each.value)} {each.unit}".rstrip(),
-            *(number(value) if math.isfinite(value) else "-" for value in (each.slope, each.elasticity)),
-            "; ".join(([] if each.side in (Side.BOTH, Side.NONE) else [each.side.value]) + [each.remark] * bool(each.remark)),
+            *(_figure(value, each) for value in (each.slope, each.elasticity)),
+            "; ".join(words for words in (SIDES.get(each.side, ""), each.remark) if words),
         ]
         for each in slopes
     ]
@@ -39,4 +47,11 @@ def sensitivity_lines(case: CaseResult) -> list[str]:
     if case.solution.flow_rule != "associative":
         says += THE_SAME if same else WITHOUT_DILATANCY
     head = ["parameter", "value", "slope", "elasticity", ""]
-    return ["", *table(head, rows), "", *sentence(f"{says}."), *sentence(MEANING)]
+    return ["", *sentence(f"{says}."), "", *table(head, rows), "", *sentence(MEANING)]
+
+
+def _figure(value: float, slope: Slope) -> str:
+    """A figure of a row, 0 where it is rounding, a dash where it is not known."""
+    if not math.isfinite(value):
+        return "-"
+    return "0" if slope.value != 0.0 and abs(slope.elasticity) < ROUNDING else number(value)

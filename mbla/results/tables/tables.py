@@ -133,7 +133,20 @@ NOTICES = TableKind(
 
 TABLES: dict[str, TableKind] = {
     kind.name: kind
-    for kind in (CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, PROGRAMS, ITERATIONS, PATH, CURVE, SENSITIVITY, SERIES, NOTICES)
+    for kind in (
+        CASES,
+        BLOCKS,
+        INTERFACES,
+        POINTS,
+        REACTIONS,
+        PROGRAMS,
+        ITERATIONS,
+        PATH,
+        CURVE,
+        SENSITIVITY,
+        SERIES,
+        NOTICES,
+    )
 }
 
 

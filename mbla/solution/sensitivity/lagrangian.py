@@ -5,8 +5,8 @@ With the motion u of the blocks (lᵀu = 1), contact forces f, the plastic motio
     L(p) = λ − (d + λ l)·u − f·(v − w) + Σ [c s + f_t o + f_c k] + interfaces,     v = A(p)ᵀu
 
 where w_N = μ s + o − k by sliding s = ‖w_T‖, opening o and crushing k. L has the value λ, and at a solution its
-derivative for fixed f, u, w is that of λ (envelope theorem; Danskin 1967): no further problem is solved. By p go A, d, l
-and the strengths, each of which is the law's times an area. A further element with a capacity T that elongates by e
+derivative for fixed f, u, w is that of λ (envelope theorem; Danskin 1967): no further problem is solved. A, d, l and
+the strengths go by p, each of these the law's times an area. A further element with a capacity T that elongates by e
 adds T e to the sum, and its force to f·(v − w).
 
 Where forces or mechanism are not unique the derivatives to both sides differ, and this one lies between them.

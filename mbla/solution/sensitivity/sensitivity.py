@@ -31,8 +31,8 @@ STEP = 1e-5
 """Step over the value of a parameter: the error of a central difference is about 1e-10 by truncation, as by rounding"""
 
 KINK = 1e-2
-"""Difference of the slopes to both sides, over the larger, from which they are two: of smooth functions it is 1e-5 or so
-times their curvature."""
+"""Difference of the slopes to both sides, over the larger, from which they are two: of smooth functions it is 1e-5 or
+so times their curvature."""
 
 SLIGHT = 1e-7
 """Slope times value over the load factor below which the difference of two sides is rounding."""
@@ -119,14 +119,15 @@ def _of_law(deck: Deck, structure: Structure, state: State, law: Joint, path: Ke
     field = "friction" if key == "friction_angle" else key
     own = getattr(law, field)
     value = number_at(deck.content, path)
-    assert value is not None and math.isfinite(own)  # a parameter of the deck has a value
+    assert value is not None  # the deck was checked for that
     step = 1.0 if field == "friction" else own or pressure_on(structure, state, law)
     joints = structure.model.joints | {law.name: replace(law, **{field: own + step})}
     more = replace(structure, model=replace(structure.model, joints=joints))
     slope = (resistance(more, state) - resistance(structure, state)) / step
     if key == "friction_angle":
         slope *= math.radians(1.0) * (1.0 + own**2)
-    return _slope(state, _text(path), value, unit_of([path], deck.units), slope, _side(deck.content.joints[law.name], key))
+    side = _side(deck.content.joints[law.name], key)
+    return _slope(state, _text(path), value, unit_of([path], deck.units), slope, side)
 
 
 def _side(law: JointLaw, key: str) -> Side:
@@ -159,23 +160,25 @@ def _of_key(deck: Deck, structure: Structure, state: State, path: KeyPath) -> Sl
             found[row] = lagrangian(other, state)
         return row in found
 
+    def one_sided(sign: int) -> float:
+        """Of second order where the structure is the same for two steps."""
+        if look(2 * sign):
+            return sign * (-3.0 * found[0] + 4.0 * found[sign] - found[2 * sign]) / (2.0 * step)
+        return sign * (found[sign] - found[0]) / step
+
     below, above = look(-1), look(1)
-    if below and above:
-        left, right = (found[0] - found[-1]) / step, (found[1] - found[0]) / step
-        large = max(abs(left), abs(right))
-        if abs(right - left) > KINK * large and large * abs(value or step / STEP) > SLIGHT * abs(state.load_factor):
-            remark = f"another below: {left:.6g}"
-            return _slope(state, key, value, unit, right, Side.KINK, remark)
-        return _slope(state, key, value, unit, 0.5 * (left + right), Side.BOTH)
     if not below and not above:
         remark = f"not known: a small change either way is one of the {words[1]}"
         return _slope(state, key, value, unit, math.nan, Side.NONE, remark)
-    sign = 1 if above else -1
-    slope = sign * (found[sign] - found[0]) / step
-    if look(2 * sign):  # of second order
-        slope = sign * (-3.0 * found[0] + 4.0 * found[sign] - found[2 * sign]) / (2.0 * step)
-    remark = f"on the other side another {words[-sign]}"
-    return _slope(state, key, value, unit, slope, Side.ABOVE if above else Side.BELOW, remark)
+    if not below or not above:
+        sign = 1 if above else -1
+        remark = f"on the other side another {words[-sign]}"
+        return _slope(state, key, value, unit, one_sided(sign), Side.ABOVE if above else Side.BELOW, remark)
+    left, right = (found[0] - found[-1]) / step, (found[1] - found[0]) / step
+    large = max(abs(left), abs(right))
+    if abs(right - left) > KINK * large and large * abs(value or step / STEP) > SLIGHT * abs(state.load_factor):
+        return _slope(state, key, value, unit, one_sided(1), Side.KINK, f"below {one_sided(-1):.6g}")
+    return _slope(state, key, value, unit, 0.5 * (left + right), Side.BOTH)
 
 
 def _text(path: KeyPath) -> str:

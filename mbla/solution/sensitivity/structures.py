@@ -93,9 +93,8 @@ def matched_contacts(contacts: Contacts, like: Structure) -> Contacts | None:
     if not len(known):
         return contacts
     size = float(like.model.blocks.sizes.max())
-    if len(known.points) == 0:
-        return contacts
-    distance, rows = cKDTree(_labelled(contacts, size)).query(_labelled(known, size))
+    found = cKDTree(_labelled(contacts, size)).query(_labelled(known, size))
+    distance, rows = np.asarray(found[0]), np.asarray(found[1])
     if distance.max() > NEAR or len(np.unique(rows)) < len(rows):
         return None
     interfaces = contacts.interface_of_point[rows[known.point_start[:-1]]]
