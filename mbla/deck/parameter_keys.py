@@ -24,6 +24,7 @@ FIXED = {
     "mbla": "it is the version of the format",
     "units": "figures that are compared have one unit",
     "title": "it does not change the answer",
+    "find": "it does not change the answer",
     "output": "it does not change the answer",
     "expected": "it does not change the answer",
 }
@@ -95,14 +96,18 @@ def dimensions_at(path: KeyPath) -> set[str]:
 def parameter_faults(tree: Tree, content: DeckContent) -> Iterator[Fault]:
     """What is wrong with the key paths that a deck itself has for parameters."""
     asked = content.analysis.sensitivity
-    named = {("analysis", "sensitivity", row): key for row, key in enumerate(asked)} if isinstance(asked, list) else {}
+    named: dict[KeyPath, str] = {}
+    if isinstance(asked, list):
+        named = {("analysis", "sensitivity", row): key for row, key in enumerate(asked)}
+    if content.find is not None:
+        named["find", "parameter"] = content.find.parameter
     for place, key in named.items():
         try:
             path = path_of_key(tree.data, key)
         except RefusedError as refusal:
             yield tree.fault(place, Message("parameter-key", refusal.message.words))
             continue
-        if path[0] == "analysis" or number_at(content, path) is None:
+        if path[0] in ("analysis", "find") or number_at(content, path) is None:
             words = f"{key_text(path)} is no real number of the structure or its loads that the deck gives"
             yield tree.fault(place, Message("parameter-key", words))
 

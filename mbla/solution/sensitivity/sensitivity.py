@@ -8,8 +8,9 @@ Lagrangian is central; where the structure is another one on one side, it is one
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -47,6 +48,14 @@ LOADS = ("dead load", "live load")
 """parameters that are no key of the deck: factors on the loads, 1 as they are"""
 
 
+Posed: TypeAlias = Callable[[Structure], Structure]
+"""A structure with the loads of a problem"""
+
+
+def _as_it_is(structure: Structure) -> Structure:
+    return structure
+
+
 def with_sensitivity(
     deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, checks: Checks
 ) -> Solution:
@@ -61,6 +70,19 @@ def with_sensitivity(
         remark = Message("sensitivity-not-done", f"there is no sensitivity: {against}")
         return replace(solution, remarks=(*solution.remarks, remark))
     return replace(solution, sensitivity=tuple(slopes(deck, Structure(model, contacts, load_case), solution)))
+
+
+def slope_by(
+    deck: Deck, structure: Structure, solution: Solution, checks: Checks, path: KeyPath, posed: Posed = _as_it_is
+) -> Slope | None:
+    """The slope by the number at one key path, whatever the deck asks for; None where there is none.
+
+    posed : puts the loads of another problem on a structure in the place of those of its load case
+    """
+    if solution.associative is None or _against(structure.load_case, solution, checks):
+        return None
+    state = state_of(structure, solution, solution.associative)
+    return _of_path(deck, structure, state, path, posed)
 
 
 def _against(load_case: LoadCase, solution: Solution, checks: Checks) -> str:
@@ -84,15 +106,19 @@ def slopes(deck: Deck, structure: Structure, solution: Solution) -> Iterator[Slo
     state, asked = state_of(structure, solution, solution.associative), deck.analysis.sensitivity
     keys = [path_of_key(deck.data, key) for key in asked] if isinstance(asked, list) else list(_usual(deck, structure))
     for path in keys:
-        law = structure.model.joints.get(str(path[1])) if path[0] == "joints" and len(path) == 3 else None
-        if law is not None and path[2] in LAWS:
-            yield _of_law(deck, structure, state, law, path)
-        else:
-            yield _of_key(deck, structure, state, path)
+        yield _of_path(deck, structure, state, path, _as_it_is)
     if asked is True:
         dead, live = load_power(structure, state)
         for name, power in zip(LOADS, (dead, state.load_factor * live), strict=True):
             yield _slope(state, name, 1.0, "", -power, Side.BOTH)
+
+
+def _of_path(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:
+    """Of a strength of a joint law, which is exact, or of any other number."""
+    law = structure.model.joints.get(str(path[1])) if path[0] == "joints" and len(path) == 3 else None
+    if law is not None and path[2] in LAWS:
+        return _of_law(deck, structure, state, law, path)
+    return _of_key(deck, structure, state, path, posed)
 
 
 def _usual(deck: Deck, structure: Structure) -> Iterator[KeyPath]:
@@ -140,7 +166,7 @@ def _side(law: JointLaw, key: str) -> Side:
     return Side.BELOW if at_apex and key != "compressive_strength" else Side.BOTH
 
 
-def _of_key(deck: Deck, structure: Structure, state: State, path: KeyPath) -> Slope:
+def _of_key(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:
     """Of any number in the deck, by structures a step below and above."""
     value, unit = number_at(deck.content, path), unit_of([path], deck.units)
     assert value is not None  # the deck was checked for that
@@ -157,7 +183,7 @@ def _of_key(deck: Deck, structure: Structure, state: State, path: KeyPath) -> Sl
         elif not guides_allow(other, other.moved_along(state.mechanism, state.centroids)):
             words[row] = "guides"
         else:
-            found[row] = lagrangian(other, state)
+            found[row] = lagrangian(posed(other), state)
         return row in found
 
     def one_sided(sign: int) -> float:
