@@ -129,8 +129,8 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
 def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResult) -> float:
     """Of an associative load factor; nan where it has none.
 
-    It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so that
-    two smooth functions of the parameter touch there.
+    It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
+    that two smooth functions of the parameter touch there.
     """
     found = slope_by(deck, structure, case.solution, case.checks, question.path)
     return math.nan if found is None else found.slope

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -71,9 +72,9 @@ def question_of(deck: Deck, options: Any) -> Question:
         raise UsageError("find-option", f"{deck.path}: find needs {names}, or a section find in the deck")
     path = _parameter(deck, given["parameter"])
     least, greatest = given["bounds"]
-    steps = options.scan or (1 if section is None else section.scan)
-    if not least < greatest:
-        raise UsageError("find-option", f"--bounds {least:g} {greatest:g}: the second must be the greater")
+    steps = (1 if section is None else section.scan) if options.scan is None else options.scan
+    if not -math.inf < least < greatest < math.inf:
+        raise UsageError("find-option", f"--bounds {least:g} {greatest:g}: two numbers, the second the greater")
     if not 1 <= steps <= MOST_STEPS:
         raise UsageError("find-option", f"--scan {steps}: 1 to {MOST_STEPS} steps are allowed")
     return Question(

@@ -71,7 +71,7 @@ class Finding:
             ],
             "evaluations": [{"value": each.x, **_answer_json(each)} for each in self.answers],
             "solves": self.solves,
-            "exit_status": self.exit_code,
+            "exit_code": self.exit_code,
         }
 
     @property
