@@ -151,4 +151,8 @@ def solve_case(
         from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
 
         solution = with_sensitivity(deck, moving, contacts, answer.load_case, solution, answer.checks)
+    if deck.analysis.geometric_safety:
+        from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
+
+        solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
     return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

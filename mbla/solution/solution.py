@@ -232,6 +232,40 @@ class Slope:
 
 
 @dataclass(frozen=True)
+class GeometricSafety:
+    """The least size of joints, all shrunk about their middles, that carries the dead load, between two sizes.
+
+    sizes        : (n_ends,) over that of the joints: at the first it stands, at the second it falls; there is no second
+                   where joints of next to no size stand
+    pressed      : (n_ends,) pressure on all joints in the problem that shows it, whose load factor takes it away again:
+                   above it the dead load alone is carried, below it not; over the dead load per area of joints
+    load_factors : (n_ends,) of that problem
+    forces       : (n_ends, n_points, 3) N, T1, T2 [N] at the points of the shrunk joints
+    mechanisms   : (n_ends, n_blocks, 6) for a live power of 1
+    solves       : programs with a load factor that were solved
+    verified     : whether code that did not solve them confirms that it stands at the first and falls at the second
+    """
+
+    sizes: FloatArray
+    pressed: FloatArray
+    load_factors: FloatArray
+    forces: FloatArray
+    mechanisms: FloatArray
+    solves: int
+    verified: bool
+
+    @property
+    def factor(self) -> float:
+        """The geometric factor of safety that is shown: the joints may shrink by that; more than it is not."""
+        return 1.0 / float(self.sizes[0])
+
+    @property
+    def most(self) -> float:
+        """A factor that is not reached; inf where none is known."""
+        return 1.0 / float(self.sizes[1]) if len(self.sizes) > 1 else float("inf")
+
+
+@dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
 
@@ -289,6 +323,7 @@ class Solution:
     curve_end   : why it ends
     pushed      : forces and mechanisms of its steps
     sensitivity : slopes of the associative load factor, by the parameters that the deck asks for
+    geometric_safety : of the dead load alone, on request
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -321,6 +356,7 @@ class Solution:
     curve_end: CurveEnd = CurveEnd.NONE
     pushed: PushedSteps | None = field(default=None, compare=False)
     sensitivity: tuple[Slope, ...] = ()
+    geometric_safety: GeometricSafety | None = field(default=None, compare=False)
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"

@@ -23,6 +23,7 @@ from mbla.solution.solution import (
     Checks,
     CurveEnd,
     CurveRow,
+    GeometricSafety,
     IterationRecord,
     Mechanics,
     ModelSize,
@@ -289,6 +290,15 @@ def full_solution(solution: Solution) -> Solution:
             point_start=np.array([0, 8, 12]),
             forces=np.arange(36.0).reshape(12, 3),
             errors=np.array([0.0, 1e-4]),
+        ),
+        geometric_safety=GeometricSafety(
+            sizes=np.array([0.4, 0.3999]),
+            pressed=np.array([100.0, 100.0]),
+            load_factors=np.array([100.1, 99.9]),
+            forces=np.arange(48.0).reshape(2, 8, 3),
+            mechanisms=np.stack([mechanics.mechanism, 0.5 * mechanics.mechanism]),
+            solves=6,
+            verified=True,
         ),
         sensitivity=(
             Slope("joints.dry.friction", 0.6, "", 0.5, 0.6, Side.BOTH, ""),

@@ -97,6 +97,11 @@ class AnalysisSection(Section):
         "every joint law, density of every material, sizes of dead and live load; or a list of key paths of real "
         "numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
     )
+    geometric_safety: Switch = Field(
+        False,
+        description="by how much all joints may shrink about their middles before the dead load falls: of an arch the "
+        "thickness over the least one",
+    )
     reductions: Switch = Field(
         True,
         description="planar structures are solved with three unknowns a block, parts that cannot interact apart, parts "

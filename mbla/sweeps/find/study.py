@@ -12,9 +12,9 @@ from mbla.deck import Deck
 from mbla.process.sharing import Memory, sharing
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
+from mbla.solution.limits.zeros import Zero, changes, find_zero, scan
 from mbla.sweeps.find.answer import Answer, answer_at
 from mbla.sweeps.find.question import TARGETS, Question, question_of
-from mbla.sweeps.find.search import Zero, changes, find_zero, scan
 
 FOUND, IN_DOUBT, NOTHING = 0, 4, 5
 """exit status: every value verified; one that is not, or nothing known at all; no change of sign between the bounds"""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from mbla.sweeps.find.search import MOST, Zero, changes, find_zero, scan
+from mbla.solution.limits.zeros import MOST, Zero, changes, find_zero, scan
 
 NAN = math.nan
 Function = Callable[[float], tuple[float, float]]
