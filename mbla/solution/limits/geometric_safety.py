@@ -4,10 +4,11 @@ With every joint shrunk to s about its centroid, x = c + s (x₁ − c), the dea
 smaller joint carries, a larger one does. 1/s is the factor (Heyman 1966, doi:10.1016/0020-7683(66)90018-7: of an
 arch the thickness over the least one). Strengths stay those of the full joint; only levers shrink.
 
-The measure is the pressure p(s) in all joints (``joint_pressure``), which the shrinking leaves the same as a load: the
-least s is its zero. Its slope for fixed forces and mechanism is −f·dv/ds, where v grows linearly with s, so that a step
-of Newton's method is one of Dinkelbach's (1967) for the quotient of what levers and loads do: four to six programs.
-Forces at the upper end of the bracket prove that it stands, a mechanism at the lower end that it does not.
+The measure is the pressure p in all joints (``joint_pressure``), which the shrinking leaves the same as a load: the
+factor is its zero. Its slope by s for fixed forces and mechanism is −f·dv/ds, where v grows linearly with s. As levers
+times normal forces hold loads, p is nearly linear in the factor k = 1/s, and so it is looked for by k: a step of
+Newton's method is one of Dinkelbach's (1967) for the quotient of what levers and loads do, and three or four are mostly
+enough. Two more programs prove it: forces on one side that it stands, a mechanism on the other that it does not.
 """
 
 from __future__ import annotations
@@ -33,17 +34,17 @@ from mbla.solution.solution import GeometricSafety, Mechanics, Solution
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.statics import contact_velocities
 
-LEAST, MOST = 1e-3, 16.0
-"""Size of joints, over their own, below which nothing is looked for, and above: factors of 1000 and 1/16"""
+LEAST, MOST = 1.0 / 16.0, 1000.0
+"""Factors between which it is looked for"""
 TOLERANCE = 1e-6
-"""of s, relative; the bracket is twice that wide"""
-FIRST = 0.9
-"""size that is tried after 1, at most, where it stands"""
+"""of the factor, relative; it is proved to lie between two that are twice that apart"""
+STEP = 1.1
+"""From one factor to the next at least, until one on the other side is found"""
 
 
 @dataclass(frozen=True)
 class _Try:
-    """The pressure at one size of joints: a sample of ``zeros``."""
+    """The pressure at joints of 1/x of their size: a sample of ``zeros``."""
 
     x: float
     y: float
@@ -84,53 +85,49 @@ def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: An
 
 
 def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> GeometricSafety | None:
-    """The least size of all joints at which the dead load is carried; None where none up to ``MOST`` is enough."""
+    """The factor by which all joints may shrink while the dead load is carried; None where 1/16 is too much."""
     solves = 0
 
-    def at(size: float) -> _Try:
+    def at(factor: float) -> _Try:
         nonlocal solves
-        found = joint_pressure(replace(structure, contacts=shrunk(structure.contacts, size)), analysis, log)
+        found = joint_pressure(replace(structure, contacts=shrunk(structure.contacts, 1.0 / factor)), analysis, log)
         solves += found.solves
-        return _Try(size, found.value, _slope(structure, found), found)
+        return _Try(factor, found.value, _slope(structure, found) / -(factor**2), found)
 
-    here = at(1.0)
-    other = here
-    while (other.y < 0.0) == (here.y < 0.0):
-        if np.isnan(other.y) or (other.x <= LEAST and here.y >= 0.0) or other.x >= MOST:
-            break
-        nearest, other = other, at(_further(other))
-        here = nearest
-    if np.isnan(other.y) or np.isnan(here.y):
+    before = last = at(1.0)
+    while (last.y < 0.0) == (before.y < 0.0) and LEAST < last.x < MOST and not np.isnan(last.y):
+        before, last = last, at(_further(last))
+    if np.isnan(last.y) or (last.y < 0.0 and before.y < 0.0):
         return None
-    if (other.y < 0.0) == (here.y < 0.0):
-        return None if other.y < 0.0 else _result((other,), solves)
-    zero = find_zero(here, other, at, TOLERANCE * min(1.0, other.x, here.x))
-    below, above = _both_proved(zero, at)
-    return _result((above, below), solves)
+    if before.y >= 0.0 and last.y >= 0.0:
+        return _result((last,), solves)
+    zero = find_zero(before, last, at, TOLERANCE * min(before.x, last.x))
+    return _result(_proved(zero, at), solves)
 
 
-def _both_proved(zero: Zero[_Try], at: Callable[[float], _Try]) -> tuple[_Try, _Try]:
-    """Samples as near to the zero as their bounds tell that one falls and the other stands."""
-    (below, above), root = zero.bracket, zero.best
-    slope = root.slope if root.slope > 0.0 else np.inf
+def _proved(zero: Zero[_Try], at: Callable[[float], _Try]) -> tuple[_Try, _Try]:
+    """Samples that stand and fall, as near to the zero as their bounds tell them apart."""
+    (falls, stands), root = zero.bracket, zero.best
     least, most = root.found.bounds
-    zero_at = root.x - root.y / slope if np.isfinite(root.y) else root.x
+    slope = abs(root.slope) if abs(root.slope) > 0.0 else np.inf
+    middle = root.x + root.y / slope if np.isfinite(root.y) else root.x
     room = TOLERANCE * root.x + 3.0 * abs(most - least) / slope
-    if below.found.bounds[1] >= 0.0 or zero_at - below.x > 2.0 * room:
-        tried = at(zero_at - room)
-        below = tried if tried.y < 0.0 else below
-    if above.found.bounds[0] < 0.0 or above.x - zero_at > 2.0 * room:
-        tried = at(zero_at + room)
-        above = tried if tried.y >= 0.0 else above
-    return below, above
+    if stands.found.bounds[0] < 0.0 or middle - stands.x > 2.0 * room:
+        tried = at(middle - room)
+        stands = tried if tried.y >= 0.0 else stands
+    if falls.found.bounds[1] >= 0.0 or falls.x - middle > 2.0 * room:
+        tried = at(middle + room)
+        falls = tried if tried.y < 0.0 else falls
+    return stands, falls
 
 
 def _further(last: _Try) -> float:
-    """Where to look after a size that is on the same side as 1: a little beyond the zero of the tangent."""
-    step = last.x - last.y / last.slope if last.slope > 0.0 and np.isfinite(last.y) else np.nan
+    """Where to look after a factor on the same side as 1: a little beyond the zero of the tangent."""
+    known = last.slope < 0.0 and np.isfinite(last.y)
     if last.y < 0.0:
-        return float(np.clip(2.0 * last.x if np.isnan(step) else 1.01 * step, 1.1 * last.x, 4.0 * last.x))
-    return float(np.clip(LEAST if np.isnan(step) else 0.99 * step, LEAST, FIRST * last.x))
+        step = 0.99 * (last.x - last.y / last.slope) if known else 0.5 * last.x
+        return float(np.clip(step, max(LEAST, 0.25 * last.x), last.x / STEP))
+    return float(np.clip(1.01 * (last.x - last.y / last.slope) if known else MOST, STEP * last.x, MOST))
 
 
 def _slope(structure: Structure, found: JointPressure) -> float:
@@ -138,10 +135,8 @@ def _slope(structure: Structure, found: JointPressure) -> float:
     mechanics: Mechanics | None = found.solution.mechanics
     if mechanics is None:
         return np.nan
-    whole, none = (
-        contact_velocities(structure.model, shrunk(structure.contacts, size), mechanics.mechanism)
-        for size in (1.0, 0.0)
-    )
+    model, contacts, motion = structure.model, structure.contacts, mechanics.mechanism
+    whole, none = (contact_velocities(model, shrunk(contacts, size), motion) for size in (1.0, 0.0))
     return -float((mechanics.contact_forces * (whole - none)).sum())
 
 
@@ -152,7 +147,7 @@ def _result(ends: tuple[_Try, ...], solves: int) -> GeometricSafety | None:
     if len(known) < len(ends):
         return None
     return GeometricSafety(
-        sizes=np.array([end.x for end in ends]),
+        sizes=np.array([1.0 / end.x for end in ends]),
         pressed=np.array([end.found.pressed for end in ends]),
         load_factors=np.array([state.load_factor for state in known]),
         forces=np.stack([state.contact_forces for state in known]),
