@@ -15,7 +15,7 @@ from mbla.results.verify import verify_file
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.solution import GeometricSafety, Status
 from tests.analytic.test_least_thickness import deck_text
-from tests.decks.folder import BENCHMARKS
+from tests.decks.folder import ROOT
 from tests.line import BLOCK, case_of
 
 NEAR = 2e-6
@@ -43,7 +43,7 @@ def test_block_under_a_leaning_gravity() -> None:
 
 
 def test_block_of_a_deck_under_tilted_gravity() -> None:
-    text = (BENCHMARKS / "closed_forms" / "incline_tilted_gravity.yaml").read_text(encoding="utf-8")
+    text = (ROOT / "decks/benchmarks/closed_forms/incline_tilted_gravity.yaml").read_text(encoding="utf-8")
     assert safety_of(text).factor == pytest.approx(1.0 / (0.2 * math.tan(math.radians(15))), rel=NEAR)
 
 
