@@ -68,7 +68,7 @@ def with_geometric_safety(
     against = _against(model, contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
     if found is None:
-        words = f"there is no geometric factor of safety: {against or 'no size of the joints was found to be enough'}"
+        words = f"there is no geometric factor of safety: {against or 'no forces were found that carry the dead load at any size of the joints'}"
         return replace(solution, remarks=(*solution.remarks, Message("geometric-safety-not-done", words)))
     verified = proved(model, contacts, load_case, found)
     return replace(solution, geometric_safety=replace(found, verified=verified))

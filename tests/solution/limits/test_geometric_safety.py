@@ -91,7 +91,7 @@ def test_units_do_not_matter() -> None:
 @pytest.mark.parametrize(
     ("text", "overrides", "words"),
     [
-        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "no size of the joints"),
+        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "at any size of the joints"),
         (SAFE.replace("friction:", "compressive_strength: 1.e6, friction:"), (), "compressive strength"),
         (SAFE.replace("live:", "dead: [{gravity: none}], live:"), (), "no dead load"),
     ],
