@@ -10,6 +10,7 @@ from pathlib import Path
 from mbla.contacts import Contacts
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
 from mbla.model import Model, build_model
@@ -19,6 +20,7 @@ from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import timing
 from mbla.program.build import build_program
 from mbla.results.assessment.assessment import with_remarks
+from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
@@ -133,7 +135,7 @@ def solve_case(
 
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
-    solids = solids_of(moving, contacts)
+    solids = tied(solids_of(moving, contacts))
     for case in trials:
         program = build_program(solids, case, deck.analysis)
         solution = solve(program, settings, log)
@@ -155,4 +157,5 @@ def solve_case(
         from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
 
         solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
+    solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
     return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

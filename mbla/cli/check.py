@@ -10,6 +10,7 @@ import numpy as np
 from mbla.contacts import Contacts
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
 from mbla.deck import Deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
@@ -54,7 +55,7 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
 
 def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    built = build_program(solids_of(model.of_case(load_case), contacts), load_case, deck.analysis)
+    built = build_program(tied(solids_of(model.of_case(load_case), contacts)), load_case, deck.analysis)
     reduced, convex = built.reduced, built.convex
     if convex is not None:
         unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from mbla.arrays import FloatArray, IntArray, row_of_item
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
 
@@ -33,6 +35,9 @@ class Contacts:
     solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
                    in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
 
+    ties         : in what the solver sees, ties as further interfaces behind all others, of one contact point each
+                   (:mod:`mbla.contacts.tied`); None where there are none
+
     Internal interfaces (glued), and those whose joint law is open, are none of these.
     """
 
@@ -50,6 +55,7 @@ class Contacts:
     point_areas: FloatArray
     report: ContactReport
     solid_of_block: IntArray | None = None
+    ties: TieContacts | None = None
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -61,10 +67,46 @@ class Contacts:
         each = [(int(own.sum()), float(self.areas[own].sum())) for own in rows]
         return dict(zip(self.joint_names, each, strict=True))
 
+    @property
+    def n_surfaces(self) -> int:
+        """Number of interfaces that are surfaces, which come first; the others are ties."""
+        return len(self) - (0 if self.ties is None else len(self.ties.rows))
+
+    @cached_property
+    def tie_points(self) -> BoolArray:
+        """Which contact points are ties, (n_points,)."""
+        return np.asarray(self.interface_of_point >= self.n_surfaces)
+
     @cached_property
     def interface_of_point(self) -> IntArray:
         """(n_points,)."""
         return row_of_item(self.point_start)
+
+
+@dataclass(frozen=True)
+class TieContacts:
+    """Ties as contact points: what they carry, and the forces that are not those between two bodies in one line.
+
+    A tie has a force N = senses × (its tension) − offsets between −tension and compression, and no shear.
+
+    rows     : (k,) which of the model's ties, in the order of their interfaces
+    senses   : (k,) 1 where N is tension, −1 where it is compression
+    offsets  : (k,) N of the force that acts as a dead load
+    tension, compression : (k,) N
+    points, bodies : (m,) of further forces: contact point, body that it acts on
+    places   : (m, 3) m, where it acts
+    forces   : (m, 3) of an N of 1
+    """
+
+    rows: IntArray
+    senses: FloatArray
+    offsets: FloatArray
+    tension: FloatArray
+    compression: FloatArray
+    points: IntArray
+    bodies: IntArray
+    places: FloatArray
+    forces: FloatArray
 
 
 class ContactsRefused(Refusal):

@@ -75,12 +75,14 @@ class Solids:
 
     solid_of_block : (n_blocks,); None where every block is a solid, and model and contacts are the ones given
     arms           : (n_blocks, 3) m, from the centroid of the solid to that of the block
+    fitted         : (n_solids, 6) N, N m dead load of ties that are part of the contacts; None without
     """
 
     model: Model
     contacts: Contacts
     solid_of_block: IntArray | None
     arms: FloatArray
+    fitted: FloatArray | None = None
 
     @property
     def label(self) -> IntArray:
@@ -95,8 +97,10 @@ class Solids:
         tilt = load_case.tilt
         if tilt is not None:
             fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
+            fixed = fixed if self.fitted is None else fixed + self.fitted
             tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
         dead, live = self.loads(load_case.dead_load), self.loads(load_case.live_load)
+        dead = dead if self.fitted is None else dead + self.fitted
         return replace(load_case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
 
     def loads(self, loads: FloatArray) -> FloatArray:

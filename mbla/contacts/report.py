@@ -45,6 +45,8 @@ def build_report(model: Model, findings: Findings) -> ContactReport:
     """The findings in numbers, without notices."""
     overlaps, touching = findings.overlaps, findings.contacts.overlays.bodies
     bodies = _without(touching, findings.open_bodies, len(model.blocks) + len(model.grounds))
+    links = model.ties.links(len(model.blocks) + len(model.grounds))
+    held = np.vstack([bodies, links[links[:, 0] != links[:, 1]]])
     slivers, widths = _slivers(model, findings.slivers)
     near_misses, gaps = _near_misses(model, findings.near_misses, overlaps)
     return ContactReport(
@@ -55,8 +57,8 @@ def build_report(model: Model, findings: Findings) -> ContactReport:
         overlaps=overlaps.pairs,
         overlap_depths=overlaps.depths,
         unchecked=overlaps.unchecked,
-        isolated=np.setdiff1d(np.arange(len(model.blocks)), bodies),
-        unsupported=unsupported_parts(held_blocks(model), bodies),
+        isolated=np.setdiff1d(np.arange(len(model.blocks)), held),
+        unsupported=unsupported_parts(held_blocks(model), held),
         fixed_contacts=int(both_fixed(model, touching).sum()),
         open_interfaces=len(findings.open_bodies),
         glued=findings.glued_bodies,

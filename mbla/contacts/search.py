@@ -47,7 +47,8 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
     laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}
-    return _found(replace(model, title="", load_cases=(), notices=(), joints=laws), section)
+    bare = replace(model, title="", load_cases=(), notices=(), joints=laws, ties=model.ties.lines)
+    return _found(bare, section)
 
 
 def _crushes(law: Joint) -> float:

@@ -24,6 +24,7 @@ from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Support, SymmetryPlane
+from mbla.deck.sections.ties import TieSection
 from mbla.deck.text.include import MAX_FILES
 from mbla.errors import Finding
 
@@ -103,6 +104,9 @@ class DeckContent(Section):
     )
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
+    ties: list[TieSection] = Field(
+        default_factory=list, description="ties, rings, struts and strips: forces between blocks, or to the ground"
+    )
     masses: list[AddedMass] = Field(default_factory=list, description="masses that rest on blocks, such as floors")
     loads: dict[Name, Annotated[list[Load], Field(min_length=1)]] = Field(
         default_factory=dict, description="loads by name, for several load cases"

@@ -19,7 +19,7 @@ from mbla.deck.text.tree import KeyPath, Tree
 from mbla.errors import Fault, Message
 
 GROUND = "ground"
-"""Name that stands for ground planes in `contacts.overrides`."""
+"""Name that stands for ground planes in `contacts.overrides`, for what does not move in `ties`."""
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,12 @@ SELECTORS = (
     "load_cases.*.settlement.on",
     "load_cases.*.pushover.control.on",
     "symmetry.#.halves",
+    "ties.#.on",
+    "ties.#.ring.around",
 )
 """Where blocks are chosen."""
+WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on")
+"""Where ground may be meant."""
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.*.joint", "joint law", BUILT_IN),
@@ -55,7 +59,7 @@ REFERENCES = (
     ),
     Reference("supports.#.joint", "joint law", BUILT_IN),
     *(
-        Reference(f"{place}{form}", "group", (GROUND,) if "between" in place and "group" not in form else ())
+        Reference(f"{place}{form}", "group", (GROUND,) if place in WITH_GROUND and "group" not in form else ())
         for place in (*SELECTORS, "groups.*")
         for form in ("", ".group", ".#", ".#.group")
     ),

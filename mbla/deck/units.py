@@ -36,6 +36,7 @@ class Dimension:
 DIMENSIONS = {
     "number": Dimension("", (0, 0, 0), "", ""),
     "length": Dimension("L", (1, 0, 0), "m", "30 cm"),
+    "area": Dimension("L^2", (2, 0, 0), "m**2", "300 mm^2"),
     "force": Dimension("F", (0, 1, 0), "N", "10 kN"),
     "moment": Dimension("F*L", (1, 1, 0), "N*m", "10 kN*m"),
     "force_per_length": Dimension("F/L", (-1, 1, 0), "N/m", "10 kN/m"),
@@ -51,6 +52,7 @@ DIMENSIONS = {
 
 DECIMAL: dict[str, dict[str, float]] = {
     "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3},
+    "area": {"m^2": 1.0, "mm^2": 1e-6, "cm^2": 1e-4},
     "force": {"N": 1.0, "kN": 1e3, "MN": 1e6},
     "moment": {"N*m": 1.0, "kN*m": 1e3, "N m": 1.0, "kN m": 1e3},
     "force_per_length": {"N/m": 1.0, "kN/m": 1e3},

@@ -21,6 +21,7 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.model.build_ties import build_ties
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words
 from mbla.model.loads import LoadSite, build_load_cases
@@ -59,6 +60,7 @@ def build_model(deck: Deck) -> Model:
     )
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports))
+    ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
     if roster.faults:
         raise DeckError(roster.faults)
     model = Model(
@@ -72,6 +74,7 @@ def build_model(deck: Deck) -> Model:
         notices=(*structure.first_notices, *roster.notices),
         guides=supports.guides,
         interfaces=interfaces,
+        ties=ties,
         bent=structure.bent,
     )
     return with_images(deck, model)
@@ -131,6 +134,7 @@ def _bare(deck: Deck) -> Deck:
             "parameters": {},
             "joints": dict.fromkeys(deck.content.joints, NO_LAW),
             "loads": {},
+            "ties": [],
             "load_cases": {},
             "analysis": AnalysisSection(),
             "output": OutputSection(),

@@ -14,6 +14,7 @@ from mbla.errors import Notice, UsageError
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
+from mbla.model.ties import NO_TIES, Ties
 
 
 @dataclass(frozen=True)
@@ -235,6 +236,7 @@ class Model:
                   states are searched
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
+    ties        : what holds blocks together or apart beside joints
     bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
     """
 
@@ -249,6 +251,7 @@ class Model:
     guides: Guides = NO_GUIDES
     mirrors: tuple[tuple[float, float, float, float], ...] = ()
     interfaces: PrescribedInterfaces | None = None
+    ties: Ties = NO_TIES
     bent: BentFaces = NO_BENT_FACES
 
     def of_case(self, load_case: LoadCase) -> Model:

@@ -17,6 +17,7 @@ from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
+from mbla.model.ties import NO_TIES
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,13 @@ def moved_model(model: Model, pose: Pose) -> Model:
     turns = np.any(guides.motions[:, 3:] != 0.0, axis=1, keepdims=True)
     velocities = np.where(turns, np.einsum("mij,mjk->mik", turn, guides.motions[:, :3]), guides.motions[:, :3])
     motions = np.concatenate([velocities, guides.motions[:, 3:]], axis=1)
-    return replace(model, blocks=pose.moved(model.blocks), interfaces=None, guides=replace(guides, motions=motions))
+    return replace(
+        model,
+        blocks=pose.moved(model.blocks),
+        interfaces=None,
+        guides=replace(guides, motions=motions),
+        ties=NO_TIES,  # those that are left are found with their history (:mod:`mbla.model.moved_ties`)
+    )
 
 
 def turns_and_slides(guides: Guides) -> bool:

@@ -33,6 +33,7 @@ from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.supports import plane_of
+from mbla.model.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 
@@ -146,6 +147,7 @@ def _mirrored(model: Model, mirror: Mirror, tolerance: float) -> Model:
         fixed=np.concatenate([model.fixed, model.fixed[others]]),
         grounds=_grounds(model.grounds, mirror),
         guides=_guides(model.guides, mirror),
+        ties=_ties(model.ties, mirror),
         load_cases=tuple(_load_case(case, model, mirror, centroids) for case in model.load_cases),
         notices=(*model.notices, Notice("notice", "mirrored", text)),
         mirrors=(*model.mirrors, (*mirror.normal.tolist(), float(mirror.normal @ mirror.point))),
@@ -193,6 +195,21 @@ def _guides(guides: Guides, mirror: Mirror) -> Guides:
         np.concatenate([guides.motions, mirror.motions(guides.motions)]),
         guides.words,
     )
+
+
+def _ties(ties: Ties, mirror: Mirror) -> Ties:
+    """Ties and their images, but of those that lie in the plane; one that crosses it is given as its half to ground."""
+    if not len(ties):
+        return ties
+    heights = np.abs((ties.places - mirror.point) @ mirror.normal)
+    size = float(np.ptp(ties.places, axis=0).max()) or 1.0
+    outside = np.bincount(ties.tie_of_point, heights > ACROSS * size, len(ties)) > 0
+    images = ties.take(np.flatnonzero(outside))
+    reflection = mirror.reflection
+    bodies = np.append(mirror.image_of, OUTSIDE)[images.bodies]
+    names = tuple(f"image of {name}" for name in images.names)
+    places, pulls = reflection.points(images.places), images.pulls @ reflection.matrix.T
+    return joined_ties([ties, replace(images, names=names, bodies=bodies, places=places, pulls=pulls)])
 
 
 def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArray) -> LoadCase:

@@ -16,7 +16,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.contacts import Contacts
+from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
@@ -61,7 +61,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
 
 
 def yield_limits(model: Model, contacts: Contacts) -> YieldLimits:
-    """Limits of every contact point in the deck's units: joint law times share of area."""
+    """Limits of every contact point in the deck's units: joint law times share of area, or those of its tie."""
     laws = [model.joints[name] for name in contacts.joint_names]
     joint = contacts.joints[contacts.interface_of_point]
     areas = contacts.point_areas
@@ -72,11 +72,17 @@ def yield_limits(model: Model, contacts: Contacts) -> YieldLimits:
     with np.errstate(invalid="ignore"):  # inf × 0 cannot arise: areas are positive where strengths are finite
         compression = per_point([law.compressive_strength for law in laws])
         compression = np.where(np.isinf(compression), np.inf, compression * areas)
+    tension = per_point([law.tensile_strength for law in laws]) * areas
+    if contacts.ties is not None:
+        tension[contacts.tie_points], compression[contacts.tie_points] = (
+            contacts.ties.tension,
+            contacts.ties.compression,
+        )
     return YieldLimits(
         friction=per_point([law.friction for law in laws]),
         dilatancy=per_point([law.dilatancy for law in laws]),
         cohesion=per_point([law.cohesion for law in laws]) * areas,
-        tension=per_point([law.tensile_strength for law in laws]) * areas,
+        tension=tension,
         compression=compression,
     )
 
@@ -148,11 +154,31 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     """A, (6 n_free, 3 n_points), in the deck's units: A x is the resultant of contact forces x about the centroids.
 
     Columns 3 k + j belong to component j (N, T1, T2) of point k, which pushes body b along row j of its frame and
-    body a against it; moments are (point − centroid) × force.
+    body a against it; moments are (point − centroid) × force. Of ties only N acts.
     """
     n_bodies = len(model.blocks) + len(model.grounds)
     bodies = contacts.bodies[contacts.interface_of_point]
-    return _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
+    matrix = _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
+    if contacts.ties is None:
+        return matrix
+    acts = np.ones((len(bodies), 3))
+    acts[contacts.tie_points, 1:] = 0.0
+    in_lines = matrix @ sp.diags_array(acts.ravel())
+    return sp.csr_array(in_lines + _further(n_bodies, model, contacts.ties, free, len(bodies)))
+
+
+def _further(n_bodies: int, model: Model, ties: TieContacts, free: IntArray, n_points: int) -> sp.csr_array:
+    """What ties do besides forces between two bodies in one line, as further entries of A."""
+    row_of_block = np.full(n_bodies, -1, dtype=np.int64)
+    row_of_block[free] = np.arange(len(free))
+    here = row_of_block[ties.bodies] >= 0
+    block, forces = ties.bodies[here], ties.forces[here]
+    arms = ties.places[here] - model.blocks.centroids[block]
+    values = np.hstack([forces, np.cross(arms, forces)])
+    rows = 6 * row_of_block[block][:, None] + np.arange(6)
+    columns = np.repeat(3 * ties.points[here], 6)
+    entries = (values.ravel(), (rows.ravel(), columns))
+    return sp.csr_array(sp.coo_array(entries, shape=(6 * len(free), 3 * n_points)))
 
 
 @shared("equilibrium")
@@ -182,9 +208,13 @@ def _matrix(
 
 
 def lever_arms(model: Model, contacts: Contacts, free: IntArray) -> FloatArray:
-    """Mean distance of contact points from the centroid of each free block, its size where it has none, (n_free,)."""
-    bodies = contacts.bodies[contacts.interface_of_point]
-    return _arms(model.blocks.centroids, model.blocks.sizes, bodies, contacts.points, free)
+    """Mean distance of contact points from the centroid of each free block, its size where it has none, (n_free,).
+
+    Ties do not count, which may lead far away.
+    """
+    surfaces = ~contacts.tie_points
+    bodies, points = contacts.bodies[contacts.interface_of_point][surfaces], contacts.points[surfaces]
+    return _arms(model.blocks.centroids, model.blocks.sizes, bodies, points, free)
 
 
 def _arms(centroids: FloatArray, sizes: FloatArray, bodies: IntArray, points: FloatArray, free: IntArray) -> FloatArray:

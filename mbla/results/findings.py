@@ -44,6 +44,7 @@ REMARKS_THAT_WARN = frozenset(
     {
         "assessment-in-doubt",
         "assessment-not-done",
+        "brittle-ties",
         "control-point-at-rest",
         "livesley-overstates",
         "default-for-published",

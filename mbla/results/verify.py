@@ -86,7 +86,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         solution = _as_asked_for(solution, deck, crushable and takes_stress_blocks(deck.analysis))
     solution = with_derived(model, contacts, load_case, solution)
     if deck is not None and solution.pushed is not None and solution.mechanics is not None:
-        solution = begun_by(solution)
+        solution = begun_by(model, contacts, solution)
         solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         upright = level_bound(model, contacts, load_case, solution)

@@ -1,6 +1,7 @@
 """A solution for solids restated for the blocks that glue joins in them, and back (see :mod:`mbla.contacts.glue`).
 
-Motions are mapped; forces, contact velocities and modes belong to contact points, which both have in common.
+Motions are mapped; forces, contact velocities and modes belong to contact points, which both have in common. Ties are
+contact points of the solids only (:mod:`mbla.contacts.tied`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
+from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.mechanics import contact_modes
@@ -34,7 +36,11 @@ def rule_of(part: str, solution: Solution) -> str:
 
 
 def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
-    """The solution for the solids with the motions of all blocks; the block that falls is the first of its solid."""
+    """The solution for the solids with the motions of all blocks, ties by themselves.
+
+    The block that falls is the first of its solid.
+    """
+    solution = ties_apart(solution, solids)
     if solids.solid_of_block is None:
         return solution
     standing = solution.standing
@@ -46,8 +52,9 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
 def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, float]:
     """The solution with motions of the solids, and how far glued blocks move apart, over the largest motion.
 
-    The block that falls stays as it is: it is a name for messages.
+    Ties are among the contacts again. The block that falls stays as it is: it is a name for messages.
     """
+    solution = ties_among_contacts(solution, solids)
     if solids.solid_of_block is None:
         return solution, 0.0
     apart = [0.0]
@@ -64,22 +71,109 @@ def solution_on_solids(solution: Solution, solids: Solids) -> tuple[Solution, fl
     return _with_motions(solution, checked), max(apart)
 
 
+def ties_apart(solution: Solution, solids: Solids) -> Solution:
+    """The solution with ties by themselves, from one that has them among its contacts."""
+    contacts, ties = solids.contacts, solids.contacts.ties
+    if ties is None:
+        return solution
+    surfaces, points = contacts.n_surfaces, ~contacts.tie_points
+    count = len(solids.model.ties)
+
+    def apart(mechanics: Mechanics) -> Mechanics:
+        forces, rates = np.full(count, np.nan), np.full(count, np.nan)
+        forces[ties.rows] = ties.senses * (mechanics.contact_forces[~points, 0] + ties.offsets)
+        rates[ties.rows] = -ties.senses * mechanics.contact_velocities[~points, 0]
+        return replace(
+            _of_interfaces(mechanics, lambda values: values[:surfaces]),
+            contact_forces=mechanics.contact_forces[points],
+            contact_velocities=mechanics.contact_velocities[points],
+            modes=mechanics.modes[points],
+            tie_forces=forces,
+            tie_rates=rates,
+        )
+
+    motions, ranges = solution.certificate_motions, solution.force_ranges
+    return replace(
+        _with_mechanics(solution, apart),
+        certificate_motions=None if motions is None else motions[:surfaces],
+        force_ranges=None if ranges is None else ranges[:surfaces],
+    )
+
+
+def ties_among_contacts(solution: Solution, solids: Solids) -> Solution:
+    """The way back from ``ties_apart``; what it left out of ties is nothing."""
+    ties = solids.contacts.ties
+    if ties is None:
+        return solution
+    n = len(ties.rows)
+
+    def among(mechanics: Mechanics) -> Mechanics:
+        return with_tie_contacts(mechanics, solids)
+
+    def padded(values: FloatArray) -> FloatArray:
+        return np.concatenate([values, np.zeros((n, *values.shape[1:]))])
+
+    motions, ranges = solution.certificate_motions, solution.force_ranges
+    return replace(
+        _with_mechanics(solution, among),
+        certificate_motions=None if motions is None else padded(motions),
+        force_ranges=None if ranges is None else padded(ranges),
+    )
+
+
+def with_tie_contacts(mechanics: Mechanics, solids: Solids) -> Mechanics:
+    """Mechanics with ties among the contacts of solids; the same where these have none."""
+    ties = solids.contacts.ties
+    if ties is None or mechanics.tie_forces is None:
+        return mechanics
+    n = len(ties.rows)
+    forces, speeds = np.zeros((n, 3)), np.zeros((n, 3))
+    forces[:, 0] = ties.senses * mechanics.tie_forces[ties.rows] - ties.offsets
+    if mechanics.tie_rates is not None:
+        speeds[:, 0] = -ties.senses * mechanics.tie_rates[ties.rows]
+    resultants = np.zeros((n, 6))
+    resultants[:, 0] = forces[:, 0]
+    own = mechanics.resultants
+    return replace(
+        _of_interfaces(mechanics, lambda values: np.concatenate([values, np.zeros((n, *values.shape[1:]))])),
+        resultants=None if own is None else np.vstack([own, resultants]),
+        contact_forces=np.vstack([mechanics.contact_forces, forces]),
+        contact_velocities=np.vstack([mechanics.contact_velocities, speeds]),
+        modes=np.append(mechanics.modes, np.zeros(n, dtype=np.int64)),
+    )
+
+
+def _of_interfaces(mechanics: Mechanics, changed: Callable[[FloatArray], FloatArray]) -> Mechanics:
+    """Mechanics with a change of what has a row for each interface."""
+    resultants, motions = mechanics.resultants, mechanics.interface_motions
+    return replace(
+        mechanics,
+        resultants=None if resultants is None else changed(resultants),
+        interface_motions=None if motions is None else changed(motions),
+    )
+
+
 def _with_motions(solution: Solution, mapped: Callable[[FloatArray], FloatArray]) -> Solution:
-    """The solution with every motion mapped; what was one object stays one."""
+    """The solution with every motion mapped."""
+    moved = _with_mechanics(solution, lambda part: replace(part, mechanism=mapped(part.mechanism)))
+    return replace(
+        moved,
+        certificate=None if solution.certificate is None else mapped(solution.certificate),
+        standing=_standing(solution.standing, mapped),
+    )
+
+
+def _with_mechanics(solution: Solution, changed: Callable[[Mechanics], Mechanics]) -> Solution:
+    """The solution with all its mechanics changed; what was one object stays one."""
     known: dict[int, Mechanics] = {}
 
     def of(mechanics: Mechanics) -> Mechanics:
         if id(mechanics) not in known:
-            known[id(mechanics)] = replace(mechanics, mechanism=mapped(mechanics.mechanism))
+            known[id(mechanics)] = changed(mechanics)
         return known[id(mechanics)]
 
     parts: dict[str, Any] = {name: of(part) for name in MOTIONS if (part := getattr(solution, name)) is not None}
-    return replace(
-        solution,
-        **parts,
-        certificate=None if solution.certificate is None else mapped(solution.certificate),
-        standing=_standing(solution.standing, mapped),
-    )
+    return replace(solution, **parts)
 
 
 def _standing(standing: StandingResult | None, mapped: Callable[[FloatArray], FloatArray]) -> StandingResult | None:
@@ -97,20 +191,21 @@ from them."""
 
 def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Solution:
     """The solution with velocities and modes of contact points, and resultants, as mechanisms and forces give them."""
-    solids = solids_of(model, contacts)
+    solids = tied(solids_of(model, contacts))
+    solution = ties_among_contacts(solution, solids)
     found: dict[int, Mechanics] = {}
     for part in MOTIONS:
         mechanics: Mechanics | None = getattr(solution, part)
         if mechanics is not None and id(mechanics) not in found:
             still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
-            moved = contact_velocities(model, contacts, still)
+            moved = contact_velocities(solids.model, solids.contacts, solids.solid_motions(still))
             if _near(moved, mechanics.contact_velocities):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
             found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
-    return replace(solution, **parts)  # type: ignore[arg-type]  # names and types are those of the parts
+    return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
 
 
 def _near(one: FloatArray, other: FloatArray) -> bool:

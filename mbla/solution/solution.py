@@ -143,10 +143,11 @@ class CurveRow:
     error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
     residual     : of the joint law, the greatest measure of the verification
     overlap      : m, the greatest of blocks
-    live_work, friction, potential : J since the first step: work of the live load, dissipated in sliding, gained by
-                   the dead load
+    live_work, friction, tie_work, potential : J since the first step: work of the live load, dissipated in sliding and
+                   by ties, gained by the dead load
     new_mechanism : whether it moves in another way than the step before
     debris       : blocks that have fallen without the rest
+    broken       : ties that have broken, or went with debris
     """
 
     step: int
@@ -158,9 +159,11 @@ class CurveRow:
     overlap: float
     live_work: float
     friction: float
+    tie_work: float
     potential: float
     new_mechanism: bool
     debris: int
+    broken: int
 
 
 @dataclass(frozen=True)
@@ -213,7 +216,8 @@ class Side(StrEnum):
 class Slope:
     """How the associative load factor changes with a parameter.
 
-    parameter  : key path in the deck; ``dead load`` or ``live load``: a factor on all of it
+    parameter  : key path in the deck; ``dead load`` or ``live load``: a factor on all of it; ``tie`` and a name:
+                 the force at which that yields
     value      : in the deck's unit
     unit       : empty for plain numbers, and for parameters of expressions
     slope      : derivative of the load factor by it, nan where it is not known
@@ -281,6 +285,8 @@ class Mechanics:
     interface_motions  : convex contact model only: (n_interfaces, 2, 6) motion of each interface that torsion [0] and
                          crushing [1] allow it, dual to the resultants: opening, slips, rotations about normal, tangent
                          1 and tangent 2, scaled as mechanism; the contact points move by the rest
+    tie_forces         : (n_ties,) N, tension positive, nan where a tie is between what does not move; None without ties
+    tie_rates          : (n_ties,) their elongation rates, scaled as mechanism
     """
 
     load_factor: float
@@ -290,11 +296,16 @@ class Mechanics:
     modes: IntArray
     resultants: FloatArray | None = None
     interface_motions: FloatArray | None = None
+    tie_forces: FloatArray | None = None
+    tie_rates: FloatArray | None = None
 
 
 @dataclass(frozen=True)
 class Solution:
     """Answer of the solver stage for one load case, before verification.
+
+    Forces of a lock, a level lock, the standing structure and of steps of a pushover have those of ties as contact
+    points (:mod:`mbla.contacts.tied`) behind the n_points of the interfaces.
 
     status      : what the solver stage claims; never better than what ``verify`` confirms
     mechanics   : by the deck's flow rule; None where there is no load factor

@@ -15,6 +15,7 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
@@ -100,16 +101,16 @@ def posed(
     if settlement is None:
         return load_case
     held = replace(load_case, live_load=load_case.dead_load, settlement=None)
-    solids = solids_of(replace(model, mirrors=()), contacts)
+    solids = tied(solids_of(replace(model, mirrors=()), contacts))
     program = assemble(solids.model, solids.contacts, solids.load_case(held))
     parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
-    total = np.zeros((len(contacts.points), 3))
+    total = np.zeros((len(solids.contacts.points), 3))
     for part in parts:
         state = at_rest(part, 0.0, settings, log)
         if state is None:
             return with_reference(load_case, HIGH * settlement.unit)
         repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
         total += forces_of(part, state.forces if repaired is None else repaired[0])
-    on_blocks = contact_resultants(model, contacts, total)[settlement.blocks]
+    on_blocks = contact_resultants(solids.model, solids.contacts, total)[solids.label[settlement.blocks]]
     reaction = float((settlement.motions * on_blocks).sum())
     return with_reference(load_case, reaction + MARGIN * settlement.unit)

@@ -31,6 +31,16 @@ class PlanarJoint:
 
 
 @dataclass(frozen=True)
+class PlanarTie:
+    """A line through points on bodies (GROUND or a block) with one force within limits, tension positive."""
+
+    bodies: tuple[int, ...]
+    points: tuple[tuple[float, float], ...]
+    least: float
+    greatest: float
+
+
+@dataclass(frozen=True)
 class Rectangle:
     """left, right, bottom, top."""
 
@@ -48,21 +58,27 @@ class Rectangle:
         return np.array([(self.left + self.right) / 2, (self.bottom + self.top) / 2])
 
 
-def load_factor(joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array) -> float | None:
+def load_factor(
+    joints: Sequence[PlanarJoint], centroids: Array, dead: Array, live: Array, ties: Sequence[PlanarTie] = ()
+) -> float | None:
     """Greatest factor on ``live`` in equilibrium with ``dead``; None where there is none, inf where there is no limit.
 
     centroids : (n, 2); dead, live : (n, 2) forces at the centroids, or (n, 3) with moments x Fz - z Fx about them
     """
-    m = len(joints)
+    m, k = len(joints), len(ties)
     unit = np.abs(dead).max()
     equilibrium, friction = _equilibrium(joints, centroids), _friction(joints)
     answer = linprog(  # type: ignore[call-overload]  # its stubs do not know sparse matrices
-        np.append(np.zeros(3 * m), -1.0),
-        A_ub=friction,
+        np.append(np.zeros(3 * m + k), -1.0),
+        A_ub=sp.hstack([friction, sp.csr_array((2 * m, k + 1))]).tocsr(),
         b_ub=np.zeros(2 * m),
-        A_eq=sp.hstack([equilibrium, sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]).tocsr(),
+        A_eq=sp.hstack(
+            [equilibrium, _pulls(ties, centroids), sp.csr_array(_with_moments(live).reshape(-1, 1) / unit)]
+        ).tocsr(),
         b_eq=-_with_moments(dead).ravel() / unit,
-        bounds=[(0, None), (0, None), (None, None)] * m + [(0, None)],
+        bounds=[(0, None), (0, None), (None, None)] * m
+        + [(tie.least / unit, tie.greatest / unit) for tie in ties]
+        + [(0, None)],
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
@@ -98,15 +114,31 @@ def _equilibrium(joints: Sequence[PlanarJoint], centroids: Array) -> sp.csr_arra
     return sp.csr_array((values, (rows, columns)), shape=(3 * len(centroids), 3 * len(joints)))
 
 
+def _pulls(ties: Sequence[PlanarTie], centroids: Array) -> sp.csr_array:
+    """Forces and moments on the blocks, (3 n,), by the tension of each tie: along both stretches at each point."""
+    columns = np.zeros((3 * len(centroids), len(ties)))
+    for k, tie in enumerate(ties):
+        points = np.array(tie.points)
+        for i, body in enumerate(tie.bodies):
+            if body == GROUND:
+                continue
+            for other in (i - 1, i + 1):
+                if 0 <= other < len(points):
+                    way = (points[other] - points[i]) / np.linalg.norm(points[other] - points[i])
+                    arm = points[i] - centroids[body]
+                    columns[3 * body : 3 * body + 3, k] += [*way, arm[0] * way[1] - arm[1] * way[0]]
+    return sp.csr_array(columns)
+
+
 def _friction(joints: Sequence[PlanarJoint]) -> sp.csr_array:
-    """±T − μ (N at p + N at q) of each joint, (2 m,), by its forces and the load factor, (3 m + 1,)."""
+    """±T − μ (N at p + N at q) of each joint, (2 m,), by its forces, (3 m,)."""
     rows, columns, values = [], [], []
     for j, joint in enumerate(joints):
         for row, sign in ((2 * j, 1.0), (2 * j + 1, -1.0)):
             rows += [row] * 3
             columns += [3 * j, 3 * j + 1, 3 * j + 2]
             values += [-joint.mu, -joint.mu, sign]
-    return sp.csr_array((values, (rows, columns)), shape=(2 * len(joints), 3 * len(joints) + 1))
+    return sp.csr_array((values, (rows, columns)), shape=(2 * len(joints), 3 * len(joints)))
 
 
 def rectangles_in_contact(bricks: Sequence[Rectangle], mu: float, ground: float | None = 0.0) -> list[PlanarJoint]:

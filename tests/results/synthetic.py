@@ -17,6 +17,7 @@ from mbla.errors import Message, Notice
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, labels_of
+from mbla.model.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (
@@ -248,8 +249,13 @@ def full_results() -> Results:
 def full_solution(solution: Solution) -> Solution:
     """A solution with all its fields."""
     mechanics = replace(
-        tower_mechanics(), resultants=np.arange(12.0).reshape(2, 6), interface_motions=np.arange(24.0).reshape(2, 2, 6)
+        tower_mechanics(),
+        resultants=np.arange(12.0).reshape(2, 6),
+        interface_motions=np.arange(24.0).reshape(2, 2, 6),
+        tie_forces=np.array([3.0]),
+        tie_rates=np.array([0.5]),
     )
+    with_tie = np.vstack([mechanics.contact_forces, [[3.0, 0, 0]]])
     return replace(
         solution,
         mechanics=mechanics,
@@ -267,18 +273,18 @@ def full_solution(solution: Solution) -> Solution:
         upper=replace(mechanics, load_factor=0.52),
         peak=replace(mechanics, load_factor=0.6),
         level=replace(mechanics, load_factor=0.57),
-        level_lock=np.arange(24.0, 48.0).reshape(8, 3),
+        level_lock=np.arange(24.0, 51.0).reshape(9, 3),
         spread=(0.49, 0.51),
         tolerance_requested=5e-3,
         standing=StandingResult(
-            Standing.SELF_STRESS, 1, "the tower hangs between two walls", mechanics.contact_forces, mechanics.mechanism
+            Standing.SELF_STRESS, 1, "the tower hangs between two walls", with_tie, mechanics.mechanism
         ),
-        lock=np.arange(24.0).reshape(8, 3),
+        lock=np.arange(27.0).reshape(9, 3),
         force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=(PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, np.nan)),
         curve=(
-            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0),
-            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.8, new_mechanism=True, debris=1),
+            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0, broken=0),
+            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, new_mechanism=True, debris=1, broken=1),
         ),
         curve_end=CurveEnd.STEPS_DONE,
         pushed=PushedSteps(
@@ -318,6 +324,21 @@ def standing_at(number: int, count: int, point: Any, distance: float, behind: An
     return TravelPosition("train", number, count, points, distance - axles, forces, np.where(axles > 0, -1, 1))
 
 
+TIE = Ties(
+    names=("rod[0]",),
+    forms=("tie",),
+    closed=np.array([1]),
+    start=np.array([0, 2]),
+    bodies=np.array([1, -1]),
+    places=np.array([[0.0, 0, 1], [-1, 0, 1]]),
+    pulls=np.array([[-1.0, 0, 0], [1, 0, 0]]),
+    least=np.array([-1.0]),
+    greatest=np.array([4.0]),
+    prestress=np.array([2.0]),
+    breaks_at=np.array([0.1]),
+)
+
+
 def full_model(model: Model) -> Model:
     """The tower with a settlement in its first load case, a tilt and a path in the last, and a guide."""
     arrays = np.arange(54.0).reshape(3, 3, 6)
@@ -348,6 +369,7 @@ def full_model(model: Model) -> Model:
             not_run,
         ),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
+        ties=TIE,
     )
 
 

@@ -32,6 +32,7 @@ DECKS = {
     "beam_under_travelling_load": "travel",
     "tilting_block": "tilt",
     "glued_lintel": "glue",
+    "ring_rope_and_strip": "ties",
     "eccentric_compression_convex": "convex contact model",
     "incline_too_steep": "no equilibrium, certificate",
     "groove_locked": "unbounded, lock",

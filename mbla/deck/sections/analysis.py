@@ -94,8 +94,8 @@ class AnalysisSection(Section):
     sensitivity: Sensitivity = Field(
         False,
         description="how much the associative load factor changes with parameters. true: friction and strengths of "
-        "every joint law, density of every material, sizes of dead and live load; or a list of key paths of real "
-        "numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
+        "every joint law, density of every material, capacity of every tie, sizes of dead and live load; or a list of "
+        "key paths of real numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
     )
     geometric_safety: Switch = Field(
         False,

@@ -165,7 +165,19 @@ def _with_points(
     force_maps = sign * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
     if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > scene.symmetric:
         return None
-    return Mirror(normal, block_of, point_of, velocity_map, force_maps)
+    found = Mirror(normal, block_of, point_of, velocity_map, force_maps)
+    return found if _ties_match(scene, found) else None
+
+
+def _ties_match(scene: Scene, mirror: Mirror) -> bool:
+    """Whether the image of a tie that pulls at further bodies pulls at their images."""
+    passing, n = np.unique(scene.linking), len(mirror.block_of)
+    if not len(passing):
+        return True
+    images = block_matrix(np.broadcast_to(mirror.velocity_map, (n, 6, 6)), mirror.block_of, np.arange(n), (n, n))
+    matrix = sp.csc_array(scene.program.equilibrium_matrix)
+    off = abs(images @ matrix[:, 3 * passing] - matrix[:, 3 * mirror.point_of[passing]])
+    return off.nnz == 0 or float(off.max()) <= SYMMETRIC * float(abs(matrix[:, 3 * passing]).max())
 
 
 def _matched_points(here: FloatArray, there: FloatArray, apart: float) -> IntArray | None:

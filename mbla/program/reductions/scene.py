@@ -48,6 +48,8 @@ class Scene:
     points    : (n_points, 3); frames : (n_points, 3, 3); areas : (n_points,)
     bodies    : (n_points, 2) row of each free block, −1 for what does not move
     interfaces: (n_points,) number of the interface
+    linked    : (m, 2) bodies, as above, that ties link besides those of their points
+    linking   : (m,) these points
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
     """
 
@@ -59,6 +61,8 @@ class Scene:
     areas: FloatArray
     bodies: IntArray
     interfaces: IntArray
+    linked: IntArray
+    linking: IntArray
     allowed: sp.csr_array | None = None
 
     @property
@@ -97,8 +101,19 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         areas=contacts.point_areas,
         bodies=row[contacts.bodies[contacts.interface_of_point]],
         interfaces=contacts.interface_of_point,
+        **_links(contacts, row),
         allowed=program.allowed,
     )
+
+
+def _links(contacts: Contacts, row: IntArray) -> dict[str, IntArray]:
+    """Bodies that ties pull at, by their row, each with a free one of the two of its contact point."""
+    none = np.zeros(0, dtype=np.int64)
+    if contacts.ties is None:
+        return {"linked": none.reshape(0, 2), "linking": none}
+    points, others = contacts.ties.points, row[contacts.ties.bodies]
+    ends = row[contacts.bodies[contacts.interface_of_point[points]]]
+    return {"linked": np.column_stack([ends.max(axis=1), others]), "linking": points}
 
 
 def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) -> Scene:
@@ -109,6 +124,9 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
     """
     row = np.full(len(scene.centroids) + 1, -1, dtype=np.int64)  # the last entry answers for −1
     row[blocks] = np.arange(len(blocks))
+    number = np.full(len(scene.points), -1, dtype=np.int64)
+    number[points] = np.arange(len(points))
+    own = number[scene.linking] >= 0
     return Scene(
         program=program,
         centroids=scene.centroids[blocks],
@@ -118,6 +136,8 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
         areas=scene.areas[points],
         bodies=row[scene.bodies[points]],
         interfaces=scene.interfaces[points],
+        linked=row[scene.linked[own]],
+        linking=number[scene.linking[own]],
         allowed=None if scene.allowed is None else _own(scene.allowed, blocks),
     )
 
@@ -152,7 +172,7 @@ def part_of_blocks(scene: Scene) -> IntArray:
     """Part that each free block belongs to, (n_free,), numbered in the order of first blocks."""
     n = len(scene.centroids)
     both = (scene.bodies >= 0).all(axis=1)
-    pairs = scene.bodies[both]
+    pairs = np.vstack([scene.bodies[both], scene.linked[(scene.linked >= 0).all(axis=1)]])
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
     return connected_labels(pairs, n)

@@ -149,7 +149,7 @@ def assemble_convex(model: Model, contacts: Contacts, load_case: LoadCase, conta
     shear = float(contact_model == "convex")
     return ConvexProgram(
         contact_model=contact_model,
-        points=replace(program, limits=without_crushing(program.limits)),
+        points=replace(program, limits=without_crushing(program.limits, contacts)),
         shapes=interface_shapes(contacts),
         strengths=InterfaceStrengths(
             friction=shear * np.array([law.friction for law in laws]),
@@ -269,9 +269,9 @@ def _stabilising(convex: ConvexProgram, n_unknowns: int) -> FloatArray:
     return weights
 
 
-def without_crushing(limits: YieldLimits) -> YieldLimits:
-    """Limits of points that do not crush by themselves."""
-    return replace(limits, compression=np.full_like(limits.compression, np.inf))
+def without_crushing(limits: YieldLimits, contacts: Contacts) -> YieldLimits:
+    """Limits of points that do not crush by themselves; ties keep theirs."""
+    return replace(limits, compression=np.where(contacts.tie_points, limits.compression, np.inf))
 
 
 def size_of_convex(convex: ConvexProgram) -> ProgramSize:

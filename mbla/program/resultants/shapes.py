@@ -10,6 +10,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.outlines.convex import convex_loops, signed_areas
 from mbla.contacts.outlines.polygons import convex_hulls
+from mbla.contacts.tied import without_ties
 from mbla.model.solids.ragged import items_of_rows, next_item, row_sums
 from mbla.program.resultants.friction_curve import disc_radius, fitted_curves, rectangle_curve
 
@@ -77,7 +78,9 @@ def local_points(contacts: Contacts) -> FloatArray:
 
 def interface_shapes(contacts: Contacts) -> InterfaceShapes:
     """Shapes of all interfaces."""
-    n = len(contacts)
+    n = contacts.n_surfaces
+    if n < len(contacts):
+        return _with_ties(interface_shapes(without_ties(contacts)), len(contacts) - n)
     if n == 0:
         none, empty = np.zeros(0, dtype=bool), np.zeros((0, 2))
         return InterfaceShapes(empty, starts(none), none, none, empty, np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0))
@@ -91,6 +94,22 @@ def interface_shapes(contacts: Contacts) -> InterfaceShapes:
     _fit(outlines, outline_start, solid & ~rectangles & ~convex_outline, radii, thetas)
     _fit(corners, start, solid & ~rectangles & convex_outline, radii, thetas)
     return InterfaceShapes(corners, start, convex_outline & solid, rectangles, sides, axes, radii, thetas)
+
+
+def _with_ties(shapes: InterfaceShapes, n_ties: int) -> InterfaceShapes:
+    """Shapes with those of ties, for which a triangle stands: none has torsion or crushing."""
+    triangle = np.array([[-1.0, -1.0], [2.0, -1.0], [-1.0, 2.0]])
+    none = np.zeros(n_ties, dtype=bool)
+    return InterfaceShapes(
+        np.vstack([shapes.corners, np.tile(triangle, (n_ties, 1))]),
+        np.append(shapes.start, shapes.start[-1] + 3 * np.arange(1, n_ties + 1)),
+        np.append(shapes.convex, none),
+        np.append(shapes.rectangles, none),
+        np.vstack([shapes.sides, np.zeros((n_ties, 2))]),
+        np.concatenate([shapes.axes, np.zeros((n_ties, 2, 2))]),
+        np.append(shapes.radii, np.ones(n_ties)),
+        np.append(shapes.thetas, np.ones(n_ties)),
+    )
 
 
 def _outlines(contacts: Contacts) -> tuple[FloatArray, IntArray]:

@@ -44,6 +44,7 @@ from mbla.results.collapse.interface_modes import InterfaceMotion, interface_mot
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_joints, hinge_lines, sliding_planes
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
+from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.solution.mechanics import contact_modes
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import contact_velocities
@@ -85,12 +86,14 @@ class Collapse:
     parts      : (n_blocks,) part of each block, 0 at rest
     motions    : of the parts that move, the heaviest first
     work       : where the power goes
+    yielding   : ties that yield
     """
 
     interfaces: InterfaceMotion
     parts: IntArray
     motions: tuple[PartMotion, ...]
     work: Work
+    yielding: int = 0
 
 
 @kept
@@ -102,6 +105,7 @@ def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics
         parts=parts,
         motions=part_motions(model, parts, mechanics.mechanism),
         work=work_of(model, contacts, load_case, mechanics),
+        yielding=sum(row.state is TieState.YIELDS for row in tie_rows(model, mechanics)),
     )
 
 
@@ -121,7 +125,7 @@ def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[
         interfaces=interface_motion(model, contacts, mechanics),
         parts=parts,
         motions=part_motions(model, parts, certificate),
-        work=Work(np.nan, np.nan, unknown, unknown, unknown, np.nan),
+        work=Work(np.nan, np.nan, unknown, unknown, unknown, np.nan, np.nan),
     ), mechanics
 
 

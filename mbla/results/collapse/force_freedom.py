@@ -94,6 +94,8 @@ def _not_of_these(model: Model) -> str:
     """What holds blocks by other than contacts, whose forces are not among those counted."""
     if len(model.guides.blocks):
         return "blocks are guided, as those of a support that gives way are"
+    if len(model.ties):
+        return "ties hold blocks"
     return "planes of symmetry hold blocks" if model.mirrors else ""
 
 
@@ -226,6 +228,9 @@ def enough_of(model: Model, contacts: Contacts, parts: IntArray) -> Enough:
     on_moving = moves[contacts.bodies].any(axis=1)
     touched = np.zeros(len(moves), dtype=bool)
     touched[contacts.bodies[on_moving]] = True
+    links = model.ties.links(n_blocks + len(model.grounds))
+    links = links[(links < n_blocks).all(axis=1)]
+    touched[links[moves[links].any(axis=1)]] = True
     rests = ~model.fixed & (parts == 0)
     return Enough(
         moving=np.flatnonzero(parts > 0),

@@ -23,11 +23,14 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.interface_modes import sum_by_interface
+from mbla.results.collapse.ties import acting_with_ties, pulls_of_ties, tie_power
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import contact_resultants
 
 NO_POWER = 1e-9
 """share of the reference power up to which nothing is put in: a frictionless block that is pushed"""
+TIED = "ties to supports"
+"""name of what ties that are held by supports do on the structure"""
 PARTS = (slice(0, 3), slice(3, 6))
 """forces and moments, velocities and rotations"""
 
@@ -40,6 +43,7 @@ class Work:
     dead     : of the dead load, negative where weights are lifted
     friction, cohesion, normal : (n_interfaces,) dissipated by sliding under friction, against cohesion, and by normal
                                  forces
+    ties : dissipated by ties, those that go slack by their prestress among them
     reference : forces times speeds of the dead load, whatever the angle between them: what powers are measured by
     """
 
@@ -48,6 +52,7 @@ class Work:
     friction: FloatArray
     cohesion: FloatArray
     normal: FloatArray
+    ties: float
     reference: float
 
     @property
@@ -83,6 +88,7 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
         friction=by_interface(shear * (1.0 - share)),
         cohesion=by_interface(shear * share),
         normal=by_interface(power[:, 0]),
+        ties=tie_power(mechanics),
         reference=_largest_power(load_case.dead_load[free], mechanism),
     )
 
@@ -142,12 +148,12 @@ class Reaction:
 def reactions_of(
     model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, *, by_group: bool = False
 ) -> tuple[Reaction, ...]:
-    """Reactions of supports, then what guides take: what leaves guided blocks in balance.
+    """Reactions of supports, what guides take, which leaves guided blocks in balance, and what ties to supports do.
 
     Fixed and guided blocks stand one by one where they are few, else, or ``by_group``, their groups do.
     """
     blocks = model.guides.blocks
-    acting = contact_resultants(model, contacts, mechanics.contact_forces)
+    acting = acting_with_ties(model, contact_resultants(model, contacts, mechanics.contact_forces), mechanics)
     taken = -(acting + load_case.dead_load + mechanics.load_factor * load_case.live_load)[blocks]
     taken[:, 3:] += np.cross(model.blocks.centroids[blocks], taken[:, :3])
     single = len(blocks) <= MOST_SINGLE_SUPPORTS and not by_group
@@ -156,7 +162,9 @@ def reactions_of(
         for block in blocks.tolist()
     ]
     supports = support_reactions(model, contacts, mechanics.contact_forces, by_group=by_group)
-    return (*supports, *_by_name(names, taken))
+    tied, pulls = pulls_of_ties(model, mechanics)
+    held = np.append(model.fixed, True)[tied]
+    return (*supports, *_by_name(names, taken), *_by_name([TIED] * int(held.sum()), -pulls[held]))
 
 
 def support_reactions(

@@ -13,6 +13,7 @@ import numpy as np
 from mbla.deck.units import Units
 from mbla.errors import Notice
 from mbla.model.solids.blocks import Blocks
+from mbla.results.collapse.ties import tie_rows
 from mbla.results.diff.cases import CaseComparison, Figure, compare_cases, figure
 from mbla.results.diff.matching import SAME_PLACE, Factors, Matching, factors_between, match_models
 from mbla.results.outcome import notices_of
@@ -41,6 +42,7 @@ class ModelComparison:
     only           : names of blocks without match in A and in B
     fixed_in_one   : names in A of blocks that one of the two fixes
     joints         : joint laws that differ, in words
+    ties           : the same of ties
     """
 
     totals: tuple[Figure, ...]
@@ -53,6 +55,7 @@ class ModelComparison:
     only: tuple[tuple[str, ...], tuple[str, ...]]
     fixed_in_one: tuple[str, ...]
     joints: tuple[str, ...]
+    ties: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -172,6 +175,7 @@ def _models(first: Results, second: Results, factors: Factors, matching: Matchin
         only=(_names(a, np.flatnonzero(rows < 0)), _names(b, np.setdiff1d(np.arange(len(b)), other))),
         fixed_in_one=_names(a, there[first.model.fixed[there] != second.model.fixed[other]]),
         joints=_joints(first, second, factors),
+        ties=_ties(first, second, factors),
     )
 
 
@@ -206,4 +210,17 @@ def _joints(first: Results, second: Results, factors: Factors) -> tuple[str, ...
             old, new = getattr(a[name], key), getattr(b[name], key) * factor
             if old != new and not abs(new - old) <= SAME_TOTAL * max(abs(old), abs(new)):
                 words.append(f"{name}: {key.replace('_', ' ')} {old:.6g} in A, {new:.6g} in B")
+    return tuple(words)
+
+
+def _ties(first: Results, second: Results, factors: Factors) -> tuple[str, ...]:
+    """Ties that one result has alone, or that have other forces or places."""
+    a, b = ({row.name: row for row in tie_rows(results.model, None)} for results in (first, second))
+    words = [f"{name}: in {'A' if name in a else 'B'} only" for name in a | b if (name in a) != (name in b)]
+    for name in (name for name in a if name in b):
+        for key, factor in (("least", factors.force), ("greatest", factors.force), ("length", factors.length)):
+            old, new = getattr(a[name], key), getattr(b[name], key) * factor
+            if old != new and not abs(new - old) <= SAME_TOTAL * max(abs(old), abs(new)):
+                what = "length" if key == "length" else f"{key} force"
+                words.append(f"{name}: {what} {old:.6g} in A, {new:.6g} in B")
     return tuple(words)

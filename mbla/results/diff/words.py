@@ -67,7 +67,8 @@ def _model(model: ModelComparison) -> list[str]:
         if names:
             more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
             lines += sentence(f"{counted(len(names), 'block')} {what}: {', '.join(names[:MOST_NAMED])}{more}")
-    return lines + [line for words in model.joints for line in sentence(f"joint law {words}")]
+    lines += [line for words in model.joints for line in sentence(f"joint law {words}")]
+    return lines + [line for words in model.ties for line in sentence(f"tie {words}")]
 
 
 def _figures(figures: tuple[Figure, ...]) -> list[str]:

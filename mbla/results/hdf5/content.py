@@ -13,6 +13,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
 from mbla.model.model import Joint, LoadCase, Model, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
+from mbla.model.ties import Ties
 from mbla.program.reductions import ProgramSize
 from mbla.results.assessment.assessment import Figure, assessment_of
 from mbla.results.collapse.collapse import collapse_of
@@ -168,6 +169,8 @@ def _model(model: Model) -> Content:
     if len(guides):
         content |= {"guided_blocks": guides.blocks, "guided_bodies": guides.bodies}
         content |= {"guide_motions": guides.motions, "guide_words": guides.words}
+    if len(model.ties):
+        content |= {f"tie_{name}": getattr(model.ties, name) for name in Ties.__dataclass_fields__}
     return _below("model", content) | _notices("model/notices", model.notices)
 
 

@@ -53,6 +53,7 @@ SHARED_DIMENSIONS = (
     "direction",
     "component",
     "pair",
+    "tie",
 )
 """dimensions with their scale in the root group, where every group sees it; that of others is next to their dataset"""
 

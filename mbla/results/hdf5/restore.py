@@ -13,6 +13,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
@@ -23,11 +25,12 @@ from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
+from mbla.model.ties import NO_TIES, OUTSIDE, Ties
 from mbla.results.hdf5.case_restore import case_from, held
 from mbla.results.hdf5.content import RECORD_NAMES
 from mbla.results.hdf5.layout import Content
 from mbla.results.record.quantity import stored
-from mbla.results.results import DeckRecord, Results
+from mbla.results.results import CaseResult, DeckRecord, Results
 
 LEAST, MOST = 1e-120, 1e120
 """of loads, which are squared; those of a deck lie within 1e-112 and 1e100. Also the least density"""
@@ -56,6 +59,9 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         moving = ~model.of_case(load_cases[name]).fixed
         if np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < LEAST:
             raise ValueError(f"{name}: no live load on blocks that can move")
+    cases = tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved)
+    for case in cases:
+        check_carriers(model, contacts, case)
     return Results(
         deck=DeckRecord(
             name=get["deck/name"],
@@ -66,7 +72,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         ),
         model=model,
         contacts=contacts,
-        cases=tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved),
+        cases=cases,
         notices=_notices(_part(get, "notices/")),
         provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),
         settings=dict(zip(get["provenance/setting_names"], get["provenance/setting_values"], strict=True)),
@@ -77,6 +83,17 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         complete=complete,
         not_done=() if complete else tuple(get["provenance/not_done"]),
     )
+
+
+def check_carriers(model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Raises ValueError where forces are not those of all contact points and of the ties behind them."""
+    solution = case.solution
+    standing = None if solution.standing is None else solution.standing.forces
+    found = [forces for forces in (standing, solution.lock, solution.level_lock) if forces is not None]
+    if found:
+        carriers = tied(solids_of(model.of_case(case.load_case), contacts)).contacts.points
+        if any(len(forces) != len(carriers) for forces in found):
+            raise ValueError(f"{case.load_case.name}: forces of another number of contact points and ties")
 
 
 def _side_files(get: dict[str, Any]) -> tuple[tuple[str, bytes], ...]:
@@ -112,7 +129,20 @@ def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
         load_cases=load_cases,
         notices=_notices(_part(get, "notices/")),
         guides=_guides(get),
+        ties=_ties(get),
     )
+
+
+def _ties(get: dict[str, Any]) -> Ties:
+    if "tie_names" not in get:
+        return NO_TIES
+    arrays = {name: get[f"tie_{name}"] for name in Ties.__dataclass_fields__}
+    ties = Ties(**{**arrays, "names": tuple(arrays["names"]), "forms": tuple(arrays["forms"])})
+    if np.any(np.diff(ties.start) < 2) or np.any((ties.bodies < OUTSIDE) | (ties.bodies >= len(get["fixed"]))):
+        raise ValueError("points of a tie")
+    if np.any(ties.least > ties.greatest) or np.any((ties.prestress < 0) | (ties.breaks_at < 0)):
+        raise ValueError("forces of a tie")
+    return ties
 
 
 def _guides(get: dict[str, Any]) -> Guides:

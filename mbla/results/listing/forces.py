@@ -146,7 +146,7 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
 
     normal = float(work.normal.sum())
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
-    joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
+    joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal, "ties": work.ties}
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
     settles = load_case.settlement is not None  # the dead load holds the reaction at rest then
     live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")

@@ -41,6 +41,7 @@ from mbla.results.listing.pushover import curve_lines
 from mbla.results.listing.sensitivity import sensitivity_lines
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
+from mbla.results.listing.tie_words import tie_force_lines
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
 from mbla.results.outcome import dimension_of, result_of, unproved_words
 from mbla.results.results import CaseResult, Results
@@ -76,11 +77,12 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         reactions += group_reaction_lines(held, contacts, mechanics)
         reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))
         sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
+        sections.append(Section("Ties", tie_force_lines(model, mechanics)))
         if solution.force_ranges is not None:
             ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
             sections.append(Section("Range of normal forces", ranges))
     elif mechanics is None and solution.lock is not None:
-        sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock)))
+        sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock[: len(contacts.points)])))
     sections += [
         Section("Load factor and bounds", ["", *figures(model, case)]),
         Section("Reductions", spaced(reduction_lines(solution.reductions))),

@@ -68,6 +68,7 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
         (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
         (count(InterfaceMode.OPEN), "{} open", "interface"),
         (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
+        (collapse.yielding, "{} yielding", "tie"),
     ]
     found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
     return f"{found or 'no interface opens, slides or crushes'}; {_moving(model, collapse, failure)}"

@@ -50,6 +50,9 @@ def curve_words(model: Model, case: CaseResult) -> str:
         says += (
             f"; steps of twice the size differ by up to {np.nanmax(errors) / np.abs(values).max():.1g} of the greatest"
         )
+    if broken := curve[-1].broken:
+        first = next(row.displacement for row in curve if row.broken)
+        says += f"; {counted(broken, 'tie')} broken, the first at {number(first)} {length}"
     fallen = curve[-1].debris
     says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
     return f"{says}. {curve_verdict(case, length)}"
@@ -80,7 +83,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.curve, model.units
     if not curve:
         return []
-    settles = case.load_case.settlement is not None
+    settles, tied = case.load_case.settlement is not None, bool(len(model.ties))
     shown = [curve[row] for row in evenly(len(curve), MOST_ROWS)]
     rows = [
         [
@@ -88,21 +91,30 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
             *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
             *(small(value) for value in (row.residual, row.overlap)),
             *(number(value) for value in (row.live_work, row.friction, row.potential)),
+            *([number(row.tie_work)] if tied else []),
             "new" if row.new_mechanism else "",
         ]
         for row in shown
     ]
     head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor", "residual"]
-    head += [f"overlap [{units.length}]", "live work", "friction", "dead load", "mechanism"]
+    head += [
+        f"overlap [{units.length}]",
+        "live work",
+        "friction",
+        "dead load",
+        *(["ties"] if tied else []),
+        "mechanism",
+    ]
     says = [curve_words(model, case)]
     missing = energy_missing(curve)
-    says.append(f"Live work less friction and what the dead load gained: {missing:.2g} of the live work.")
+    taken = "friction, ties and what" if tied else "friction and what"
+    says.append(f"Live work less {taken} the dead load gained: {missing:.2g} of the live work.")
     says.append(f"Work and energies in {units.force} {units.length}.")
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
 def energy_missing(curve: Sequence[CurveRow]) -> float:
-    """Live work that neither friction nor the dead load has taken, over the largest of the three."""
+    """Live work that neither friction, ties nor the dead load has taken, over the largest of these."""
     last = curve[-1]
-    size = max(abs(last.live_work), last.friction, abs(last.potential), 1e-300)
-    return (last.live_work - last.friction - last.potential) / size
+    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), 1e-300)
+    return (last.live_work - last.friction - last.tie_work - last.potential) / size

@@ -34,6 +34,7 @@ from mbla.results.pictures.page import (
 from mbla.results.pictures.plane import draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import Scene, named_groups, part_colours
+from mbla.results.pictures.ties import tie_marks
 
 MARGIN = 0.03
 """of the page around the structure, share of the width"""
@@ -77,7 +78,7 @@ def drawing_of(scene: Scene, kind: str) -> Drawing:
         own, marks = part_colours(scene, GROUPS), joint_marks(scene)
         legend = _parts(scene)
     colours = [support or colour for support, colour in zip(held, own, strict=True)]
-    return Drawing(colours, legend + supports, marks + loads)
+    return Drawing(colours, legend + supports, marks + tie_marks(scene, at_work=kind != "model") + loads)
 
 
 def _parts(scene: Scene) -> list[tuple[str, str]]:

@@ -106,7 +106,10 @@ class Scene(RecordScene):
         solution = self.case.solution
         if solution.mechanics is not None:
             return solution.mechanics.contact_forces
-        return solution.standing.forces if solution.lock is None and solution.standing is not None else solution.lock
+        standing = (
+            solution.standing.forces if solution.lock is None and solution.standing is not None else solution.lock
+        )
+        return None if standing is None else standing[: len(self.contacts.points)]
 
     @property
     def force_words(self) -> str:

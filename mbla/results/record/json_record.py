@@ -17,6 +17,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
+from mbla.results.collapse.ties import tie_rows
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
@@ -163,6 +164,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         if mechanics is None
         else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension_of((case,))),
         "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
+        "ties": as_json(tie_rows(model, mechanics)),
         "time": {"total": number(solution.seconds), "solver": number(solver)},
     }
 

@@ -75,7 +75,8 @@ class Scene:
         if self.mechanics is not None:
             return self.mechanics.contact_forces
         locked = self.case is not None and self.case.status is Status.UNBOUNDED
-        return self.case.solution.lock if locked and self.case is not None else None
+        lock = self.case.solution.lock if locked and self.case is not None else None
+        return None if lock is None else lock[: len(self.contacts.points)]
 
     @property
     def certificate(self) -> FloatArray | None:

@@ -15,6 +15,7 @@ from typing import Any
 from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.collapse.mechanics import reactions_of
+from mbla.results.collapse.ties import tie_rows
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
 from mbla.results.record.columns import (
@@ -103,6 +104,17 @@ REACTIONS = TableKind(
 )
 
 
+def _ties(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
+    """Of every load case with forces, in the order of the deck."""
+    for scene, case in zip(_scenes(results, cases), cases, strict=True):
+        if scene.mechanics is not None:
+            rows = tie_rows(scene.model, scene.mechanics)
+            yield [SimpleNamespace(case=case, tie=row) for row in rows]
+
+
+TIES = TableKind("ties", "each tie, for each load case with forces", columns_of("ties"), _ties, values_of_rows)
+
+
 def _positions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
     """Positions of the cases asked for; the worst is that of all."""
     names, blocks = {case.load_case.name for case in cases}, results.model.blocks
@@ -134,18 +146,8 @@ NOTICES = TableKind(
 TABLES: dict[str, TableKind] = {
     kind.name: kind
     for kind in (
-        CASES,
-        BLOCKS,
-        INTERFACES,
-        POINTS,
-        REACTIONS,
-        PROGRAMS,
-        ITERATIONS,
-        PATH,
-        CURVE,
-        SENSITIVITY,
-        SERIES,
-        NOTICES,
+        *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
+        *(SENSITIVITY, SERIES, NOTICES),
     )
 }
 

@@ -29,6 +29,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, group_colours, rgb
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.scene import scene_of as picture_of
+from mbla.results.pictures.ties import tie_marks
 from mbla.results.results import CaseResult, Results
 
 FAR = 1e3
@@ -52,8 +53,9 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     model, blocks, moves = scene.model, scene.model.blocks, bool(scene.motion.any())
     offset = offset_of(blocks.vertices, scene.size)
     loads = live_marks(scene, case.load_case, "live load", LIVE_LOAD)
-    marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *loads]
-    reach = [points for mark in loads for points in (mark.points, moved(mark, model, scene.motion))]
+    ties = tie_marks(scene)
+    marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *ties, *loads]
+    reach = [points for mark in (*ties, *loads) for points in (mark.points, moved(mark, model, scene.motion))]
     seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *reach])
     margin = MARGIN * float(np.ptp(seen, axis=0).max())
     of_block = triangulate_blocks(blocks, np.arange(len(blocks)))

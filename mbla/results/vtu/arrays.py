@@ -23,6 +23,7 @@ CELLS = {
     "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
     "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
     "loads": "loads and reactions as vertices where they act",
+    "ties": "ties, struts and rings as lines, one for each stretch; strips as vertices where they cross a joint",
     "supports": "ground planes as slabs under what stands on them, fixed blocks, guided blocks, as polyhedra",
 }
 """files by what their names end in, and their cells"""
@@ -54,6 +55,18 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     ),
     ("hinges", "cells"): (real("rotation", "of b relative to a about the axis, as drawn", "radian"),),
     ("loads", "points"): (*_LOADS, _MOTION),
+    ("ties", "points"): (_MOTION,),
+    ("ties", "cells"): (
+        integer("tie", "number of the tie, from 0"),
+        real("least", "least force, tension positive", "force"),
+        real("greatest", "greatest force", "force"),
+        real("prestress", "force when it was fitted", "force"),
+        real("tie_forces", "force", "force"),
+        real("tie_rates", "elongation rate for unit power of the live load", "velocity"),
+        real("use", "share of the greatest force in its sense"),
+        integer("state", "0 holds, 1 yields, 2 slack"),
+        integer("figures", "what forces and motion are, as of interfaces"),
+    ),
     ("supports", "cells"): (
         integer("kind", "0 ground plane, 1 fixed block, 2 guided block"),
         integer("body", "block, or number of blocks + number of the ground plane"),

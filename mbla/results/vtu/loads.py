@@ -20,6 +20,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
+from mbla.results.collapse.ties import acting_with_ties
 from mbla.results.pictures.geometry import SLAB_FACES, ground_slab
 from mbla.results.pictures.loads import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
@@ -144,6 +145,7 @@ def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
     if scene.mechanics is None:
         acting = acting + case.load_case.live_load
     else:
+        acting = acting_with_ties(model, acting, scene.mechanics)
         acting = acting + case.load_case.dead_load + scene.mechanics.load_factor * case.load_case.live_load
     taken = -acting[bodies]
     return Vectors(GUIDE, bodies, model.blocks.centroids[bodies], taken[:, :3], taken[:, 3:])

@@ -31,6 +31,7 @@ from mbla.results.vtu.meshes import (
     interfaces_mesh,
     thrust_mesh,
 )
+from mbla.results.vtu.ties import ties_mesh
 
 MOST_STEPS = 101
 """of a pushover that have files, evenly chosen"""
@@ -41,6 +42,7 @@ MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
     "thrust": thrust_mesh,
     "hinges": hinges_mesh,
     "loads": loads_mesh,
+    "ties": ties_mesh,
 }
 """by what the name of the file ends in, ``STEM_CASE_kind.vtu``; None where a scene has none"""
 

@@ -182,6 +182,13 @@ def mechanism(picture: Picture) -> None:
         picture.legend.append("Blue frames: sliding joints.")
 
 
+def ties(picture: Picture) -> None:
+    """Ties by their force, on the structure as built."""
+    picture.around(0.5)
+    lines = picture.rods(picture.read("ties"), 0.004)
+    picture.colour(picture.draw(lines), "CELLS", "tie_forces", "force of ties")
+
+
 def thrust(picture: Picture) -> None:
     """Resultants where they act, thrust lines by eccentricity."""
     picture.around(0.5)
@@ -238,6 +245,7 @@ VIEWS: dict[str, tuple[str, Callable[[Picture], None]]] = {
     "thrust": ("thrust", thrust),
     "utilisation": ("thrust", utilisation),
     "loads": ("loads", loads),
+    "ties": ("ties", ties),
     "animation": ("animation", animation),
     "pushed": ("pushed", lambda picture: animation(picture, "pushed")),
 }

@@ -68,13 +68,16 @@ def with_geometric_safety(
     against = _against(model, contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
     if found is None:
-        words = f"there is no geometric factor of safety: {against or 'no forces were found that carry the dead load at any size of the joints'}"
+        why = against or "no forces were found that carry the dead load at any size of the joints"
+        words = f"there is no geometric factor of safety: {why}"
         return replace(solution, remarks=(*solution.remarks, Message("geometric-safety-not-done", words)))
     verified = proved(model, contacts, load_case, found)
     return replace(solution, geometric_safety=replace(found, verified=verified))
 
 
 def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: AnalysisSection) -> str:
+    if len(model.ties):
+        return "there are ties, which do not shrink with the joints"
     if load_case.settlement is not None:
         return "a support gives way"
     if analysis.contact_model == "convex" or crushable_interfaces(model, contacts).any():

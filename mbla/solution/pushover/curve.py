@@ -20,16 +20,19 @@ import numpy as np
 
 from mbla.arrays import FloatArray, starts
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
+from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.moved import MovedSearch
+from mbla.contacts.tied import tied
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
+from mbla.model.moved_ties import TieHistory
 from mbla.model.pose import Pose, turns_and_slides
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.step_program import StepProgram, moved_solids
-from mbla.solution.pushover.steps import Pushover, Step
+from mbla.solution.pushover.steps import Pushover, Step, history_after
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -133,9 +136,9 @@ def pushed(
     if against or solution.mechanics is None or case.pushover is None:
         remark = Message("pushover-not-done", f"there is no pushover: {against}")
         return replace(solution, remarks=(*solution.remarks, remark))
-    search, first = MovedSearch(model, contacts, section), solution.mechanics
+    search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, solution.mechanics)
     control = Control.of(model, case, first.mechanism)
-    push = Pushover(model, contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
+    push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
     steps, end = _followed(push, first)
     errors = np.full(len(steps), np.nan)
     if case.pushover.error:
@@ -219,10 +222,20 @@ def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
     )
 
 
-def begun_by(solution: Solution) -> Solution:
+def _as_built(model: Model, contacts: Contacts, first: Mechanics) -> tuple[Mechanics, Solids]:
+    """Limit analysis and its solids with ties among the contacts, which need no prestress here."""
+    ties = replace(model.ties, prestress=np.zeros(len(model.ties)))
+    solids = tied(solids_of(replace(model, ties=ties), contacts))
+    return with_tie_contacts(first, solids), solids
+
+
+def begun_by(model: Model, contacts: Contacts, solution: Solution) -> Solution:
     """The solution with the forces and the mechanism of limit analysis for step 0 of its pushover, as they must be."""
-    steps, first = solution.pushed, solution.mechanics
-    if steps is None or first is None or int(steps.point_start[1]) != len(first.contact_forces):
+    steps = solution.pushed
+    if steps is None or solution.mechanics is None:
+        return solution
+    first, _ = _as_built(model, contacts, solution.mechanics)
+    if int(steps.point_start[1]) != len(first.contact_forces):
         return solution
     factors, mechanisms, forces = steps.load_factors.copy(), steps.mechanisms.copy(), steps.forces.copy()
     factors[0], mechanisms[0], forces[: len(first.contact_forces)] = (
@@ -242,25 +255,28 @@ def curve_of(
 
     A step whose forces are not those of the contact points of its pose has residuals of nan.
     """
-    first, steps = solution.mechanics, solution.pushed
-    assert first is not None  # else there is no curve
+    steps = solution.pushed
+    assert solution.mechanics is not None  # else there is no curve
     assert steps is not None
+    first, built = _as_built(model, contacts, solution.mechanics)
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
     greatest = _greatest(case, steps)
-    work, before = np.zeros(3), np.zeros(3)
+    work, before = np.zeros(4), np.zeros(4)
+    history, last = TieHistory.at_rest(model.ties), Pose.at_rest(len(model.blocks))
     for number, pose in enumerate(steps.poses):
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
-            found = search.at(pose, fallen)
-            solids, loads = moved_solids(model, found, case, pose, fallen)
+            history = history_after(model, history, last, steps.work[number] * steps.mechanisms[number - 1], pose)
+            solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, history)
             gaps = found.gaps / steps.scale[number]
         else:
-            solids, gaps = solids_of(model, contacts), np.zeros(len(first.contact_forces))
+            solids, gaps = built, np.zeros(len(first.contact_forces))
             loads = solids.load_case(case)
+        last = pose
         overlap = 0.0 if number == 0 else abs(float(found.gaps.min(initial=0.0)))
         step = MovedCase(solids.model, solids.contacts, loads, gaps, greatest)
-        residual, powers = np.nan, np.zeros(3)
+        residual, powers = np.nan, np.zeros(4)
         if len(gaps) == len(mechanics.contact_forces):
             of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
             dilatancy = step.limits.dilatancy_by(solution.flow_rule)
@@ -277,9 +293,11 @@ def curve_of(
             overlap=overlap,
             live_work=float(work[0]),
             friction=float(work[1]),
-            potential=float(work[2]),
+            tie_work=float(work[2]),
+            potential=float(work[3]),
             new_mechanism=changed,
             debris=int(fallen.sum()),
+            broken=0 if number == 0 else len(model.ties) - len(solids.model.ties),
         )
         rows.append(row)
         before = powers
@@ -293,9 +311,10 @@ def dropped(curve: Sequence[CurveRow]) -> tuple[float, float] | None:
     """
     size = max((abs(row.live_work) for row in curve), default=0.0)
     falls = [
-        (before.displacement, before.potential - after.potential)
+        (before.displacement, lost)
         for before, after in pairwise(curve)
-        if before.potential - after.potential > BY_ITSELF_SHARE * abs(after.live_work - before.live_work)
+        if (lost := before.potential - after.potential - (after.tie_work - before.tie_work))
+        > BY_ITSELF_SHARE * abs(after.live_work - before.live_work)
     ]
     lost = sum(energy for _, energy in falls)
     return (falls[0][0], lost / size) if lost > NOTABLE_DROP * size else None
@@ -308,11 +327,13 @@ def _mechanics_of(steps: PushedSteps, number: int) -> Mechanics:
 
 
 def _powers(step: MovedCase, mechanics: Mechanics) -> FloatArray:
-    """Power of the live load, of friction and against the dead load, (3,)."""
+    """Power of the live load, of friction, of ties and against the dead load, (4,)."""
     v, limits = Case.velocities(step, mechanics.mechanism), step.limits
     strength = limits.friction * mechanics.contact_forces[:, 0] + limits.cohesion
     dead, live = step.powers(mechanics.mechanism)
-    return np.array([mechanics.load_factor * live, float(strength @ np.hypot(v[:, 1], v[:, 2])), -dead])
+    tied = step.contacts.tie_points
+    friction, of_ties = float(strength @ np.hypot(v[:, 1], v[:, 2])), -mechanics.contact_forces[tied, 0] @ v[tied, 0]
+    return np.array([mechanics.load_factor * live, friction, float(of_ties), -dead])
 
 
 def _alike(model: Model, one: FloatArray, other: FloatArray) -> float:

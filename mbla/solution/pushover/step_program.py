@@ -17,8 +17,11 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.moved import MovedContacts
+from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
+from mbla.model.moved_ties import TieHistory, moved_ties
 from mbla.model.pose import Pose, moved_case, moved_model
+from mbla.model.ties import Ties
 from mbla.program.assemble import assemble
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
@@ -162,12 +165,25 @@ def _states(alternation: Alternation, normal: FloatArray) -> Iterator[LawState]:
 
 
 def moved_solids(
-    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray
-) -> tuple[Solids, LoadCase]:
-    """The model that the solver sees there, debris fixed, and the loads on it."""
-    there = moved_model(model, pose)
-    solids = solids_of(replace(there, fixed=there.fixed | fallen, load_cases=()), found.contacts)
-    return solids, solids.load_case(moved_case(case, pose))
+    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray, history: TieHistory
+) -> tuple[Solids, LoadCase, MovedContacts]:
+    """The model that the solver sees there, debris fixed, the loads on it, and its contacts, ties with their slack."""
+    there, ties, slack = moved_model(model, pose), *ties_left(model, pose, fallen, history)
+    solids = solids_of(replace(there, fixed=there.fixed | fallen, load_cases=(), ties=ties), found.contacts)
+    solids = tied(solids)
+    if solids.contacts.ties is not None:
+        found = replace(found, contacts=solids.contacts, gaps=np.append(found.gaps, slack[solids.contacts.ties.rows]))
+    return solids, solids.load_case(moved_case(case, pose)), found
+
+
+def ties_left(model: Model, pose: Pose, fallen: BoolArray, history: TieHistory) -> tuple[Ties, FloatArray]:
+    """Ties there that have not broken and are not on debris, without their prestress; and their slack, m."""
+    there = moved_ties(model.ties, model.blocks, pose)
+    gone = history.broken(model.ties)
+    on_debris = np.append(fallen, False)[model.ties.bodies]  # OUTSIDE takes the last entry
+    gone[model.ties.tie_of_point[on_debris]] = True
+    left = np.flatnonzero(~gone)
+    return replace(there, prestress=np.zeros(len(there))).take(left), history.slack(there)[left]
 
 
 def _reduced(part: Program, normals: FloatArray) -> FloatArray:

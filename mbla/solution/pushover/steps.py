@@ -28,10 +28,12 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids
 from mbla.contacts.moved import MovedContacts, MovedSearch
 from mbla.model.model import LoadCase, Model
+from mbla.model.moved_ties import TieHistory, moved_ties
 from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
+from mbla.model.ties import Ties
 from mbla.solution.pushover.control import MOVES, Control
-from mbla.solution.pushover.step_program import Normals, StepProgram, moved_solids
+from mbla.solution.pushover.step_program import Normals, StepProgram, moved_solids, ties_left
 from mbla.solution.solution import Mechanics
 
 OFF, MOST_WORKS = 0.2, 3
@@ -67,6 +69,7 @@ class Step:
     led          : live work of the step that led here
     scale        : live work for which it was solved, inf without gaps: those of its contacts close by no more in it
     work         : live work of the step that goes on from here, at most that
+    history      : of ties
     """
 
     displacement: float
@@ -77,6 +80,7 @@ class Step:
     fallen: BoolArray
     led: float
     scale: float
+    history: TieHistory
     work: float = 0.0
 
 
@@ -113,7 +117,8 @@ class Pushover:
         """Steps of the curve, that of limit analysis first, until no forces or no motion are found."""
         still = np.zeros(len(self.model.blocks), dtype=bool)
         pose, normals = Pose.at_rest(len(still)), Normals.of(self.contacts, first.contact_forces)
-        step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf)
+        history = TieHistory.at_rest(self.model.ties)
+        step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf, history)
         step = replace(step, work=self.work_of(step))
         speed = np.linalg.norm(first.mechanism[:, :3], axis=1)
         self.carried = np.where(speed > MOVES * speed.max(), self.model.blocks.masses, 0.0)
@@ -152,17 +157,19 @@ class Pushover:
     def _with_debris(self, step: Step, led: float, normals: Normals) -> tuple[Step, Normals] | None:
         """The step by a live work from another one, without the blocks that fall meanwhile."""
         fallen, pose = step.fallen, step.pose.after(led * step.mechanism)
+        history = history_after(self.model, step.history, step.pose, led * step.mechanism, pose)
         while True:
             found = self.search.at(pose, fallen)
             self.deep = found.overlap > DEEP
             if self.deep:
                 return None
-            hanging = _hanging(self.model, found.contacts) & ~fallen
+            left, _ = ties_left(self.model, pose, fallen, history)
+            hanging = _hanging(self.model, found.contacts, left) & ~fallen
             if hanging.any() and not self._ends_it(fallen | hanging):
                 fallen = fallen | hanging
                 continue
-            solids, case = moved_solids(self.model, found, self.case, pose, fallen)
-            reached = self._reached(step, pose, fallen, led, solids, case, found, normals)
+            solids, case, found = moved_solids(self.model, found, self.case, pose, fallen, history)
+            reached = self._reached(pose, fallen, led, solids, case, found, normals, history)
             carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
             falling = fallen if carried else fallen | self.program.falling(solids, case)
             if reached is not None and carried:
@@ -178,7 +185,6 @@ class Pushover:
 
     def _reached(
         self,
-        step: Step,
         pose: Pose,
         fallen: BoolArray,
         led: float,
@@ -186,6 +192,7 @@ class Pushover:
         case: LoadCase,
         found: MovedContacts,
         normals: Normals,
+        history: TieHistory,
     ) -> Step | None:
         """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are."""
         work, best = led, None
@@ -197,7 +204,7 @@ class Pushover:
             if solved is None:
                 break
             there, moved = solids.block_motions(solved.mechanism), self.control.displacement(self.model, pose)
-            best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work)
+            best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work, history)
             asked, normals = self.work_of(best), Normals.of(found.contacts, best.forces)
             best = replace(best, work=min(asked, work))
             if abs(asked / work - 1.0) <= OFF:
@@ -219,13 +226,21 @@ def _drops(case: LoadCase, load_factor: float, mechanism: FloatArray) -> BoolArr
     return np.asarray(driven & (speed > FAST * speed.max(initial=0.0)))
 
 
-def _hanging(model: Model, contacts: Contacts) -> BoolArray:
-    """Free blocks that touch no support, directly or through others, (n_blocks,)."""
+def history_after(model: Model, history: TieHistory, before: Pose, motion: FloatArray, pose: Pose) -> TieHistory:
+    """Of ties after a step from one pose by a motion, (n_blocks, 6), to the next."""
+    if not len(model.ties):
+        return history
+    here, there = (moved_ties(model.ties, model.blocks, each) for each in (before, pose))
+    return history.after(before.moved(model.blocks), here, motion, there)
+
+
+def _hanging(model: Model, contacts: Contacts, ties: Ties) -> BoolArray:
+    """Free blocks that touch no support, directly or through others or ties, (n_blocks,)."""
     n_blocks = len(model.blocks)
     held = np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)])
     held[model.guides.blocks] = True
     node = np.where(held, len(held), np.arange(len(held)))
-    pairs = [node[contacts.bodies]]
+    pairs = [node[contacts.bodies], np.append(node, len(held))[ties.links(len(held))]]
     if contacts.solid_of_block is not None:
         first = np.unique(contacts.solid_of_block, return_index=True)[1]
         pairs.append(np.column_stack([node[:n_blocks], node[first[contacts.solid_of_block]]]))

@@ -2,12 +2,12 @@
 
 With the motion u of the blocks (lᵀu = 1), contact forces f, the plastic motion w of the contact points and loads d, l::
 
-    L(p) = λ − (d + λ l)·u − f·(v − w) + Σ [c s + f_t o + f_c k] + interfaces,     v = A(p)ᵀu
+    L(p) = λ − (d + λ l)·u − f·(v − w) + Σ [c s + f_t o + f_c k] + interfaces + ties,     v = A(p)ᵀu
 
 where w_N = μ s + o − k by sliding s = ‖w_T‖, opening o and crushing k. L has the value λ, and at a solution its
 derivative for fixed f, u, w is that of λ (envelope theorem; Danskin 1967): no further problem is solved. A, d, l and
-the strengths go by p, each of these the law's times an area. A further element with a capacity T that elongates by e
-adds T e to the sum, and its force to f·(v − w).
+the strengths go by p, each of these the law's times an area. A tie with the force τ that gets
+longer by e, and by e₀ as it yields, adds τ (e − e₀) + T e₀ with T its greatest force, its least one where e₀ < 0.
 
 Where forces or mechanism are not unique the derivatives to both sides differ, and this one lies between them.
 """
@@ -37,6 +37,7 @@ class State:
     forces    : (n_points, 3) N, compression positive
     shear     : (n_points, 2) plastic sliding w_T
     sliding, opening, crushing : (n_points,) s, o, k
+    tie_forces, elongation : (n_ties,) τ in N, tension positive, and e₀
     motions   : (n_interfaces, 2, 6) of interfaces that crush; None where conditions hold on points alone
     """
 
@@ -48,6 +49,8 @@ class State:
     sliding: FloatArray
     opening: FloatArray
     crushing: FloatArray
+    tie_forces: FloatArray
+    elongation: FloatArray
     motions: FloatArray | None
     contact_model: str
 
@@ -59,7 +62,7 @@ def state_of(structure: Structure, solution: Solution, associative: Mechanics) -
     w = case.velocities(associative.mechanism) - case.interface_velocities(motions)[0]
     sliding = np.hypot(w[:, 1], w[:, 2])
     surplus = w[:, 0] - case.limits.friction * sliding
-    crushable = np.isfinite(case.limits.compression)
+    crushable, known = np.isfinite(case.limits.compression), associative.tie_forces
     return State(
         load_factor=associative.load_factor,
         mechanism=associative.mechanism,
@@ -69,6 +72,8 @@ def state_of(structure: Structure, solution: Solution, associative: Mechanics) -
         sliding=sliding,
         opening=np.where(crushable, np.maximum(surplus, 0.0), surplus),
         crushing=np.where(crushable, np.maximum(-surplus, 0.0), 0.0),
+        tie_forces=np.zeros(len(structure.model.ties)) if known is None else np.nan_to_num(known),
+        elongation=structure.elongation_rates(associative.mechanism),
         motions=motions,
         contact_model=solution.contact_model,
     )
@@ -85,11 +90,13 @@ def lagrangian(structure: Structure, state: State) -> float:
     motion = structure.moved_along(state.mechanism, state.centroids)
     dead, live = case.powers(motion)
     v = case.velocities(motion) - case.interface_velocities(state.motions)[0]
-    return state.load_factor * (1.0 - live) - dead - float((state.forces * v).sum()) + resistance(structure, state)
+    of_ties = float((state.tie_forces * (structure.elongation_rates(motion) - state.elongation)).sum())
+    given = state.load_factor * (1.0 - live) - dead
+    return given - float((state.forces * v).sum()) + of_ties + resistance(structure, state)
 
 
 def resistance(structure: Structure, state: State) -> float:
-    """f·w and what joints dissipate: all in which the joint laws are, and linear in each of their strengths."""
+    """f·w and what joints and ties dissipate: all in which their strengths are, and linear in each of them."""
     case = _case(structure, state.motions, state.contact_model)
     limits: YieldLimits = case.limits
     plastic_normal = limits.friction * state.sliding + state.opening - state.crushing
@@ -101,7 +108,10 @@ def resistance(structure: Structure, state: State) -> float:
         limits.tension * state.opening,
         compression * state.crushing,
     )
-    total = float(sum(term.sum() for term in terms))
+    ties = structure.model.ties
+    capacity = np.where(state.elongation > 0.0, ties.greatest, ties.least)
+    yields = np.isfinite(capacity)
+    total = float(sum(term.sum() for term in terms)) + float(capacity[yields] @ state.elongation[yields])
     if isinstance(case, InterfaceCase) and state.motions is not None:
         total += float(crushing_power(case.laws, state.motions[:, 1]).sum())
     return total

@@ -47,6 +47,9 @@ LAWS = ("friction", "friction_angle", "cohesion", "tensile_strength", "compressi
 LOADS = ("dead load", "live load")
 """parameters that are no key of the deck: factors on the loads, 1 as they are"""
 
+TIE = "tie"
+"""before the name of a tie whose capacity is a parameter, which need not be a key of the deck"""
+
 
 Posed: TypeAlias = Callable[[Structure], Structure]
 """A structure with the loads of a problem"""
@@ -108,9 +111,20 @@ def slopes(deck: Deck, structure: Structure, solution: Solution) -> Iterator[Slo
     for path in keys:
         yield _of_path(deck, structure, state, path, _as_it_is)
     if asked is True:
+        yield from _of_ties(deck, structure, state)
         dead, live = load_power(structure, state)
         for name, power in zip(LOADS, (dead, state.load_factor * live), strict=True):
             yield _slope(state, name, 1.0, "", -power, Side.BOTH)
+
+
+def _of_ties(deck: Deck, structure: Structure, state: State) -> Iterator[Slope]:
+    """By the greatest tension of each tie, or push of what only pushes: its elongation rate, exactly."""
+    ties, unit = structure.model.ties, deck.units.force
+    for row, name in enumerate(ties.names):
+        pulls = ties.greatest[row] > 0.0
+        value = float(ties.greatest[row] if pulls else -ties.least[row])
+        rate = float(state.elongation[row] if pulls else -state.elongation[row])
+        yield _slope(state, f"{TIE} {name}", value, unit, max(rate, 0.0), Side.BOTH if value > 0.0 else Side.ABOVE)
 
 
 def _of_path(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:

@@ -25,7 +25,7 @@ NEAR = 1e-3
 """Distance of matched contact points, over the size of the largest block, and sine of the angle between their normals:
 a small step of a parameter moves them by much less."""
 
-WITHOUT_GEOMETRY = ("materials", "joints", "loads", "load_cases")
+WITHOUT_GEOMETRY = ("materials", "joints", "loads", "load_cases", "ties")
 """sections of the deck that move no block: the contacts are the same"""
 
 OFF_GUIDE = 1e-9
@@ -50,6 +50,15 @@ class Structure:
         arms = self.model.blocks.centroids - centroids
         return np.hstack([motion[:, :3] + np.cross(motion[:, 3:], arms), motion[:, 3:]])
 
+    def elongation_rates(self, motion: FloatArray) -> FloatArray:
+        """Of ties, (n_ties,), in a motion of the blocks, (n_blocks, 6); what is outside of the model is at rest."""
+        ties, blocks = self.model.ties, self.model.blocks
+        moving = ties.bodies >= 0
+        of_block, on = motion[ties.bodies[moving]], ties.bodies[moving]
+        velocity = of_block[:, :3] + np.cross(of_block[:, 3:], ties.places[moving] - blocks.centroids[on])
+        speeds = (velocity * ties.pulls[moving]).sum(axis=1)
+        return -np.bincount(ties.tie_of_point[moving], speeds, len(ties)).astype(np.float64)
+
 
 def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Structure | str:
     """The structure with an override ``key.path=value``, its contact points in the order of the one that it is like.
@@ -72,6 +81,10 @@ def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Stru
     case = next((case for case in model.load_cases if case.name == name), None)
     if case is None or not np.array_equal(model.fixed, like.model.fixed):
         return "supports" if case is not None else "load case"
+    if not np.array_equal(model.ties.start, like.model.ties.start):
+        return "number of ties"
+    if not np.array_equal(model.ties.bodies, like.model.ties.bodies):
+        return "blocks that ties hold"
     matched = contacts if same else matched_contacts(contacts, like)
     return "contacts" if matched is None else Structure(model, matched, case)
 

@@ -231,6 +231,7 @@ def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
     """Whether loads can be borne in any multiple if in one: no strength but friction, and nothing but gravity."""
     laws = [model.joints[name] for name in contacts.joint_names]
     strength = any(law.cohesion or law.tensile_strength or math.isfinite(law.compressive_strength) for law in laws)
+    strength |= bool(len(model.ties))
     size = float(np.abs(tilt.turning).max(initial=0.0))
     return not strength and float(np.abs(tilt.fixed[model.free]).max(initial=0.0)) <= 1e-12 * size
 

@@ -47,6 +47,13 @@ def contact_resultants(model: Model, contacts: Contacts, contact_forces: FloatAr
         arm = contacts.points[here] - model.blocks.centroids[block]
         on_block = sign * force[here]
         np.add.at(total, block, np.concatenate([on_block, np.cross(arm, on_block)], axis=1))
+    if contacts.ties is not None:  # N alone, along their lines and at further points
+        ties = contacts.ties
+        moving = ties.bodies < n_blocks
+        block = ties.bodies[moving]
+        pull = contact_forces[ties.points[moving], :1] * ties.forces[moving]
+        arm = ties.places[moving] - model.blocks.centroids[block]
+        np.add.at(total, block, np.concatenate([pull, np.cross(arm, pull)], axis=1))
     return total
 
 
@@ -64,7 +71,16 @@ def contact_velocities(model: Model, contacts: Contacts, mechanism: FloatArray) 
         arm = contacts.points[here] - model.blocks.centroids[block]
         motion = mechanism[block]
         relative[here] += sign * (motion[:, :3] + np.cross(motion[:, 3:], arm))
-    return np.asarray(np.einsum("pjx,px->pj", contacts.frames, relative))
+    found = np.einsum("pjx,px->pj", contacts.frames, relative)
+    if contacts.ties is not None:
+        ties = contacts.ties
+        moving = ties.bodies < n_blocks
+        motion = mechanism[ties.bodies[moving]]
+        arm = ties.places[moving] - model.blocks.centroids[ties.bodies[moving]]
+        speed = motion[:, :3] + np.cross(motion[:, 3:], arm)
+        np.add.at(found[:, 0], ties.points[moving], (speed * ties.forces[moving]).sum(axis=1))
+        found[contacts.tie_points, 1:] = 0.0
+    return np.asarray(found)
 
 
 def power(load: FloatArray, mechanism: FloatArray) -> float:
@@ -213,8 +229,13 @@ def load_sizes(load: FloatArray, arms: FloatArray) -> FloatArray:
 
 
 def lever_arms(model: Model, contacts: Contacts) -> FloatArray:
-    """Mean distance of each block's contact points from its centroid, its size where it has none, (n_blocks,)."""
-    return _arms(model.blocks.centroids, model.blocks.sizes, bodies_of_points(contacts), contacts.points)
+    """Mean distance of each block's contact points from its centroid, its size where it has none, (n_blocks,).
+
+    Ties do not count, which may lead far away.
+    """
+    surfaces = ~contacts.tie_points
+    bodies, points = bodies_of_points(contacts)[surfaces], contacts.points[surfaces]
+    return _arms(model.blocks.centroids, model.blocks.sizes, bodies, points)
 
 
 def _arms(centroids: FloatArray, sizes: FloatArray, bodies_of_point: IntArray, points: FloatArray) -> FloatArray:

@@ -13,6 +13,7 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
@@ -55,7 +56,7 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     No solver is called, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
     are judged as the rigid body they form.
     """
-    solids = solids_of(model, contacts)
+    solids = tied(solids_of(model, contacts))
     of_solids, apart = solution_on_solids(solution, solids)
     checks = _verify(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
     if not apart <= APART:
@@ -94,7 +95,7 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
 
     NaN where nothing moves.
     """
-    solids = solids_of(model, contacts)
+    solids = tied(solids_of(model, contacts))
     of_solids, _ = solution_on_solids(solution, solids)
     mechanics = getattr(of_solids, part)
     if part == "level" and load_case.tilt is not None:

@@ -210,7 +210,7 @@ class InterfaceCase(Case):
 
 def point_limits(model: Model, contacts: Contacts) -> YieldLimits:
     """Strengths of the contact points alone, which do not crush where their interface does."""
-    return without_crushing(yield_limits(model, contacts))
+    return without_crushing(yield_limits(model, contacts), contacts)
 
 
 def _wrong_resultants(case: InterfaceCase, mechanics: Mechanics) -> tuple[Message, ...]:

@@ -41,6 +41,7 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
         "interfaces": 2 * 2,
         "points": 2 * 8,
         "reactions": 2,
+        "ties": 0,
         "programs": 2,
         "iterations": 12,
         "path": 0,

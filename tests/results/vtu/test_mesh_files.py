@@ -19,6 +19,7 @@ from mbla.results.vtu.meshes import LINE, POINT, hinges_mesh, thrust_mesh
 from mbla.run import RunOptions, run
 from mbla.solution.solution import ContactMode, Status
 from mbla.solution.verification.statics import contact_velocities
+from tests.decks.folder import BENCHMARKS
 from tests.results.no_contacts import without_contacts
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
@@ -104,11 +105,22 @@ def test_every_array_written_is_in_the_table_and_of_its_shape(which: str, reques
 
 def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any) -> None:
     results, folder = arch
-    for kind in MESHES:
+    for kind in set(MESHES) - {"ties"}:
         mesh = meshio.read(folder / f"deck_push_{kind}.vtu")
         for on, data in (("points", mesh.point_data), ("cells", mesh.cell_data)):
             assert set(described(kind, on)) - LABELS <= set(data), kind
-    assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS)
+    assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS) - {"ties"}
+
+
+def test_ties_are_lines_with_their_forces_and_strips_points(tmp_path: Path) -> None:
+    results = run(BENCHMARKS["ring_rope_and_strip"], RunOptions(folder=tmp_path))
+    mesh = meshio.read(tmp_path / "ring_rope_and_strip_lift_ties.vtu")
+    assert [(cells.type, len(cells)) for cells in mesh.cells] == [("line", 2 * 4 + 2), ("vertex", 1)]
+    assert set(described("ties", "cells")) <= set(mesh.cell_data)
+    assert "displacement" in mesh.point_data
+    assert mesh.cell_data["tie_forces"][1] == pytest.approx([4000.0], rel=1e-6)
+    assert mesh.cell_data["state"][1].tolist() == [1]
+    assert len(results.model.ties) == 5
 
 
 def test_thrust_line_of_an_arch_is_one_chain_that_touches_the_edge_at_its_four_hinges(arch: Any) -> None:

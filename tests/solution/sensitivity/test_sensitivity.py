@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from random import Random
 
 import pytest
 
 from mbla.solution.solution import Side, Slope, Status
+from tests.decks.folder import ROOT
 from tests.line import BLOCK, WALL, case_of
 from tests.solution.sensitivity.differences import differences, random_text
 
@@ -115,6 +117,21 @@ def test_not_known_where_no_change_is_possible() -> None:
     assert found.side is Side.NONE
     assert found.slope != found.slope
     assert found.remark
+
+
+def test_ties() -> None:
+    """λ W h/2 = W b/2 + T h_t + C h_s: a wall that overturns about its toe, with two rods and a strut."""
+    text = (ROOT / "decks/benchmarks/closed_forms/tied_wall.yaml").read_text(encoding="utf-8")
+    moment, rods = 15696 * 2 / 2, math.pi / 4 * 0.012**2 * 235e6
+    factor = (15696 * 0.4 / 2 + rods * 1.8 + 5000) / moment
+    usual = slopes_of(text, flow_rule="associative")
+    for name, slope, share in (("rod[0]", 1.8 / moment, 0.9 * rods / moment), ("strut[0]", 1 / moment, 5000 / moment)):
+        assert near(usual[f"tie {name}"], slope, share / factor)
+    assert near(usual["dead load"], 0.2, 0.2 / factor)
+    own = slopes_of(text, keys="[parameters.ht, parameters.d, ties.1.capacity]")
+    assert near(own["parameters.ht"], rods / moment, 1.8 * rods / moment / factor)
+    assert near(own["parameters.d"], 2 / 0.012 * rods * 1.8 / moment, 2 * rods * 1.8 / moment / factor)
+    assert near(own["ties.1.capacity"], 1 / moment, 5000 / moment / factor)
 
 
 def test_without_dilatancy_they_are_of_the_associative_factor() -> None:

@@ -73,6 +73,17 @@ def test_a_block_on_a_slope_just_stays_at_its_tangent() -> None:
     assert found.zeros[0].best.verified
 
 
+def test_a_tie_with_which_a_block_just_stands() -> None:
+    """A force F at half its height turns it over; its weight and a tie at its top hold it: T h = F h/2 − W b/2."""
+    tie = 'ties: [{name: rod, through: [[0, 0.5, "=h"], [-3, 0.5, "=h"]], on: [block, ground], capacity: 9000}]\n'
+    text = BLOCK.replace("live:", "dead: [{force: [30000, 0, 0], on: block}], live:").replace(
+        "load_cases:", f"{tie}load_cases:"
+    )
+    text = text.replace("mu: 0.5", "mu: 2")
+    found = asked(text, "ties.0.capacity", "stands", 0.0, (1000, 20000))
+    assert found.zeros[0].best.x == pytest.approx((30000 - 2 * 2000 * 9.81 / 2) / 2, abs=0.02)
+
+
 def test_a_width_at_which_a_block_just_stands() -> None:
     """Its weight ρ g h b holds it by b/2 about the edge at b, a force F at 1 turns it over: ρ g h b²/2 = F (1 − b)."""
     text = BLOCK.replace("live:", "dead: [{force: [0, 0, -50000], on: block, at: [1, 0.5, 2]}], live:")

@@ -1,0 +1,130 @@
+"""Section `ties`: what is neither block nor joint and holds blocks together or apart: ties, rings, struts, strips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Discriminator, Field, Tag
+
+from mbla.deck.items.item import Repeat
+from mbla.deck.quantities import (
+    Length,
+    Name,
+    NonNegativeNumber,
+    Point,
+    PositiveArea,
+    PositiveForce,
+    PositiveLength,
+    PositiveStress,
+)
+from mbla.deck.section import Section, exactly_one_of, given, rule, shape
+from mbla.deck.sections.selectors import Selector, SelectorTerm
+from mbla.errors import Finding
+
+FORMS = ("through", "ring", "strip")
+"""what lays out a tie"""
+
+
+class Plate(Section):
+    """A round anchor plate on a wall: punching of the wall, or the cone that it tears out, limits the force."""
+
+    diameter: PositiveLength = Field(description="of the plate")
+    wall: PositiveLength = Field(description="thickness of the wall that it bears on")
+    shear_strength: PositiveStress | None = Field(None, description="of the wall, for punching")
+    tensile_strength: PositiveStress | None = Field(None, description="of the wall, for the cone of tension")
+
+
+class Ring(Section):
+    """Closed round the plan of some blocks, at one height or several."""
+
+    around: Selector = Field(description="the blocks that it goes round: along the convex outline of their plan there")
+    z: Annotated[list[Length], Field(min_length=1)] = Field(description="its height; a ring at each of several")
+
+
+Anchor: TypeAlias = Annotated[
+    Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
+    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
+]
+
+
+@exactly_one_of(*FORMS)
+class TieSection(Section):
+    """A tie, strut, ring or strip, or several alike; it weighs nothing, and its force has the limits given here."""
+
+    name: Name | None = Field(None, description="of the tie in results; its form and number unless given")
+    through: Annotated[list[Point], Field(min_length=2, max_length=1000)] | None = Field(
+        None, description="where it begins, the points that it passes, where it ends; first point again: closed"
+    )
+    ring: Ring | None = Field(None, description="a closed tie round a building or a tower")
+    strip: Annotated[list[Point], Field(min_length=2, max_length=1000)] | None = Field(
+        None,
+        description="FRP or FRCM glued to faces along this line: where it crosses from block to block it carries "
+        "tension along the line, at every joint up to its capacity",
+    )
+    on: Annotated[list[Anchor], Field(min_length=2, max_length=1000)] | None = Field(
+        None,
+        description="for each point of through: the block that it is fixed to, or `ground` for what does not move "
+        "outside of the model; unless given the block at the point",
+    )
+    acts: Literal["tension", "compression", "both"] = Field(
+        "tension", description="sense of its force: a tie, a strut, or a bar that takes both"
+    )
+    points: Literal["passes", "fixed"] = Field(
+        "passes",
+        description="between its ends: passes, it slides there without friction and has one force; fixed, it is held "
+        "there and has a force in each stretch",
+    )
+    capacity: PositiveForce | None = Field(None, description="greatest force, whatever else is given")
+    area: PositiveArea | None = Field(None, description="cross-section, with strength")
+    diameter: PositiveLength | None = Field(None, description="of a round bar, in place of area")
+    strength: PositiveStress | None = Field(None, description="stress at which it yields, or that it may have")
+    anchorage: PositiveForce | None = Field(None, description="greatest force of its anchors, where that is less")
+    plate: Plate | None = Field(None, description="anchor plate, whose wall may limit the force")
+    prestress: PositiveForce | None = Field(
+        None,
+        description="force that it is given when it is fitted: it counts in whether the structure stands, and in no "
+        "load factor, which is that of all forces that it can have",
+    )
+    breaks_at: NonNegativeNumber | None = Field(
+        None,
+        description="in a pushover: elongation over length at which it breaks; 0: brittle, as soon as it yields. It "
+        "yields without end unless given",
+    )
+    repeat: Repeat = Field(default_factory=list, description="copies, as of items")
+
+
+@rule(TieSection)
+def tie(item: TieSection) -> Iterator[Finding]:
+    """A capacity, one cross-section, and keys that apply."""
+    if item.capacity is None and item.strength is None and item.anchorage is None and item.plate is None:
+        yield Finding("missing-key", "needs capacity, or area or diameter with strength")
+    sections = given(item, ("area", "diameter"))
+    if len(sections) > 1:
+        yield Finding("one-of-several", "only one of area and diameter may be given", sections[1])
+    if item.strength is not None and not sections:
+        yield Finding("missing-key", "needs area or diameter in addition to strength")
+    if sections and item.strength is None:
+        yield Finding("key-of-another-choice", "applies with strength only", sections[0])
+    if item.on is not None and item.through is None:
+        yield Finding("key-of-another-choice", "applies to through only", "on")
+    elif item.on is not None and item.through is not None and len(item.on) != len(item.through):
+        words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
+        yield Finding("tie-misfit", words, "on")
+    if item.strip is not None and item.breaks_at:
+        words = "must be 0, or left out, for a strip, which has no length across a joint"
+        yield Finding("tie-misfit", words, "breaks_at")
+    if item.points == "fixed" and item.strip is not None:
+        yield Finding("key-of-another-choice", "does not apply to a strip, which is glued all along", "points")
+    if item.acts != "tension":
+        for key in given(item, ("ring", "strip", "prestress")):
+            yield Finding("key-of-another-choice", "applies with acts: tension only", key)
+        if item.through is not None and len(item.through) > 2 and item.points == "passes":
+            yield Finding("key-of-another-choice", "what takes compression goes straight: use points: fixed", "acts")
+
+
+@rule(Plate)
+def plate(item: Plate) -> Iterator[Finding]:
+    """A strength of the wall."""
+    if not given(item, ("shear_strength", "tensile_strength")):
+        yield Finding("missing-key", "needs one of shear_strength or tensile_strength")

@@ -1,0 +1,269 @@
+"""The ties of a deck: where their points lie, on which blocks, and what they carry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.deck.references import GROUND
+from mbla.deck.section import given
+from mbla.deck.sections.ties import FORMS, Plate, TieSection
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Finding
+from mbla.model.selectors import Roster, select_blocks
+from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.touching import touched_blocks
+from mbla.model.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
+from mbla.model.transform import AffineMap, repetitions
+from mbla.model.wording import counted, vector
+
+CLOSES = 1e-9
+"""distance of the last point from the first, over the length of a line, at which it is closed"""
+ALIKE = 1e-9
+"""distance over the length of a strip that is none"""
+
+
+@dataclass(frozen=True)
+class _Line:
+    """One run of points with one force; ``bodies`` (m,), ``places`` and ``pulls`` (m, 3)."""
+
+    bodies: IntArray
+    places: FloatArray
+    pulls: FloatArray
+    closed: bool = False
+
+
+def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray, tolerance: float) -> Ties:
+    """The ties of a deck; faults go to the roster.
+
+    fixed     : (n_blocks,) blocks that do not move
+    tolerance : of contacts, relative to block size
+    """
+    parts, counts = list[Ties](), dict[str, int]()
+    for number, section in enumerate(sections):
+        path: KeyPath = ("ties", number)
+        lines = [
+            line for copy in repetitions(section.repeat) for line in _lines(section, copy, path, roster, tolerance)
+        ]
+        idle = sum(not _can_move(line.bodies, fixed) for line in lines)
+        if idle and not roster.faults:
+            words = f"{idle} of {counted(len(lines), 'tie')} hold nothing: no two blocks that can move apart"
+            roster.refuse(Finding("tie-without-effect", words, *path))
+        parts.append(_ties(section, lines, counts))
+    return joined_ties(parts)
+
+
+def _can_move(bodies: IntArray, fixed: BoolArray) -> bool:
+    """Whether points of a tie are on blocks, at least two or one and the ground, of which one moves."""
+    still = np.append(fixed, True)[bodies]  # OUTSIDE takes the last entry
+    return bool((~still).any()) and len(np.unique(np.where(still, OUTSIDE, bodies))) > 1
+
+
+def _ties(section: TieSection, lines: Sequence[_Line], counts: dict[str, int]) -> Ties:
+    """Lines with the forces that a section allows; names count on where several sections have the same."""
+    if not lines:
+        return NO_TIES
+    form = {"compression": "strut", "both": "bar"}.get(section.acts, _form(section))
+    name = section.name or form
+    first = counts.get(name, 0)
+    counts[name] = first + len(lines)
+    n, capacity = len(lines), capacity_of(section)
+    return Ties(
+        names=tuple(f"{name}[{first + row}]" for row in range(n)),
+        forms=(form,) * n,
+        closed=np.array([line.closed for line in lines], dtype=np.int64),
+        start=starts(np.array([len(line.bodies) for line in lines])),
+        bodies=np.concatenate([line.bodies for line in lines]),
+        places=np.concatenate([line.places for line in lines]),
+        pulls=np.concatenate([line.pulls for line in lines]),
+        least=np.full(n, 0.0 if section.acts == "tension" else -capacity),
+        greatest=np.full(n, 0.0 if section.acts == "compression" else capacity),
+        prestress=np.full(n, section.prestress or 0.0),
+        breaks_at=np.full(n, math.inf if section.breaks_at is None else section.breaks_at),
+    )
+
+
+def _form(section: TieSection) -> str:
+    return {"through": "tie"}.get(given(section, FORMS)[0], given(section, FORMS)[0])
+
+
+def capacity_of(section: TieSection) -> float:
+    """Greatest force of a tie: what is given, or the least of its bar, its anchors and the wall behind its plates."""
+    if section.capacity is not None:
+        return section.capacity
+    area = section.area
+    if section.diameter is not None:
+        area = math.pi / 4.0 * section.diameter**2
+    limits = [] if area is None or section.strength is None else [area * section.strength]
+    limits += [] if section.anchorage is None else [section.anchorage]
+    limits += [] if section.plate is None else plate_capacities(section.plate)
+    return min(limits)
+
+
+def plate_capacities(plate: Plate) -> list[float]:
+    """What a wall of thickness t bears of a round plate of diameter D: π t (t + D) f, by punching and by its cone."""
+    surface = math.pi * plate.wall * (plate.wall + plate.diameter)
+    return [surface * strength for strength in (plate.shear_strength, plate.tensile_strength) if strength is not None]
+
+
+def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[_Line]:
+    """The lines of one copy of a tie."""
+    if section.ring is not None:
+        for number, z in enumerate(section.ring.z):
+            yield from _ring(section, z, copy, (*path, "ring"), number, roster, tolerance)
+        return
+    points = section.through or section.strip
+    assert points is not None  # a rule of the deck: one of the forms
+    places = copy.points(np.array(points))
+    key = "through" if section.through else "strip"
+    lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    if not (lengths > ALIKE * lengths.sum()).all():
+        row = int(np.flatnonzero(lengths <= ALIKE * lengths.sum())[0]) + 1
+        roster.refuse(Finding("degenerate-line", "must not be the point before it", *path, key, row))
+    elif section.strip is not None:
+        yield from _strip(places, (*path, key), roster, tolerance)
+    else:
+        yield from _through(section, places, path, roster, tolerance)
+
+
+def _through(
+    section: TieSection, places: FloatArray, path: KeyPath, roster: Roster, tolerance: float
+) -> Iterator[_Line]:
+    """A line through points: one force, or one in each stretch."""
+    closed = bool(np.linalg.norm(places[-1] - places[0]) <= CLOSES * np.ptp(places, axis=0).max()) and len(places) > 3
+    if closed:
+        places = places[:-1]
+    found = [_block_at(section, number, places, path, roster, tolerance) for number in range(len(places))]
+    bodies = np.array([body for body in found if body is not None], dtype=np.int64)
+    if len(bodies) < len(places):
+        return
+    if section.points == "passes":
+        yield _Line(bodies, places, pulls_along(places, closed=closed), closed)
+        return
+    for first in range(len(places) - (0 if closed else 1)):
+        pair = np.array([first, (first + 1) % len(places)])
+        yield _Line(bodies[pair], places[pair], pulls_along(places[pair], closed=False))
+
+
+def _block_at(
+    section: TieSection, number: int, places: FloatArray, path: KeyPath, roster: Roster, tolerance: float
+) -> int | None:
+    """The block that a point of a line is fixed to, OUTSIDE for ground; None with a fault."""
+    anchor = None if section.on is None else section.on[number]
+    if anchor == GROUND:
+        return OUTSIDE
+    blocks = roster.blocks
+    chosen: IntArray | None = np.arange(len(blocks))
+    if anchor is not None:
+        chosen = select_blocks(anchor, (*path, "on", number), roster)
+    if chosen is None or (roster.partial and anchor is None):
+        return None
+    found = touched_blocks(places[number], blocks, chosen, tolerance)
+    if len(found):
+        return int(found[0])
+    where = f"no block lies at {vector(places[number])}"
+    if anchor is not None:
+        where = f"none of these blocks lies at {vector(places[number])}, the point that it is for"
+    key = ("through", number) if anchor is None else ("on", number)
+    roster.refuse(Finding("tie-off-blocks", f"{where}: move the point, or write ground in `on`", *path, *key))
+    return None
+
+
+def _ring(
+    section: TieSection,
+    z: float,
+    copy: AffineMap,
+    path: KeyPath,
+    number: int,
+    roster: Roster,
+    tolerance: float,
+) -> Iterator[_Line]:
+    """A closed line along the convex outline of the plan of some blocks at a height."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    assert section.ring is not None  # who calls knows
+    chosen = select_blocks(section.ring.around, (*path, "around"), roster)
+    if chosen is None:
+        return
+    height = float(copy.points(np.array([0.0, 0.0, z]))[2])
+    plan = _plan(roster.blocks, chosen, height)
+    try:
+        outline = plan[ConvexHull(plan).vertices]
+    except (QhullError, ValueError):
+        words = "these blocks have no plan at that height that a ring could go round"
+        roster.refuse(Finding("tie-off-blocks", words, *path, "z", number))
+        return
+    places = _corners_of(np.column_stack([outline, np.full(len(outline), height)]))
+    bodies = [touched_blocks(place, roster.blocks, chosen, tolerance) for place in places]
+    owners = np.array([found[0] for found in bodies if len(found)], dtype=np.int64)
+    if len(owners) == len(places):
+        yield _Line(owners, places, pulls_along(places, closed=True), closed=True)
+
+
+def _corners_of(outline: FloatArray) -> FloatArray:
+    """An outline without points at which it goes straight on: a tie does not press there."""
+    pulls = np.linalg.norm(pulls_along(outline, closed=True), axis=1)
+    return np.asarray(outline[pulls > np.sqrt(ALIKE)])
+
+
+def _plan(blocks: Blocks, chosen: IntArray, z: float) -> FloatArray:
+    """Points at which edges of blocks cross a height, (n, 2); of edges at that height their ends."""
+    faces = items_of_rows(blocks.face_start, chosen)
+    counts = np.diff(blocks.loop_start)[faces]
+    corners = items_of_rows(blocks.loop_start, faces)
+    ahead = corners + 1
+    last = np.cumsum(counts) - 1
+    ahead[last] = blocks.loop_start[faces]
+    one, other = (blocks.vertices[blocks.loops[rows]] for rows in (corners, ahead))
+    low, high = np.minimum(one[:, 2], other[:, 2]), np.maximum(one[:, 2], other[:, 2])
+    crossing = (low <= z) & (z <= high)
+    one, other = one[crossing], other[crossing]
+    rise = other[:, 2] - one[:, 2]
+    share = np.divide(z - one[:, 2], rise, out=np.zeros(len(rise)), where=rise != 0.0)
+    return np.asarray((one + share[:, None] * (other - one))[:, :2])
+
+
+def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[_Line]:
+    """A force along the strip at each place where it crosses from one block to the next."""
+    if roster.partial:
+        return
+    crossings = 0
+    for begin, end in pairwise(places):
+        along = (end - begin) / np.linalg.norm(end - begin)
+        cuts = _cuts(begin, end, roster.blocks)
+        middles = begin + 0.5 * (cuts[:-1] + cuts[1:])[:, None] * (end - begin)
+        under = [touched_blocks(middle, roster.blocks, np.arange(len(roster.blocks)), tolerance) for middle in middles]
+        chosen = _followed(under)
+        for row in np.flatnonzero((np.diff(chosen) != 0) & (chosen[:-1] >= 0) & (chosen[1:] >= 0)).tolist():
+            place = begin + cuts[row + 1] * (end - begin)
+            yield _Line(chosen[[row, row + 1]], np.stack([place, place]), np.stack([along, -along]))
+            crossings += 1
+    if not crossings:
+        roster.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
+
+
+def _followed(under: Sequence[IntArray]) -> IntArray:
+    """Of the blocks under each part of a strip one, (n,): that of the part before where it goes on; -1 without any."""
+    chosen = np.full(len(under), -1)
+    for row, found in enumerate(under):
+        if len(found):
+            chosen[row] = chosen[row - 1] if row and chosen[row - 1] in found else found[0]
+    return chosen
+
+
+def _cuts(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:
+    """Shares of a stretch, from 0 to 1, at which it may leave a block: where it crosses planes of faces nearby."""
+    step = end - begin
+    vertices = blocks.vertices[blocks.loops[blocks.loop_start[:-1]]]
+    speed = blocks.face_normals @ step
+    ahead = np.einsum("ij,ij->i", vertices - begin, blocks.face_normals)
+    share = np.divide(ahead, speed, out=np.full(len(speed), -1.0), where=np.abs(speed) > ALIKE * np.linalg.norm(step))
+    share = np.unique(np.clip(share[(share > ALIKE) & (share < 1.0 - ALIKE)], 0.0, 1.0))
+    share = np.concatenate([[0.0], share[np.append(True, np.diff(share) > ALIKE)] if len(share) else share, [1.0]])
+    return np.asarray(share)

@@ -1,0 +1,96 @@
+"""Ties of a structure that moves: where they lie, which are slack, which have broken.
+
+A tie that has yielded stays as long as it was at most, and carries nothing until it is that long again: its slack is
+the greatest length so far less the present one; a strut's the present one less the least. What takes both senses has
+none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks.
+
+A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps in which it got longer,
+each by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.model.pose import Pose
+from mbla.model.solids.blocks import Blocks
+from mbla.model.ties import OUTSIDE, Ties, pulls_along
+
+NO_YIELD = 1e-6
+"""Elongation over length that is none."""
+
+
+@dataclass(frozen=True)
+class TieHistory:
+    """What has become of ties, (n,) m each.
+
+    longest, shortest : lengths so far
+    yielded           : sum of elongations
+    """
+
+    longest: FloatArray
+    shortest: FloatArray
+    yielded: FloatArray
+
+    @staticmethod
+    def at_rest(ties: Ties) -> TieHistory:
+        """As built."""
+        lengths = _lengths(ties)
+        return TieHistory(lengths, lengths, np.zeros(len(ties)))
+
+    def after(self, blocks: Blocks, ties: Ties, motion: FloatArray, there: Ties) -> TieHistory:
+        """After a step from where blocks and ties are by a motion, (n_blocks, 6) about centroids, to ties ``there``."""
+        lengths = _lengths(there)
+        return TieHistory(
+            np.maximum(self.longest, lengths),
+            np.minimum(self.shortest, lengths),
+            self.yielded + np.maximum(elongations(blocks, ties, motion), 0.0),
+        )
+
+    def slack(self, ties: Ties) -> FloatArray:
+        """Of ties where they are, (n,) m."""
+        lengths = _lengths(ties)
+        pulled, pushed = ties.least == 0.0, ties.greatest == 0.0
+        slack = np.where(pulled, self.longest - lengths, np.where(pushed, lengths - self.shortest, 0.0))
+        return np.asarray(np.maximum(slack, 0.0))
+
+    def broken(self, ties: Ties) -> BoolArray:
+        """Which ties, as built, have broken, (n,)."""
+        size = np.where(ties.lengths > 0.0, ties.lengths, 0.0)
+        return np.asarray(self.yielded > ties.breaks_at * size + NO_YIELD * np.maximum(size, self.longest))
+
+
+def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:
+    """Ties whose points move along with their blocks, which are given as built."""
+    if not len(ties):
+        return ties
+    on = ties.bodies != OUTSIDE
+    places, pulls = ties.places.copy(), ties.pulls.copy()
+    places[on] += pose.displacements(blocks, ties.bodies[on], ties.places[on])
+    for row in range(len(ties)):
+        own = slice(int(ties.start[row]), int(ties.start[row + 1]))
+        if ties.lengths_known[row]:
+            pulls[own] = pulls_along(places[own], closed=bool(ties.closed[row]))
+        elif on[own][0]:
+            pulls[own] = pulls[own] @ pose.rotation[ties.bodies[own][0]].T
+    return replace(ties, places=places, pulls=pulls)
+
+
+def elongations(blocks: Blocks, ties: Ties, motion: FloatArray) -> FloatArray:
+    """By how much ties get longer in a motion of the blocks, (n_blocks, 6) about centroids, to first order, (n,)."""
+    on = ties.bodies != OUTSIDE
+    block = ties.bodies[on]
+    arms = ties.places[on] - blocks.centroids[block]
+    speed = motion[block, :3] + np.cross(motion[block, 3:], arms)
+    shares = -(speed * ties.pulls[on]).sum(axis=1)
+    return np.asarray(np.bincount(ties.tie_of_point[on], shares, len(ties)), dtype=np.float64)
+
+
+def _lengths(ties: Ties) -> FloatArray:
+    """Of lines; of strips the opening along them."""
+    first, last = ties.start[:-1], ties.start[1:] - 1
+    opening = ((ties.places[last] - ties.places[first]) * ties.pulls[first]).sum(axis=1)
+    return np.where(ties.lengths_known, ties.lengths, opening)

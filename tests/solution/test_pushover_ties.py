@@ -1,0 +1,81 @@
+"""Pushovers of structures with ties against a closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.results.listing.pushover import energy_missing
+from mbla.solution.pushover.curve import dropped
+from mbla.solution.solution import CurveEnd
+from tests.line import HEAD, case_of
+
+DECK = (
+    HEAD
+    + """\
+parameters: {T: 3000, ht: 1.6}
+joints: {dry: {friction: 5}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [0.4, 1, 2]}
+supports: [{ground: {z: 0}}]
+ties:
+  - {through: [[0, 0.5, "=ht"], [-3, 0.5, "=ht"]], on: [block, ground], capacity: "=T"}
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.01}}}
+"""
+)
+WEIGHT = 0.4 * 2 * 2000 * 9.81
+
+
+def closed_form(turn: float) -> tuple[float, float, float]:
+    """Displacement of the centroid, load factor and elongation of the tie of the block turned about its toe."""
+    cos, sin = np.cos(turn), np.sin(turn)
+    turned = np.array([[cos, sin], [-sin, cos]])
+    centroid, top = turned @ [-0.2, 1.0] + [0.4, 0.0], turned @ [-0.4, 1.6] + [0.4, 0.0]
+    way = np.array([-3.0, 1.6]) - top
+    length = float(np.linalg.norm(way))
+    arm, pull = top - [0.4, 0.0], 3000 * way / length
+    holds = arm[0] * pull[1] - arm[1] * pull[0] + WEIGHT * (0.4 - centroid[0])
+    return float(centroid[0] - 0.2), holds / (WEIGHT * centroid[1]), length - 3.0
+
+
+TURNS = np.linspace(0.0, 0.9, 4000)
+MOVED, FACTORS, LONGER = np.array([closed_form(turn) for turn in TURNS]).T
+
+
+def test_a_tie_that_yields_without_end_holds_a_wall_as_it_turns() -> None:
+    """The tie pulls along its line as it lies then; energies add up, and what ties take is no drop."""
+    _, case = case_of(DECK)
+    curve = case.solution.curve
+    found = np.array([[row.displacement, row.load_factor] for row in curve])
+    assert len(curve) > 20
+    assert found[:, 1] == pytest.approx(np.interp(found[:, 0], MOVED, FACTORS), abs=2e-5)
+    assert max(row.residual for row in curve) < 1e-6
+    assert abs(energy_missing(curve)) < 5e-3
+    assert curve[-1].tie_work == pytest.approx(3000 * np.interp(found[-1, 0], MOVED, LONGER), rel=1e-2)
+    assert dropped(curve) is None
+
+
+@pytest.mark.parametrize("most", [0.0, 0.03])
+def test_a_tie_breaks_where_it_has_yielded_by_as_much_as_it_can(most: float) -> None:
+    """From there on the curve is that of the wall alone."""
+    _, case = case_of(DECK.replace("capacity:", f"breaks_at: {most}, capacity:"))
+    curve = case.solution.curve
+    first = next(row for row in curve if row.broken)
+    longer = np.interp([first.displacement - 0.01, first.displacement], MOVED, LONGER) / 3.0
+    assert longer[0] <= most + 2e-3
+    assert longer[1] > most
+    alone = np.array([[row.displacement, row.load_factor] for row in curve if row.broken])
+    radius, corner = np.hypot(0.2, 1.0), np.arctan(0.2)
+    turned = corner - np.arcsin(np.sin(corner) - alone[:, 0] / radius)
+    assert alone[:, 1] == pytest.approx(np.tan(corner - turned), abs=1e-7)
+    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+
+
+def test_a_tie_that_goes_slack_carries_nothing_until_it_is_as_long_again() -> None:
+    """On the side to which the wall falls: it gets shorter, and the wall falls as if it were alone."""
+    deck = DECK.replace("[[0, 0.5", "[[0.4, 0.5").replace("[-3, 0.5", "[3, 0.5")
+    _, case = case_of(deck)
+    assert case.solution.mechanics is not None
+    assert case.solution.mechanics.load_factor == pytest.approx(0.2, rel=1e-6)
+    assert case.solution.curve[-1].tie_work == pytest.approx(0.0, abs=1e-3)
+    assert case.solution.curve[-1].displacement == pytest.approx(0.2, rel=1e-3)
