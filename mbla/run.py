@@ -149,5 +149,13 @@ def solve_case(
 
         solved = status is Status.SOLVED
         solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
+    if deck.analysis.sensitivity is not False:
+        from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
+
+        solution = with_sensitivity(deck, moving, contacts, answer.load_case, solution, answer.checks)
+    if deck.analysis.geometric_safety:
+        from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
+
+        solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
     solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
     return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))

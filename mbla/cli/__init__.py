@@ -33,6 +33,7 @@ COMMANDS = (
     export.add_sweep_plot,
     study_commands.add_interact,
     study_commands.add_tradeoff,
+    study_commands.add_find,
     strengthen.add_strengthen,
     reference.add_explain,
     reference.add_schema,

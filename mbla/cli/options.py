@@ -41,6 +41,20 @@ def shard(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
+def target(text: str) -> tuple[str, float]:
+    """What a result should be, ``load_factor=1.0`` or ``stands``; raises ArgumentTypeError for anything else."""
+    name, equals, value = text.partition("=")
+    if text == "stands":
+        return text, 0.0
+    try:
+        number = float(value)
+    except ValueError:
+        number = float("nan")
+    if name not in ("load_factor", "least_load_factor") or not equals or not abs(number) < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not load_factor=VALUE, least_load_factor=VALUE or stands")
+    return name, number
+
+
 def _number(kind: Callable[[str], Amount], allowed: Callable[[Amount], bool], wanted: str) -> Callable[[str], Amount]:
     """What reads a number; it raises ArgumentTypeError for one that is not allowed."""
 

@@ -19,6 +19,7 @@ from mbla.cli.options import (
     points,
     relative_above_zero,
     seconds,
+    target,
     threads,
     workers,
 )
@@ -129,6 +130,53 @@ def tradeoff(options: argparse.Namespace) -> int:
         return tradeoff
 
     return _run_study(options, run_options(options, override=False), study)
+
+
+def add_find(commands: Any) -> None:
+    """``mbla find``."""
+    command = commands.add_parser(
+        "find",
+        help="the value of a parameter at which a result is what it should be",
+        description="Look for the value of a number of the deck at which a load factor is a target, or at which the "
+        "dead load is just carried, between two bounds: by slopes of the associative load factor, which cost no "
+        "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
+        "before it. Prints every value that was looked at; writes no files.",
+        epilog="Exit status 0: found and verified; 4: found, and the last answer is not verified, or nothing is known "
+        "between the bounds; 5: no value between the bounds, as far as the steps of --scan show.",
+    )
+    command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
+    command.add_argument("deck", type=Path, metavar="DECK")
+    command.add_argument("--parameter", metavar="KEY.PATH", help="of a real number in the deck, as for --set")
+    command.add_argument(
+        "--target", type=target, metavar="WHAT", help="load_factor=VALUE, least_load_factor=VALUE, or stands"
+    )
+    command.add_argument("--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help="in the deck's units")
+    command.add_argument("--case", metavar="NAME", help="the load case; needed if there are several")
+    command.add_argument("--scan", type=points, metavar="N", help="equal steps between the bounds to look at first")
+    command.add_argument(
+        "--tolerance", type=relative_above_zero, metavar="T", help="of the value, over the larger bound (default 1e-6)"
+    )
+    command.add_argument(
+        "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck (repeatable)"
+    )
+    add_analysis_options(command)
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def find(options: argparse.Namespace) -> int:
+    """Look for values; table and sentences go to standard output, with ``--json`` the object alone."""
+    refuse_unfit_name(options.deck)
+    content, _ = read_given_deck(options.deck, run_options(options))
+    with loading():
+        from mbla.results.record.json_values import json_line
+        from mbla.sweeps.find.study import find as look
+    found = look(content, options)
+    if options.json:
+        print(json_line(found.record), flush=True)
+    elif not options.quiet:
+        print("\n".join(found.lines), flush=True)
+    return found.exit_code
 
 
 def _run_study(options: argparse.Namespace, run: RunOptions, study: Callable[[], Any]) -> int:

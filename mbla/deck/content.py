@@ -19,6 +19,7 @@ from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.fill import Fill
+from mbla.deck.sections.find import FindSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
@@ -132,6 +133,7 @@ class DeckContent(Section):
     )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
     analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
+    find: FindSection | None = Field(None, description="what `mbla find` looks for")
     strengthen: StrengthenSection | None = Field(None, description="what `mbla strengthen` may add, and for what")
     output: OutputSection = Field(default_factory=OutputSection, description="what is written")
     expected: dict[Name, Expectation] = Field(

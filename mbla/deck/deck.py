@@ -13,6 +13,7 @@ from mbla.deck.content import DeckContent, UnitsSection
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.groups import put_groups_in_place
 from mbla.deck.notices import notices_of
+from mbla.deck.parameter_keys import parameter_faults
 from mbla.deck.references import check_references, side_files
 from mbla.deck.section import built
 from mbla.deck.sections.analysis import AnalysisSection
@@ -150,6 +151,8 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     # What is no name at all is not looked up as well.
     seen = {(fault.place, fault.key) for fault in faults}
     faults += [fault for fault in first_faults(check_references(tree)) if (fault.place, fault.key) not in seen]
+    if content is not None and not faults:
+        faults += parameter_faults(tree, content)
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
     return Deck(

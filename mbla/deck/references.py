@@ -102,6 +102,9 @@ def check_references(tree: Tree) -> Iterator[Fault]:
             yield tree.fault(
                 ("expected", case), Message("unknown-name", unknown("load case", case, cases, "known")), at_key=True
             )
+    for path, case in find(data, ["find", "load_case"]):
+        if isinstance(case, str) and case not in cases:
+            yield tree.fault(path, Message("unknown-name", unknown("load case", case, cases, "known")))
     for law in _keys(data.get("joints")):
         if law in BUILT_IN:
             message = f"{law} is a joint law that every deck knows: choose another name, or use it without declaring it"

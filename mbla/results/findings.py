@@ -57,6 +57,8 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-rough",
         "range-not-found",
         "force-range-not-found",
+        "geometric-safety-not-done",
+        "sensitivity-not-done",
         "tilt-between-not-proved",
     }
 )
@@ -112,6 +114,8 @@ def _of_figures(case: CaseResult) -> list[Notice]:
             texts.append(("range-not-verified", f"the {end} end of the range was found but is not verified"))
     if solution.peak is not None and checks.peak_load_factor != checks.peak_load_factor:
         texts.append(("peak-not-verified", "a peak of the load path was found, but its forces are not verified"))
+    if solution.geometric_safety is not None and not solution.geometric_safety.verified:
+        texts.append(("geometric-safety-not-verified", "the geometric factor of safety was found but is not verified"))
     return [Notice("warning", identifier, f"{name}: {text}", name) for identifier, text in texts]
 
 

@@ -36,9 +36,11 @@ from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
 from mbla.solution.glued import with_derived
+from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
+from mbla.solution.sensitivity.sensitivity import with_sensitivity
 from mbla.solution.settings import settings_for, solver_settings
-from mbla.solution.solution import Solution, Standing, Status
+from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.verify import level_bound, verify
@@ -88,8 +90,22 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     if load_case.tilt is not None:
         upright = level_bound(model, contacts, load_case, solution)
         load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
+    if solution.geometric_safety is not None:
+        safety = solution.geometric_safety
+        own = proved(model, contacts, load_case, safety)
+        solution = replace(solution, geometric_safety=replace(safety, verified=own))
     checks = verify(model, contacts, load_case, solution)
+    if deck is not None and solution.sensitivity:
+        solution = _with_slopes(results, model, load_case, solution, checks)
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
+
+
+def _with_slopes(results: Results, model: Model, load_case: LoadCase, solution: Solution, checks: Checks) -> Solution:
+    """The solution with slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
+    with tempfile.TemporaryDirectory() as name:
+        deck = deck_of(results.deck, Path(name), expected=False)
+        bare = replace(solution, sensitivity=())
+        return with_sensitivity(deck, model, results.contacts, load_case, bare, checks)
 
 
 def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crushable: bool) -> Solution:
@@ -135,6 +151,10 @@ def _left_out(case: CaseResult, deck: Deck) -> list[str]:
     said = {remark.identifier for remark in solution.remarks}
     pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
     missing = [] if pushed else ["pushover"]
+    slopes = bool(solution.sensitivity) or "sensitivity-not-done" in said
+    missing += ["sensitivity"] if deck.analysis.sensitivity is not False and not slopes else []
+    safe = solution.geometric_safety is not None or "geometric-safety-not-done" in said
+    missing += ["geometric factor of safety"] if deck.analysis.geometric_safety and not safe else []
     missing += ["standing"] if knobs.standing and claims and solution.standing is None else []
     if solution.mechanics is None or solution.conditions_on_interfaces:
         return [_lacks(what) for what in missing]

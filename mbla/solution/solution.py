@@ -202,6 +202,73 @@ class PushedSteps:
             yield pose
 
 
+class Side(StrEnum):
+    """To which side of the value of a parameter a slope holds; of a kink it is the one above."""
+
+    BOTH = "both"
+    ABOVE = "above"
+    BELOW = "below"
+    KINK = "kink"
+    NONE = "not known"
+
+
+@dataclass(frozen=True)
+class Slope:
+    """How the associative load factor changes with a parameter.
+
+    parameter  : key path in the deck; ``dead load`` or ``live load``: a factor on all of it; ``tie`` and a name:
+                 the force at which that yields
+    value      : in the deck's unit
+    unit       : empty for plain numbers, and for parameters of expressions
+    slope      : derivative of the load factor by it, nan where it is not known
+    elasticity : relative change of the load factor over that of the parameter; nan where the load factor is 0
+    side       : see ``Side``
+    remark     : in words; empty for nothing
+    """
+
+    parameter: str
+    value: float
+    unit: str
+    slope: float
+    elasticity: float
+    side: Side
+    remark: str
+
+
+@dataclass(frozen=True)
+class GeometricSafety:
+    """The least size of joints, all shrunk about their middles, that carries the dead load, between two sizes.
+
+    sizes        : (n_ends,) over that of the joints: at the first it stands, at the second it falls; there is no second
+                   where joints of next to no size stand
+    pressed      : (n_ends,) pressure on all joints in the problem that shows it, whose load factor takes it away again:
+                   above it the dead load alone is carried, below it not; over the dead load per area of joints
+    load_factors : (n_ends,) of that problem
+    forces       : (n_ends, n_points, 3) N, T1, T2 [N] at the points of the shrunk joints
+    mechanisms   : (n_ends, n_blocks, 6) for a live power of 1
+    solves       : programs with a load factor that were solved
+    verified     : whether code that did not solve them confirms that it stands at the first and falls at the second
+    """
+
+    sizes: FloatArray
+    pressed: FloatArray
+    load_factors: FloatArray
+    forces: FloatArray
+    mechanisms: FloatArray
+    solves: int
+    verified: bool
+
+    @property
+    def factor(self) -> float:
+        """The geometric factor of safety that is shown: the joints may shrink by that; more than it is not."""
+        return 1.0 / float(self.sizes[0])
+
+    @property
+    def most(self) -> float:
+        """A factor that is not reached; inf where none is known."""
+        return 1.0 / float(self.sizes[1]) if len(self.sizes) > 1 else float("inf")
+
+
 @dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
@@ -266,6 +333,8 @@ class Solution:
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
     pushed      : forces and mechanisms of its steps
+    sensitivity : slopes of the associative load factor, by the parameters that the deck asks for
+    geometric_safety : of the dead load alone, on request
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -297,6 +366,8 @@ class Solution:
     curve: tuple[CurveRow, ...] = ()
     curve_end: CurveEnd = CurveEnd.NONE
     pushed: PushedSteps | None = field(default=None, compare=False)
+    sensitivity: tuple[Slope, ...] = ()
+    geometric_safety: GeometricSafety | None = field(default=None, compare=False)
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"

@@ -8,13 +8,13 @@ from functools import cached_property
 from pathlib import Path
 
 from mbla.deck.deck import Deck, check_regular, read_deck
+from mbla.deck.parameter_keys import path_of_key, unit_of, vector_at
 from mbla.deck.references import side_files
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.include import confined
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, Tree, key_text
 from mbla.errors import DeckError, Fault, FileError, Message, Place
-from mbla.sweeps.base_keys import path_of_key, unit_of, vector_at
 from mbla.sweeps.base_rules import base_faults
 from mbla.sweeps.design.design import Point, Sources, Vector
 from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
@@ -58,7 +58,8 @@ class Base:
         """Vector of the base deck that each parameter with directions turns, by its name."""
         parameters = self.sweep.content.parameters
         turning = [name for name in self.paths if way_of(parameters[name]) in DIRECTIONS]
-        return {name: vector for name in turning if (vector := vector_at(self.deck, self.paths[name][0])) is not None}
+        found = {name: vector_at(self.deck.content, self.paths[name][0]) for name in turning}
+        return {name: vector for name, vector in found.items() if vector is not None}
 
     @property
     def sources(self) -> Sources:

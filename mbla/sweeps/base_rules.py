@@ -15,11 +15,11 @@ from mbla.deck.content import DeckContent
 from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
+from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, key_text, shorten
 from mbla.errors import DeckError, Fault, Finding, Message, Place
-from mbla.sweeps.base_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts
@@ -99,9 +99,9 @@ def _directions(base: Base) -> Iterator[Finding]:
         way = way_of(parameter)
         if way not in DIRECTIONS:
             continue
-        vectors = {path: vector_at(base.deck, path) for path in base.paths[name]}
+        vectors = {path: vector_at(base.deck.content, path) for path in base.paths[name]}
         for path in (path for path, vector in vectors.items() if vector is None):
-            found = "nothing" if value_at(base.deck, path) is None else "something else"
+            found = "nothing" if value_at(base.deck.content, path) is None else "something else"
             message = f"turns a vector of three numbers; the deck has {found} at {key_text(path)}"
             yield Finding("sweep-directions", message, "parameters", name, way)
         if None in vectors.values():

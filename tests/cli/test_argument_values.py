@@ -24,6 +24,8 @@ from mbla.cli.terminal import WIDTH, clear_line, line_width, rewrite_line
         (values.seconds, "0.5", 0.5),
         (values.relative, "0", 0.0),
         (values.relative_above_zero, "1e-3", 1e-3),
+        (values.target, "load_factor=1.5", ("load_factor", 1.5)),
+        (values.target, "stands", ("stands", 0.0)),
     ],
 )
 def test_taken(value: Callable[[str], object], text: str, expected: object) -> None:
@@ -35,6 +37,9 @@ def test_taken(value: Callable[[str], object], text: str, expected: object) -> N
     [
         (values.names, "a,,b", "'a,,b' is not a list of names with commas between them"),
         (values.names, "", "'' is not a list of names with commas between them"),
+        (values.target, "load_factor", "is not load_factor=VALUE"),
+        (values.target, "load_factor=nan", "is not load_factor=VALUE"),
+        (values.target, "angle=1", "is not load_factor=VALUE"),
         (values.seconds, "0", "a positive number of seconds"),
         (values.seconds, "inf", "a positive number of seconds"),
         (values.relative, "-1e-9", "a relative difference, 0 or more"),

@@ -24,11 +24,15 @@ FILE = {
     "check": "deck",
     "interact": "deck",
     "tradeoff": "deck",
+    "find": "deck",
     "sweep": "sweep",
     "show": "result",
     "verify": "result",
 }
 """what a command with one file is about, as its object names it"""
+
+
+FIND = ("--target", "load_factor=0.3", "--bounds", "0.1", "0.4")
 
 
 def commands() -> dict[str, argparse.ArgumentParser]:
@@ -114,6 +118,13 @@ def test_a_file_that_cannot_be_read(
         (["run", "deck.yaml", "--expected"], "no-expectations"),
         (["interact", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
         (["interact", "deck.yaml", "--directions", "-1"], "interact-option"),
+        (["find", "deck.yaml"], "find-option"),
+        (["find", "deck.yaml", "--parameter", "parameters.nu", *FIND], "find-option"),
+        (["find", "deck.yaml", "--parameter", "analysis.gap", *FIND], "find-option"),
+        (["find", "deck.yaml", "--parameter", "parameters.mu", *FIND, "--case", "nonsuch"], "unknown-load-case"),
+        (["find", "deck.yaml", "--parameter", "parameters.mu", *FIND, "--scan", "0"], "find-option"),
+        (["find", "deck.yaml", "--parameter", "parameters.mu", *FIND, "--bounds", "2", "1"], "find-option"),
+        (["find", "deck.yaml", "--target", "angle=3"], "command-line"),
         (["tradeoff", "deck.yaml", "--case", "nonsuch"], "unknown-load-case"),
         (["tradeoff", "deck.yaml", "--knob", "nonsense"], "tradeoff-option"),
         (["tradeoff", "deck.yaml", "--knob", "analysis.nonsuch=1,2"], "tradeoff-option"),

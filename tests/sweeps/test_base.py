@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
+from mbla.deck.parameter_keys import path_of_key, unit_of
 from mbla.errors import DeckError
 from mbla.sweeps.base import Base, check_points
-from mbla.sweeps.base_keys import path_of_key, unit_of
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
 from mbla.sweeps.identity import fingerprint_of, key_hash

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.quantities import Count, Quantity, Switch, Time
+from mbla.deck.quantities import Count, Line, Quantity, Switch, Time
 from mbla.deck.section import Section, rule
 from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
+
+Sensitivity: TypeAlias = Annotated[
+    Annotated[Switch, Tag("switch")] | Annotated[list[Line], Field(min_length=1), Tag("list")],
+    Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "switch"),
+]
+"""All usual parameters or none, or those of some key paths."""
 
 
 class PublishedScheme(Section):
@@ -84,6 +90,17 @@ class AnalysisSection(Section):
     )
     force_ranges: Switch = Field(
         False, description="how far the normal force of each interface can range at the load factor"
+    )
+    sensitivity: Sensitivity = Field(
+        False,
+        description="how much the associative load factor changes with parameters. true: friction and strengths of "
+        "every joint law, density of every material, capacity of every tie, sizes of dead and live load; or a list of "
+        "key paths of real numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
+    )
+    geometric_safety: Switch = Field(
+        False,
+        description="by how much all joints may shrink about their middles before the dead load falls: of an arch the "
+        "thickness over the least one",
     )
     reductions: Switch = Field(
         True,

@@ -20,9 +20,12 @@ from mbla.solution.solution import (
     ContactMode,
     CurveEnd,
     CurveRow,
+    GeometricSafety,
     Mechanics,
     ModelSize,
     PushedSteps,
+    Side,
+    Slope,
     Solution,
     Standing,
     StandingResult,
@@ -57,6 +60,8 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
         "curve_end": CurveEnd(get.get("curve_end", "")),
         **_pushed(get),
+        "geometric_safety": _geometric_safety(get),
+        "sensitivity": _records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
     }
     if "spread" in own:
         own["spread"] = tuple(own["spread"].tolist())
@@ -82,6 +87,15 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
     if not len(steps) or not len(steps.load_factors) == len(steps) == len(steps.point_start) - 1:
         raise ValueError("steps of a pushover")
     return {"curve": _records(CurveRow, get, "curve"), "pushed": steps}
+
+
+def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
+    if "geometric_safety/sizes" not in get:
+        return None
+    values = {name: get[f"geometric_safety/{name}"] for name in stored(GeometricSafety, "cases/*/geometric_safety")}
+    if not 1 <= len(values["sizes"]) <= 2 or not (values["sizes"] > 0.0).all():
+        raise ValueError("sizes of joints")
+    return GeometricSafety(**values | {"verified": bool(values["verified"])})
 
 
 def _choices(key: str) -> tuple[str, ...]:
@@ -160,6 +174,7 @@ def _records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Recor
     names = stored(kind, f"cases/*/{group}")
     found = [get[f"{group}/{name}"] for name in names]
     columns = [column if isinstance(column, list) else column.tolist() for column in found]
-    if "status" in names:
-        columns[names.index("status")] = [Status(value) for value in columns[names.index("status")]]
+    for name, choice in (("status", Status), ("side", Side)):
+        if name in names:
+            columns[names.index(name)] = [choice(value) for value in columns[names.index(name)]]
     return tuple(kind(**dict(zip(names, row, strict=True))) for row in zip(*columns, strict=True))

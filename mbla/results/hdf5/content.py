@@ -26,6 +26,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import (
     Checks,
     CurveRow,
+    GeometricSafety,
     IterationRecord,
     Mechanics,
     ModelSize,
@@ -33,6 +34,7 @@ from mbla.solution.solution import (
     ProgramRecord,
     PushedSteps,
     ReductionStep,
+    Slope,
     Solution,
     StandingResult,
 )
@@ -239,6 +241,11 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
     else:
         del content["curve_end"]
+    if solution.sensitivity:
+        content |= _columns("sensitivity", Slope, solution.sensitivity)
+    if solution.geometric_safety is not None:
+        held = _held(solution.geometric_safety, GeometricSafety, "cases/*/geometric_safety")
+        content |= _below("geometric_safety", held)
     assessment = assessment_of(model, contacts, case)
     if assessment is not None:
         content |= _columns("assessment", Figure, assessment.figures)

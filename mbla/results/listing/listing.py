@@ -27,6 +27,7 @@ from mbla.results.listing.forces import (
     reaction_lines,
     work_lines,
 )
+from mbla.results.listing.geometric_safety import geometric_safety_lines
 from mbla.results.listing.mechanism_words import description_of, mechanism_lines, mechanism_summary
 from mbla.results.listing.model_words import (
     contact_lines,
@@ -38,6 +39,7 @@ from mbla.results.listing.model_words import (
     spaced,
 )
 from mbla.results.listing.pushover import curve_lines
+from mbla.results.listing.sensitivity import sensitivity_lines
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
 from mbla.results.listing.tie_words import tie_force_lines
@@ -87,6 +89,8 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         Section("Reductions", spaced(reduction_lines(solution.reductions))),
         Section("Load path", path_lines(model, case)),
         Section("Pushover", curve_lines(model, case)),
+        Section("Geometric safety", geometric_safety_lines(case)),
+        Section("Sensitivity", sensitivity_lines(case)),
         Section("Assessment", assessment_lines(model, contacts, case)),
         Section("Solver programs", program_lines(solution)),
     ]

@@ -160,6 +160,8 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "curve": as_json(solution.curve),
         "curve_end": solution.curve_end,
+        "sensitivity": as_json(solution.sensitivity),
+        "geometric_safety": _geometric_safety(solution),
         "assessment": as_json(assessment_of(model, scene.contacts, case)),
         "mechanism": None
         if mechanics is None
@@ -202,6 +204,14 @@ def _standing(model: Model, solution: Solution) -> dict[str, str | None] | None:
         return None
     block = None if standing.block is None else model.blocks.name(standing.block)
     return {"verdict": standing.verdict.value, "block": block, "reason": standing.reason or None}
+
+
+def _geometric_safety(solution: Solution) -> dict[str, Any] | None:
+    found = solution.geometric_safety
+    if found is None:
+        return None
+    factors = {"factor": number(found.factor), "most": number(found.most)}
+    return factors | {"solves": found.solves, "verified": bool(found.verified)}
 
 
 def _certificate(solution: Solution) -> str | None:

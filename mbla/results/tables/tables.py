@@ -84,6 +84,7 @@ ITERATIONS = _list_table("iterations", "each iteration of each program")
 PATH = _list_table("path", "each step of the load path that was followed")
 
 CURVE = _list_table("curve", "each step of a pushover")
+SENSITIVITY = _list_table("sensitivity", "each parameter by which the load factor is known to change")
 
 
 def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
@@ -144,7 +145,10 @@ NOTICES = TableKind(
 
 TABLES: dict[str, TableKind] = {
     kind.name: kind
-    for kind in (CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE, SERIES, NOTICES)
+    for kind in (
+        *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
+        *(SENSITIVITY, SERIES, NOTICES),
+    )
 }
 
 

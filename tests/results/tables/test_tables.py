@@ -46,6 +46,7 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
         "iterations": 12,
         "path": 0,
         "curve": 0,
+        "sensitivity": 0,
         "series": 0,
         "notices": len(notices_of(results)),
     }

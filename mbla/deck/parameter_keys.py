@@ -1,4 +1,4 @@
-"""Key paths of a sweep in its base deck: whether there is such a key, its unit, its value."""
+"""Key paths of parameters in a deck: whether there is such a key, its unit, its value."""
 
 from __future__ import annotations
 
@@ -11,23 +11,24 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from mbla.deck.content import DeckContent
-from mbla.deck.deck import Deck
 from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at, takes_names
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
 from mbla.deck.text.overrides import RefusedError, item_index, next_key
-from mbla.deck.text.tree import KeyPath, key_text, shorten
+from mbla.deck.text.tree import KeyPath, Tree, key_text, shorten
 from mbla.deck.units import Units
+from mbla.errors import Fault, Message
 
 FIXED = {
     "include": "files are included before anything is set",
     "mbla": "it is the version of the format",
-    "units": "the columns of the table have one unit",
-    "title": "it does not change what a point gives",
-    "output": "it does not change what a point gives; the sweep file says with output.files what is kept",
-    "expected": "it does not change what a point gives",
+    "units": "figures that are compared have one unit",
+    "title": "it does not change the answer",
+    "find": "it does not change the answer",
+    "output": "it does not change the answer",
+    "expected": "it does not change the answer",
 }
-"""Sections of the deck that no parameter changes, and why"""
+"""Sections of the deck that hold no parameter, and why"""
 
 
 def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
@@ -39,7 +40,7 @@ def path_of_key(data: Mapping[str, Any], key: str) -> KeyPath:
     """
     words = key.strip().split(".")
     if words[0] in FIXED:
-        raise RefusedError("sweep-key", f"{words[0]} cannot change from point to point: {FIXED[words[0]]}")
+        raise RefusedError("sweep-key", f"{words[0]} holds no parameter: {FIXED[words[0]]}")
     path: KeyPath = ()
     below: Any = data
     while words:
@@ -81,11 +82,41 @@ def _takes_plain_values(path: KeyPath) -> bool:
     )
 
 
+def number_at(content: DeckContent, path: KeyPath) -> float | None:
+    """Real number at a path, in the deck's units; None for what is none, such as a count, a choice or a section."""
+    value = value_at(content, path) if dimensions_at(path) else None
+    return None if isinstance(value, bool) or not isinstance(value, (int, float)) else float(value)
+
+
+def dimensions_at(path: KeyPath) -> set[str]:
+    """Dimensions that a value at a path may have; none where no real number stands."""
+    return {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
+
+
+def parameter_faults(tree: Tree, content: DeckContent) -> Iterator[Fault]:
+    """What is wrong with the key paths that a deck itself has for parameters."""
+    asked = content.analysis.sensitivity
+    named: dict[KeyPath, str] = {}
+    if isinstance(asked, list):
+        named = {("analysis", "sensitivity", row): key for row, key in enumerate(asked)}
+    if content.find is not None:
+        named["find", "parameter"] = content.find.parameter
+    for place, key in named.items():
+        try:
+            path = path_of_key(tree.data, key)
+        except RefusedError as refusal:
+            yield tree.fault(place, Message("parameter-key", refusal.message.words))
+            continue
+        if path[0] in ("analysis", "find") or number_at(content, path) is None:
+            words = f"{key_text(path)} is no real number of the structure or its loads that the deck gives"
+            yield tree.fault(place, Message("parameter-key", words))
+
+
 def unit_of(paths: Sequence[KeyPath], units: Units) -> str:
     """The deck's unit of the values at some paths; empty for plain numbers, for text, where several are possible."""
     found = set()
     for path in paths:
-        at = {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
+        at = dimensions_at(path)
         found.add(units.unit(at.pop()) if len(at) == 1 else "")
     return found.pop() if len(found) == 1 else ""
 
@@ -105,9 +136,9 @@ def _quantities(annotation: Any) -> Iterator[Quantity]:
             yield from _quantities(each)
 
 
-def value_at(deck: Deck, path: KeyPath) -> Any:
+def value_at(content: DeckContent, path: KeyPath) -> Any:
     """Checked value at a path, in the deck's units; None where there is none."""
-    value: Any = deck.content.model_dump(by_alias=True)
+    value: Any = content.model_dump(by_alias=True)
     with suppress(KeyError, IndexError, TypeError):
         for key in path:
             value = value[key]
@@ -115,9 +146,9 @@ def value_at(deck: Deck, path: KeyPath) -> Any:
     return None
 
 
-def vector_at(deck: Deck, path: KeyPath) -> tuple[float, float, float] | None:
+def vector_at(content: DeckContent, path: KeyPath) -> tuple[float, float, float] | None:
     """Vector of three numbers at a path; None where there is something else."""
-    value = value_at(deck, path)
+    value = value_at(content, path)
     if not isinstance(value, tuple) or len(value) != 3 or not all(isinstance(each, (int, float)) for each in value):
         return None
     x, y, z = (float(each) for each in value)

@@ -1,0 +1,55 @@
+"""Section `find`: the value of a parameter at which a result is what it should be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from mbla.deck.quantities import Integer, Line, Name, Number, Quantity, Switch
+from mbla.deck.section import Section, exactly_one_of, rule
+from mbla.errors import Finding
+
+MOST_STEPS = 1000
+"""of a scan"""
+TOLERANCE = 1e-6
+"""of the value that is found, relative, unless the deck says otherwise"""
+
+
+@exactly_one_of()
+class TargetSection(Section):
+    """What the result should be; one of these."""
+
+    load_factor: Number | None = Field(None, description="by the flow rule of the analysis")
+    least_load_factor: Number | None = Field(None, description="the least that is found without dilatancy")
+    stands: Switch | None = Field(
+        None,
+        description="true: the limit at which the dead load is just carried, whatever the live load; measured by the "
+        "greatest uniform pressure in all joints, as of water, that is carried with it: 0 at the limit",
+    )
+
+
+class FindSection(Section):
+    """What `mbla find` looks for; options of the command go before it. `mbla run` takes no notice of it."""
+
+    parameter: Line = Field(description="key path of a real number in the deck, as `--set` takes it")
+    target: TargetSection = Field(description="what the result should be")
+    bounds: tuple[Number, Number] = Field(description="least and greatest value, in the deck's units")
+    load_case: Name | None = Field(None, description="which one; needed where there are several")
+    scan: Annotated[int, Integer(ge=1, le=MOST_STEPS)] = Field(
+        1, description="equal steps from bound to bound, each of which is looked at: more than 1 finds several values"
+    )
+    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+        TOLERANCE, description="of the value, relative to the larger of the bounds"
+    )
+
+
+@rule(FindSection)
+def find(section: FindSection) -> Iterator[Finding]:
+    """Bounds are in order, and a switch is on."""
+    least, greatest = section.bounds
+    if not least < greatest:
+        yield Finding("out-of-bounds", f"must be > {least:g}, the other bound", "bounds", 1)
+    if section.target.stands is False:
+        yield Finding("wrong-value", "must be true: a value at which it just stands is looked for", "target", "stands")

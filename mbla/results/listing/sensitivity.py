@@ -1,0 +1,57 @@
+"""How the load factor changes with parameters, in words and as a table."""
+
+from __future__ import annotations
+
+import math
+
+from mbla.results.listing.text import number, sentence, table
+from mbla.results.outcome import result_of
+from mbla.results.results import CaseResult
+from mbla.solution.solution import Side, Slope
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+
+OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"
+WITHOUT_DILATANCY = ": the load factor shown is not unique, and has no derivative of its own"
+THE_SAME = ", which is the load factor shown as well"
+MEANING = (
+    "Elasticity: relative change of the load factor over that of the parameter. Where several mechanisms or fields of "
+    "force give the same load factor, the slopes to both sides differ, and the one given lies between them."
+)
+
+
+SIDES = {Side.ABOVE: "above only", Side.BELOW: "below only", Side.KINK: "above"}
+"""to which side a slope holds, where not to both"""
+
+
+ROUNDING = 1e-7
+"""Elasticity below which a slope is nothing but rounding."""
+
+
+def sensitivity_lines(case: CaseResult) -> list[str]:
+    """A row for each parameter that the deck asks for; nothing where it asks for none."""
+    slopes, associative = case.solution.sensitivity, case.solution.associative
+    if not slopes or associative is None:
+        return []
+    rows = [
+        [
+            each.parameter,
+            f"{number(each.value)} {each.unit}".rstrip(),
+            *(_figure(value, each) for value in (each.slope, each.elasticity)),
+            "; ".join(words for words in (SIDES.get(each.side, ""), each.remark) if words),
+        ]
+        for each in slopes
+    ]
+    own = result_of(case)
+    same = own is not None and math.isclose(own.load_factor, associative.load_factor, rel_tol=SOLVED_RESIDUAL)
+    says = OF_ASSOCIATIVE.format(number(associative.load_factor))
+    if case.solution.flow_rule != "associative":
+        says += THE_SAME if same else WITHOUT_DILATANCY
+    head = ["parameter", "value", "slope", "elasticity", ""]
+    return ["", *sentence(f"{says}."), "", *table(head, rows), "", *sentence(MEANING)]
+
+
+def _figure(value: float, slope: Slope) -> str:
+    """A figure of a row, 0 where it is rounding, a dash where it is not known."""
+    if not math.isfinite(value):
+        return "-"
+    return "0" if slope.value != 0.0 and abs(slope.elasticity) < ROUNDING else number(value)

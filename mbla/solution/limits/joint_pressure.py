@@ -1,0 +1,102 @@
+"""The greatest uniform pressure in all joints, as of water, that is carried with the dead load.
+
+Effective forces x obey the joint laws; n is the area of each contact point, as a normal force::
+
+    max p   subject to   A x + d + p A n = 0
+
+At p = 0 it is the dead load alone. Where that is not carried p is negative: what must press the joints together. So p
+passes smoothly through zero, which no multiple of a live load does, and its slope by a parameter is known on both
+sides. The program starts from a pressure −P at which it stands, so that its load factor is P + p over a unit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
+from mbla.deck.sections.analysis import AnalysisSection
+from mbla.program.build import build_program
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
+from mbla.solution.solve import solve
+from mbla.solution.verification.statics import contact_resultants
+from mbla.solution.verification.verify import verify
+from mbla.solution.verification.verify_points import verified_status
+
+PRESSED = 100.0
+"""Pressure at which it is searched for first, in units: most structures stand under that"""
+MOST_PRESSED = 1e8
+"""The same, beyond which nothing makes it stand"""
+
+
+@dataclass(frozen=True)
+class JointPressure:
+    """What was found; pressures in units of dead load per area of joints.
+
+    posed   : the structure with its joints pressed together, whose live load takes that away
+    status  : that of its load case, no better than its verification confirms
+    pressed : by how much they are
+    unit    : of pressure, in the deck's
+    solves  : of programs until one stood
+    """
+
+    posed: Structure
+    solution: Solution
+    checks: Checks
+    status: Status
+    pressed: float
+    unit: float
+    solves: int
+
+    @property
+    def value(self) -> float:
+        """The pressure; nan where it is not known, −∞ where no pressure makes it stand, ∞ where none brings it down."""
+        if self.status is Status.NO_EQUILIBRIUM:
+            return -np.inf
+        if self.status is Status.UNBOUNDED:
+            return np.inf
+        mechanics = self.solution.mechanics
+        return np.nan if mechanics is None or self.status not in WITH_VALUE else mechanics.load_factor - self.pressed
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """What is proved of it."""
+        return self.checks.static_bound - self.pressed, self.checks.kinematic_bound - self.pressed
+
+
+def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> JointPressure:
+    """The greatest pressure for the dead load of a load case, by associative flow."""
+    own = analysis.model_copy(update={"flow_rule": "associative", "standing": False, "scheme": "auto"})
+    settings, unit = solver_settings(own), unit_of_pressure(structure)
+    pressed, solves = PRESSED, 0
+    while True:
+        posed = pressed_by(structure, pressed, unit)
+        program = build_program(tied(solids_of(posed.model, posed.contacts)), posed.load_case, own)
+        solution = solve(program, settings, log)
+        checks = verify(posed.model, posed.contacts, posed.load_case, solution)
+        status, solves = verified_status(solution, checks), solves + 1
+        if status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
+            return JointPressure(posed, solution, checks, status, pressed, unit, solves)
+        pressed *= 10.0
+
+
+def unit_of_pressure(structure: Structure) -> float:
+    """Sum of the dead forces on free blocks over the area of all joints; 1 where there is neither."""
+    forces = np.linalg.norm(structure.load_case.dead_load[structure.model.free, :3], axis=1).sum()
+    area = structure.contacts.areas.sum()
+    return float(forces / area) if forces > 0.0 and area > 0.0 else 1.0
+
+
+def pressed_by(structure: Structure, pressed: float, unit: float) -> Structure:
+    """The structure whose joints are pressed together, and whose live load takes that away; ``unit`` of pressure."""
+    contacts, case = structure.contacts, structure.load_case
+    normal = np.zeros((len(contacts.points), 3))
+    normal[:, 0] = unit * contacts.point_areas
+    apart = contact_resultants(structure.model, contacts, normal)
+    posed = replace(case, dead_load=case.dead_load - pressed * apart, live_load=apart, tilt=None)
+    return replace(structure, load_case=posed)

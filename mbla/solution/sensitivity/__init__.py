@@ -1,0 +1,1 @@
+"""How the associative load factor changes with parameters of the deck."""

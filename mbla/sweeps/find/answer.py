@@ -1,0 +1,138 @@
+"""The result for one value of a parameter, on which side of the target it is, and its slope.
+
+Of a load factor the side is known even where there is none: a structure that does not stand is below every target, one
+that no load brings down above it.
+
+That the dead load is just carried is asked by the greatest pressure that is carried with it in all joints, which passes
+through zero there (:mod:`mbla.solution.limits.joint_pressure`).
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass, replace
+
+from mbla.contacts.findings import contacts_of
+from mbla.contacts.glue import held_model
+from mbla.deck import Deck, read_deck_text
+from mbla.errors import DeckError, UsageError
+from mbla.model import Model, build_model
+from mbla.model.model import LoadCase, select_cases
+from mbla.results.outcome import least_and_greatest, result_of
+from mbla.results.results import CaseResult
+from mbla.results.sta import StatusFile
+from mbla.run import solve_case
+from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
+from mbla.solution.sensitivity.sensitivity import slope_by
+from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import Status
+from mbla.sweeps.find.question import Question
+
+SAME = 1e-7
+"""Difference of load factors, relative, that is none"""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The result for one value.
+
+    x        : the value
+    result   : load factor or pressure; nan where there is none
+    y        : result less target; infinite where only the side is known, nan where nothing is
+    slope    : of the result by the value; nan where it is not known
+    status   : of the load case; of ``stands`` whether it does, by proved bounds
+    verified : whether code that did not solve it confirms it
+    words    : why there is no result; empty where there is one
+    solves   : of programs with a load factor
+    bounds   : proved, of an associative result; nan without
+    """
+
+    x: float
+    result: float
+    y: float
+    slope: float
+    status: str
+    verified: bool
+    words: str = ""
+    solves: int = 1
+    bounds: tuple[float, float] = (math.nan, math.nan)
+
+
+def answer_at(deck: Deck, question: Question, x: float) -> Answer:
+    """The result for a value; a deck that is refused with it has none, and says why."""
+    text = f"{question.parameter}={x!r}"
+    try:
+        varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, text), expected=False)
+        model = build_model(varied)
+        contacts = contacts_of(varied, model)
+    except DeckError as error:
+        return Answer(x, math.nan, math.nan, math.nan, "refused", verified=False, words=str(error.faults[0]), solves=0)
+    structure = Structure(held_model(model, contacts), contacts, _case(model, question.load_case))
+    answer = _stands if question.kind == "stands" else _factor
+    return answer(varied, question, structure, x)
+
+
+def _case(model: Model, name: str) -> LoadCase:
+    cases = select_cases(model, (name,))
+    if len(cases) > 1:
+        words = f"{name} travels: choose one of its positions, such as {cases[0].name}"
+        raise UsageError("find-option", f"--case {words}")
+    return cases[0]
+
+
+# --- load factors ---------------------------------------------------------------------------------------------------
+
+
+def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
+    """A load factor of the load case, as ``mbla run`` gives it."""
+    model, contacts, load_case = structure.model, structure.contacts, structure.load_case
+    log = StatusFile(io.StringIO(), deck.title)
+    case = solve_case(deck, model, contacts, load_case, solver_settings(deck.analysis), log, None)
+    status, verified = case.status.value, case.checks.verified
+    if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
+        side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
+        return Answer(x, math.nan, side, math.nan, status, verified, case.solution.reason)
+    if result_of(case) is None:
+        return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
+    own = result_of(case)
+    assert own is not None
+    result = least_and_greatest(model, case)[0] if question.kind == "least_load_factor" else own.load_factor
+    slope, bounds, associative = math.nan, (math.nan, math.nan), case.solution.associative
+    if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
+        bounds = case.checks.static_bound, case.checks.kinematic_bound
+        slope = _slope(deck, question, replace(structure, load_case=case.load_case), case)
+    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds)
+
+
+def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResult) -> float:
+    """Of an associative load factor; nan where it has none.
+
+    It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
+    that two smooth functions of the parameter touch there.
+    """
+    found = slope_by(deck, structure, case.solution, case.checks, question.path)
+    return math.nan if found is None else found.slope
+
+
+# --- standing -------------------------------------------------------------------------------------------------------
+
+
+def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
+    """The greatest pressure in all joints that is carried with the dead load, and on which side of nothing it is."""
+    if structure.load_case.settlement is not None:
+        raise UsageError("find-option", f"{question.load_case}: a support that gives way has no limit of standing")
+    found = joint_pressure(structure, deck.analysis)
+    value, (least, most), verified = found.value, found.bounds, found.checks.verified
+    if not math.isfinite(value):
+        words = found.solution.reason or "it is not verified"
+        return Answer(x, math.nan, value, math.nan, found.status.value, verified, words, found.solves)
+    stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
+
+    def posed(other: Structure) -> Structure:
+        return pressed_by(other, found.pressed, found.unit)
+
+    slope = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed)
+    own = math.nan if slope is None else slope.slope
+    return Answer(x, value, value, own, stands, verified, "", found.solves, (least, most))

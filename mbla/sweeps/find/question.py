@@ -1,0 +1,109 @@
+"""What ``mbla find`` looks for: by the section of the deck, with options of the command in its place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from mbla.deck import Deck
+from mbla.deck.parameter_keys import number_at, path_of_key, unit_of
+from mbla.deck.sections.find import MOST_STEPS, TOLERANCE
+from mbla.deck.text.overrides import RefusedError
+from mbla.deck.text.tree import KeyPath, key_text
+from mbla.errors import UsageError
+
+TARGETS = {
+    "load_factor": "load factor",
+    "least_load_factor": "least load factor",
+    "stands": "pressure in all joints",
+}
+"""kinds of targets, and what is compared in words"""
+
+
+@dataclass(frozen=True)
+class Question:
+    """The value of a parameter between two bounds at which a result is a target.
+
+    parameter : key path as ``--set`` takes it
+    path      : the same in the deck
+    unit      : of its values; empty for plain numbers
+    kind      : of ``TARGETS``
+    target    : of the load factor; 0 for ``stands``
+    scan      : equal steps between the bounds at which the result is looked at
+    tolerance : of the value, relative to the larger of the bounds
+    load_case : name
+    """
+
+    parameter: str
+    path: KeyPath
+    unit: str
+    kind: str
+    target: float
+    bounds: tuple[float, float]
+    scan: int
+    tolerance: float
+    load_case: str
+
+    @property
+    def absolute_tolerance(self) -> float:
+        """Of the value, in its unit."""
+        return self.tolerance * max(map(abs, self.bounds))
+
+
+def question_of(deck: Deck, options: Any) -> Question:
+    """The question that deck and options ask; raises UsageError where they leave it open or contradict themselves.
+
+    options : ``parameter``, ``target``, ``bounds``, ``case``, ``scan``, ``tolerance``; each None for that of the deck
+    """
+    section = deck.content.find
+    given = {name: getattr(options, name) for name in ("parameter", "target", "bounds")}
+    kind, target = ("", 0.0) if given["target"] is None else given["target"]
+    if section is not None:
+        own = section.target
+        if not kind:
+            kind = next(name for name in TARGETS if getattr(own, name) is not None)
+            target = getattr(own, kind)
+        given["parameter"] = given["parameter"] or section.parameter
+        given["bounds"] = given["bounds"] or section.bounds
+    missing = [name for name in ("parameter", "bounds") if given[name] is None] + (["target"] if not kind else [])
+    if missing:
+        names = " and ".join(f"--{name}" for name in missing)
+        raise UsageError("find-option", f"{deck.path}: find needs {names}, or a section find in the deck")
+    path = _parameter(deck, given["parameter"])
+    least, greatest = given["bounds"]
+    steps = (1 if section is None else section.scan) if options.scan is None else options.scan
+    if not -math.inf < least < greatest < math.inf:
+        raise UsageError("find-option", f"--bounds {least:g} {greatest:g}: two numbers, the second the greater")
+    if not 1 <= steps <= MOST_STEPS:
+        raise UsageError("find-option", f"--scan {steps}: 1 to {MOST_STEPS} steps are allowed")
+    return Question(
+        parameter=".".join(map(str, path)),
+        path=path,
+        unit=unit_of([path], deck.units),
+        kind=kind,
+        target=0.0 if kind == "stands" else float(target),
+        bounds=(float(least), float(greatest)),
+        scan=steps,
+        tolerance=options.tolerance or (TOLERANCE if section is None else section.tolerance),
+        load_case=_load_case(deck, options.case or (None if section is None else section.load_case)),
+    )
+
+
+def _parameter(deck: Deck, key: str) -> KeyPath:
+    """Its path; raises UsageError where it is no real number of the structure or its loads."""
+    try:
+        path = path_of_key(deck.data, key)
+    except RefusedError as refusal:
+        raise UsageError("find-option", f"--parameter {key}: {refusal.message.words}") from refusal
+    if path[0] in ("analysis", "find") or number_at(deck.content, path) is None:
+        raise UsageError("find-option", f"--parameter {key}: {key_text(path)} is no real number that the deck gives")
+    return path
+
+
+def _load_case(deck: Deck, name: str | None) -> str:
+    """Name of the load case; raises UsageError where it is not said and there are several."""
+    names = list(deck.content.load_cases)
+    if name is None and len(names) > 1:
+        raise UsageError("find-option", f"--case is needed: the deck has {', '.join(names)}")
+    return names[0] if name is None else name

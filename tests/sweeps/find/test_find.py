@@ -1,0 +1,138 @@
+"""``mbla find`` on closed forms, the decks that have a section ``find``, and what is said where nothing is found."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from mbla import cli
+from mbla.deck import read_deck_text
+from mbla.sweeps.find.study import Finding, find
+from tests.decks.folder import PATHS, deck_of, name_of
+from tests.line import BLOCK, WALL
+
+ASKED = {"parameter": None, "target": None, "bounds": None, "case": None, "scan": None, "tolerance": None}
+OF_DECKS = {
+    "benchmarks/closed_forms/slopes_of_blocks": (5.0, 1e-7),
+    "benchmarks/closed_forms/groove": (0.5 * math.cos(math.radians(30)), 1e-6),
+    "benchmarks/published/cocchetti_rizzi_mu_700_stands": (0.107426, 1e-6),
+}
+"""value that the section `find` of each deck asks for, and how near"""
+UPWARDS = BLOCK.replace("live:", "dead: [{force: [0, 0, 30000], on: block}], live:")
+
+
+def asked(text: str, parameter: str, kind: str, target: float, bounds: tuple[float, float], **more: Any) -> Finding:
+    question = ASKED | {"parameter": parameter, "target": (kind, target), "bounds": bounds} | more
+    return find(read_deck_text(text, Path("deck.yaml")), SimpleNamespace(**question))
+
+
+def test_every_section_of_a_deck_finds_its_value() -> None:
+    sections = {name_of(path): path for path in PATHS if deck_of(path).content.find is not None}
+    assert sections.keys() == OF_DECKS.keys()
+    for name, (value, near) in OF_DECKS.items():
+        found = find(deck_of(sections[name]), SimpleNamespace(**ASKED))
+        assert found.exit_code == 0
+        assert found.zeros[0].best.x == pytest.approx(value, abs=near)
+
+
+@pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
+def test_height_of_a_block_that_rocks(flow_rule: str) -> None:
+    """Its load factor is b/h."""
+    text = BLOCK.replace("flow_rule: associative", f"flow_rule: {flow_rule}")
+    found = asked(text, "parameters.h", "load_factor", 0.3, (2.5, 8.0))
+    (zero,) = found.zeros
+    assert zero.best.x == pytest.approx(1 / 0.3, abs=8e-6)
+    assert zero.error <= 8e-6
+    assert found.solves <= 6
+
+
+def test_slopes_save_solves() -> None:
+    """Sliding and rocking meet at b/h = μ; beyond, the wall's factor does not grow with friction."""
+    with_slopes = asked(WALL, "parameters.mu", "load_factor", 0.5, (0.1, 1.0))
+    assert with_slopes.zeros[0].best.x == pytest.approx(0.5, abs=1e-6)
+    assert with_slopes.solves <= 4
+
+
+def test_a_block_that_is_lifted_just_stays_at_its_weight() -> None:
+    """The weight of 2 m3 is 2 ρ g: with 30 kN upwards the least density is 30000/(2 g)."""
+    found = asked(UPWARDS, "materials.stone.density", "stands", 0.0, (1000, 3000))
+    assert found.zeros[0].best.x == pytest.approx(30000 / (2 * 9.81), rel=1e-6)
+    assert found.solves <= 4
+    assert "it stands above" in " ".join(found.lines)
+
+
+def test_a_block_on_a_slope_just_stays_at_its_tangent() -> None:
+    text = BLOCK.replace("live:", "dead: [{gravity: [2.4, 0, -9.81]}], live:")
+    found = asked(text, "joints.dry.friction", "stands", 0.0, (0.1, 1.0))
+    assert found.zeros[0].best.x == pytest.approx(2.4 / 9.81, abs=1e-6)
+    assert found.zeros[0].best.verified
+
+
+def test_a_tie_with_which_a_block_just_stands() -> None:
+    """A force F at half its height turns it over; its weight and a tie at its top hold it: T h = F h/2 − W b/2."""
+    tie = 'ties: [{name: rod, through: [[0, 0.5, "=h"], [-3, 0.5, "=h"]], on: [block, ground], capacity: 9000}]\n'
+    text = BLOCK.replace("live:", "dead: [{force: [30000, 0, 0], on: block}], live:").replace(
+        "load_cases:", f"{tie}load_cases:"
+    )
+    text = text.replace("mu: 0.5", "mu: 2")
+    found = asked(text, "ties.0.capacity", "stands", 0.0, (1000, 20000))
+    assert found.zeros[0].best.x == pytest.approx((30000 - 2 * 2000 * 9.81 / 2) / 2, abs=0.02)
+
+
+def test_a_width_at_which_a_block_just_stands() -> None:
+    """Its weight ρ g h b holds it by b/2 about the edge at b, a force F at 1 turns it over: ρ g h b²/2 = F (1 − b)."""
+    text = BLOCK.replace("live:", "dead: [{force: [0, 0, -50000], on: block, at: [1, 0.5, 2]}], live:")
+    found = asked(text, "parameters.b", "stands", 0.0, (0.5, 2.0))
+    half = 2000 * 9.81 * 2 / 2
+    assert found.zeros[0].best.x == pytest.approx((math.sqrt(5e4**2 + 4 * half * 5e4) - 5e4) / (2 * half), abs=2e-6)
+
+
+def test_all_values_of_a_scan() -> None:
+    """A force at x on a block 1 m wide: it falls to the left of 0 and to the right of 1, or so."""
+    text = BLOCK.replace("ft: 0", "ft: 0, x: 0.5").replace(
+        "live:", 'dead: [{force: [0, 0, -50000], on: block, at: ["=x", 0.5, 2]}], live:'
+    )
+    half = 2 * 2000 * 9.81 / 50000 * 0.5
+    once = asked(text, "parameters.x", "stands", 0.0, (-2, 3))
+    assert (once.exit_code, once.zeros) == (5, ())
+    assert "Nothing was found" in " ".join(once.lines)
+    twice = asked(text, "parameters.x", "stands", 0.0, (-2, 3), scan=4)
+    assert [zero.best.x for zero in twice.zeros] == pytest.approx([-half, 1 + half], abs=1e-5)
+    below, above = ((zero.bracket[0].x, zero.bracket[1].x) for zero in twice.zeros)
+    assert below[0] < below[1]
+    assert above[0] > above[1]
+
+
+def test_where_it_stops_standing_the_load_factor_jumps() -> None:
+    """A block that is lifted slides at μ (W − F)/W down to nothing; the target lies below that."""
+    found = asked(UPWARDS, "materials.stone.density", "load_factor", -0.1, (1000, 3000))
+    (zero,) = found.zeros
+    assert zero.jumps
+    assert zero.best.x == pytest.approx(30000 / (2 * 9.81), rel=1e-4)
+    assert "jumps from no_equilibrium" in " ".join(" ".join(found.lines).split())
+
+
+def test_a_deck_that_is_refused_has_no_value() -> None:
+    found = asked(BLOCK, "parameters.mu", "load_factor", 0.3, (-1.0, 1.0))
+    assert (found.exit_code, found.answers[0].status) == (5, "refused")
+    assert "must be >= 0" in found.answers[0].words
+
+
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "block.yaml"
+    deck.write_text(BLOCK, encoding="utf-8")
+    options = ["--parameter", "parameters.h", "--target", "load_factor=0.25", "--bounds", "3", "8"]
+    assert cli.main(["find", str(deck), *options]) == 0
+    assert "parameters.h = 4" in capsys.readouterr().out
+    assert cli.main(["find", str(deck), *options, "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["found"][0]["value"] == pytest.approx(4.0, abs=1e-5)
+    assert record["solves"] == len(record["evaluations"])
+    assert cli.main(["find", str(deck), *options[:-2], "5", "8", "-q"]) == 5
+    assert capsys.readouterr().out == ""
+    assert list(tmp_path.iterdir()) == [deck]
