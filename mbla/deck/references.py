@@ -97,11 +97,12 @@ def check_references(tree: Tree) -> Iterator[Fault]:
             if isinstance(name, str) and name not in names:
                 yield tree.fault(path, Message("unknown-name", unknown(reference.kind, name, names, "known")))
     cases = _keys(data.get("load_cases"))
-    for case in _keys(data.get("expected")):
-        if case not in cases:
-            yield tree.fault(
-                ("expected", case), Message("unknown-name", unknown("load case", case, cases, "known")), at_key=True
-            )
+    strengthen = data.get("strengthen")
+    required = strengthen.get("required") if isinstance(strengthen, dict) else None
+    for place, section in ((("expected",), data.get("expected")), (("strengthen", "required"), required)):
+        for case in (name for name in _keys(section) if name not in cases):
+            words = unknown("load case", case, cases, "known")
+            yield tree.fault((*place, case), Message("unknown-name", words), at_key=True)
     for path, case in find(data, ["find", "load_case"]):
         if isinstance(case, str) and case not in cases:
             yield tree.fault(path, Message("unknown-name", unknown("load case", case, cases, "known")))

@@ -173,9 +173,7 @@ def refuse_unfit(deck: Deck) -> None:
     if content.symmetry:
         raise UsageError("strengthen-not-possible", "a deck with symmetry: give the whole structure")
     for name in content.strengthen.required:
-        case = content.load_cases.get(name)
-        if case is None:
-            raise UsageError("unknown-load-case", f"no load case {name} in the deck, which strengthen.required names")
+        case = content.load_cases[name]  # the deck was checked for that
         special = case.settlement is not None or any(
             load.travel is not None or load.tilt is not None for load in case.live or []
         )

@@ -1,0 +1,139 @@
+"""``mbla strengthen`` from deck to strengthened deck; its program is tested in tests/analytic/test_strengthening.py."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mbla.cli import main
+from mbla.deck import read_deck
+from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.verify import verify_file
+from mbla.sweeps.strengthen.study import rounded_up
+from tests.analytic.test_strengthening import ALONE, ROD
+from tests.analytic.test_ties import WEIGHT
+
+QUIET = "output: {vtu: false}\n"
+DECK = ALONE + QUIET + f"strengthen: {{required: {{push: 0.5}}, candidates: [{ROD}]}}\n"
+CAPACITY = WEIGHT * 0.3 / 1.6
+HALF = "strengthen: {required: {push: 0.4}, catalogue: [2000, 5000], candidates: ["
+WALL = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - wall: {group: wall, material: stone, unit: [0.4, 0.2, 0.2], length: 1.2, courses: 5}
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases:
+  out: {live: [{acceleration: [0, 1, 0]}]}
+  back: {live: [{acceleration: [0, -1, 0]}]}
+output: {vtu: false}
+strengthen:
+  required: {out: 0.35, back: 0.35}
+  candidates:
+    - {name: bars, vertical: {down: wall, every: 0.4}, cost: 2}
+    - {name: rod, through: [[0.6, 0, 0.9], [0.6, -2, 0.9]], on: [wall, ground]}
+"""
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK, encoding="utf-8")
+    return path
+
+
+def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, dict[str, object]]:
+    code = main(["strengthen", *arguments, "--json"])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def test_the_strengthened_deck_carries_what_it_has_to(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, record = told(capsys, str(path))
+    assert code == 0
+    assert record["cost"] == pytest.approx(3 * CAPACITY, rel=2e-5)
+    assert record["least_cost"] == pytest.approx(3 * CAPACITY, rel=1e-6)
+    folder = path.parent / "deck.out"
+    deck = read_deck(folder / "deck_strengthened.yaml")
+    assert deck.content.strengthen is None
+    assert [tie.capacity for tie in deck.content.ties] == pytest.approx([CAPACITY], rel=2e-5)
+    results = read_results_hdf5(folder / "deck_strengthened.h5")
+    assert results.cases[0].solution.mechanics is not None
+    assert results.cases[0].solution.mechanics.load_factor == pytest.approx(0.5, rel=2e-5)
+    assert verify_file(folder / "deck_strengthened.h5")[1] == ()
+    table = (folder / "deck_strengthened.csv").read_text(encoding="utf-8").splitlines()
+    rows = list(csv.DictReader(table))
+    assert [row["name"] for row in rows] == ["through[0]"]
+
+
+def test_an_earlier_result_is_kept_without_force(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["strengthen", str(path), "-q"]) == 0
+    assert main(["strengthen", str(path), "-q"]) == 6
+    assert main(["strengthen", str(path), "-q", "--force"]) == 0
+    assert "deck_strengthened" in capsys.readouterr().err
+
+
+def test_flow_without_dilatancy_decides_and_capacities_are_raised_for_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Both ways: bars in the middle of the wall hold it, its own flow rule being without normality."""
+    path = tmp_path / "wall.yaml"
+    path.write_text(WALL, encoding="utf-8")
+    code, record = told(capsys, str(path))
+    assert code == 0
+    cases = record["cases"]
+    assert isinstance(cases, dict)
+    assert all(case["load_factor"] >= 0.35 * (1 - 1e-5) for case in cases.values())
+    assert isinstance(record["cost"], float)
+    assert record["least_cost"] <= record["cost"] * (1 + 1e-6)  # type: ignore[operator]  # numbers of JSON
+
+
+def test_capacities_are_rounded_up_to_the_catalogue() -> None:
+    found = rounded_up(np.array([0.0, 1.0, 10.0, 10.1, 49.9, 50.0, 120.0]), [10.0, 20.0, 50.0])
+    assert found.tolist() == [0.0, 10.0, 10.0, 20.0, 50.0, 50.0, 150.0]
+
+
+def test_a_catalogue_leaves_out_what_is_hardly_used(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of two rods of one worth the program may share the force; one of the next size is enough."""
+    two = ROD.replace("0.5,", "0.3,")
+    path = tmp_path / "deck.yaml"
+    path.write_text(ALONE + QUIET + HALF + f"{ROD}, {two}]}}\n", encoding="utf-8")
+    code, record = told(capsys, str(path))
+    assert code == 0
+    candidates = record["candidates"]
+    assert isinstance(candidates, list)
+    assert sorted(each["capacity"] for each in candidates) == [0.0, 2000.0]
+
+
+def test_where_no_ties_suffice_the_exit_status_is_5(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK.replace("[-3, 0.5", "[3, 0.5"), encoding="utf-8")
+    code, record = told(capsys, str(path))
+    assert (code, record["status"]) == (5, "no_equilibrium")
+    assert main(["strengthen", str(path)]) == 5
+    assert "No strengthening" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "identifier"),
+    [
+        (ALONE, "no-strengthening"),
+        (
+            DECK.replace("live: [{acceleration: [1, 0, 0]}]", "live: [{tilt: {axis: [0, 1, 0]}}]"),
+            "strengthen-not-possible",
+        ),
+        (DECK + "symmetry: [{y: 0}]\n", "strengthen-not-possible"),
+    ],
+)
+def test_what_has_no_such_program_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, identifier: str
+) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert main(["strengthen", str(path)]) == 2
+    assert f"[{identifier}]" in capsys.readouterr().err
