@@ -97,19 +97,12 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
         for row in shown
     ]
     head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor", "residual"]
-    head += [
-        f"overlap [{units.length}]",
-        "live work",
-        "friction",
-        "dead load",
-        *(["ties"] if tied else []),
-        "mechanism",
-    ]
+    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else []), "motion"]
     says = [curve_words(model, case)]
     missing = energy_missing(curve)
     taken = "friction, ties and what" if tied else "friction and what"
     says.append(f"Live work less {taken} the dead load gained: {missing:.2g} of the live work.")
-    says.append(f"Work and energies in {units.force} {units.length}.")
+    says.append(f"Work and energies in {units.force} {units.length}, overlap of blocks in {units.length}.")
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
