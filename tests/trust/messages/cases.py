@@ -223,6 +223,13 @@ def table_that_is_none(folder: Path, patch: Patch) -> object:
     return tables_of(tower_results(), ["walls"], None)
 
 
+@brings("strengthen-not-possible")
+def strengthening_against_a_tilting_table(folder: Path, patch: Patch) -> object:
+    deck = changed("{acceleration: [1, 0, 0]}", "{tilt: {axis: [0, 1, 0]}}")
+    added = "strengthen: {required: {push: 0.5}, candidates: [{ring: {around: block, z: [0.5]}}]}\n"
+    return command("strengthen", str(write(folder, deck + added)))
+
+
 @brings("interact-load")
 def load_without_a_horizontal_part(folder: Path, patch: Patch) -> object:
     return command("interact", str(write(folder, changed("[1, 0, 0]", "[0, 0, 1]"))))
@@ -243,6 +250,8 @@ COMMANDS = {
     "picture_of_an_unknown_kind": ("picture-option", "plot {result} --dpi 9"),
     "pictures_in_one_file": ("several-pictures-one-file", "plot {result} --kind model,forces -o {folder}/a.png"),
     "angles_of_directions": ("interact-option", "interact {deck} --from 10"),
+    "value_of_nothing": ("find-option", "find {deck}"),
+    "strengthening_by_nothing": ("no-strengthening", "strengthen {deck}"),
     "knob_without_a_value": ("tradeoff-option", "tradeoff {deck} --knob analysis.accuracy"),
     "folder_without_a_table": ("sweep-table-damaged", "sweep-plot {folder}"),
 }
