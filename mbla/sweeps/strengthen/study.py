@@ -41,6 +41,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.outcome import least_and_greatest, result_of
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
+from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import solver_settings
@@ -49,6 +50,8 @@ from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, ch
 
 SHORT = 1e-6
 """share of a required load factor that may be missing: its rounding"""
+ACCURACY = 1e-4
+"""share by which capacities are larger than the program says: its accuracy on large structures"""
 MOST_ROUNDS, LITTLE = 10, 0.3
 """programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
 which a candidate is left out"""
@@ -174,11 +177,9 @@ def refuse_unfit(deck: Deck) -> None:
         raise UsageError("strengthen-not-possible", "a deck with symmetry: give the whole structure")
     for name in content.strengthen.required:
         case = content.load_cases[name]  # the deck was checked for that
-        special = case.settlement is not None or any(
-            load.travel is not None or load.tilt is not None for load in case.live or []
-        )
-        if special:
-            words = f"load case {name}: a load that travels or tilts, or a settlement, has no required load factor"
+        special = case.settlement is not None or case.objective is not None
+        if special or any(load.travel is not None or load.tilt is not None for load in case.live or []):
+            words = f"load case {name}: a load that travels or tilts, a settlement, an objective has no required factor"
             raise UsageError("strengthen-not-possible", words)
 
 
@@ -186,15 +187,14 @@ def _analysed(deck: Deck, model: Model, candidates: Candidates, found: Cheapest,
     """The strengthened structure, its capacities raised until it carries what it has to."""
     section, raised, tried = deck.content.strengthen, 1.0, list[tuple[float, float]]()
     assert section is not None
+    folder, stem = options.folder_for(deck.path), f"{deck.path.stem}_strengthened"
     for number in range(MOST_RAISES + 1):
         capacities = rounded_up(raised * found.capacities, section.catalogue)
         with TemporaryDirectory() as place:
-            path = Path(place) / "strengthened.yaml"
+            path = Path(place) / f"{stem}.yaml"
             path.write_text(strengthened_deck(deck, model, candidates.ties, capacities, path.parent), encoding="utf-8")
-            there = read_deck(path)
-            results = solve_deck(
-                there, RunOptions(cases=tuple(section.required)), StatusFile(StringIO(), ""), None, perf_counter()
-            )
+            asked = RunOptions(cases=tuple(section.required))
+            results = solve_deck(read_deck(path), asked, StatusFile(StringIO(), ""), None, perf_counter())
         factors = {name: (required, _factor(results, name)) for name, required in section.required.items()}
         short = min((factor - required) / (abs(required) or 1.0) for required, factor in factors.values())
         if all(_carried(*each) for each in factors.values()) or math.isnan(short) or number == MOST_RAISES:
@@ -202,10 +202,9 @@ def _analysed(deck: Deck, model: Model, candidates: Candidates, found: Cheapest,
         tried.append((raised, short))
         raised *= 1.0 + float(np.clip(_secant(tried), LEAST_RAISE, MOST_RAISE))
     verified = all(case.checks.verified for case in results.cases)
-    folder, stem = options.folder_for(deck.path), f"{deck.path.stem}_strengthened"
     cost = float(capacities @ candidates.costs)
     answer = Strengthened(deck, model, candidates, found, capacities, raised, cost, factors, verified, number + 1, ())
-    return replace(answer, files=_files(answer, folder, stem, options))
+    return replace(answer, files=_files(answer, results, folder, stem, options))
 
 
 def _secant(tried: Sequence[tuple[float, float]]) -> float:
@@ -230,7 +229,7 @@ def _factor(results: Results, name: str) -> float:
 def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
     """Capacities, (k,), as there are: the next in the catalogue, or as many of the greatest as it takes."""
     if catalogue is None:
-        return capacities * (1.0 + 10.0 * SHORT)
+        return capacities * (1.0 + ACCURACY)
     values = np.array(catalogue)
     row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
     several = np.ceil(capacities / values[-1] * (1.0 - SHORT))
@@ -271,17 +270,23 @@ def _tie(model: Model, ties: Ties, row: int, capacity: float) -> dict[str, Any]:
     return {"name": name, "through": through, "on": on, "capacity": float(f"{capacity:.9g}")}
 
 
-def _files(answer: Strengthened, folder: Path, stem: str, options: RunOptions) -> tuple[Path, ...]:
-    """Deck and table, and the results of the strengthened structure with pictures where these can be drawn."""
+def _files(answer: Strengthened, results: Results, folder: Path, stem: str, options: RunOptions) -> tuple[Path, ...]:
+    """Deck, table and results of the strengthened structure, with pictures where these can be drawn; their paths.
+
+    results : of the last analysis, which are those of the deck unless it has other load cases or names other files
+    """
     from mbla.sweeps.strengthen.report import table_csv  # late: it is written once
 
+    deck = answer.deck
+    text = strengthened_deck(deck, answer.model, answer.candidates.ties, answer.capacities, folder)
+    draws = bool(find_spec("matplotlib") and find_spec("pyvista"))
     with OutputFolder(folder, stem, options.force, secondary=True) as out:
-        out.write_text(f"{stem}.yaml", _text(answer, folder))
+        out.write_text(f"{stem}.yaml", text)
         out.write_text(f"{stem}.csv", table_csv(answer))
-    drawn = ("output.plots=true",) if find_spec("matplotlib") and find_spec("pyvista") else ()
-    run(folder / f"{stem}.yaml", replace(options, folder=folder, overrides=drawn, force=True))
+    if deck.side_files or len(results.cases) < len(results.model.load_cases):
+        drawn = ("output.plots=true",) if draws else ()
+        run(folder / f"{stem}.yaml", replace(options, folder=folder, overrides=drawn, force=True))
+    else:
+        with OutputFolder(folder, stem, force=True) as out:
+            write_results(results, out, deck.content.output.model_copy(update={"plots": draws}))
     return tuple(folder / f"{stem}.{kind}" for kind in ("yaml", "csv", "h5"))
-
-
-def _text(answer: Strengthened, folder: Path) -> str:
-    return strengthened_deck(answer.deck, answer.model, answer.candidates.ties, answer.capacities, folder)

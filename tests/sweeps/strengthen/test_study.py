@@ -56,15 +56,15 @@ def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, dict
 def test_the_strengthened_deck_carries_what_it_has_to(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, record = told(capsys, str(path))
     assert code == 0
-    assert record["cost"] == pytest.approx(3 * CAPACITY, rel=2e-5)
+    assert record["cost"] == pytest.approx(3 * CAPACITY, rel=2e-4)
     assert record["least_cost"] == pytest.approx(3 * CAPACITY, rel=1e-6)
     folder = path.parent / "deck.out"
     deck = read_deck(folder / "deck_strengthened.yaml")
     assert deck.content.strengthen is None
-    assert [tie.capacity for tie in deck.content.ties] == pytest.approx([CAPACITY], rel=2e-5)
+    assert [tie.capacity for tie in deck.content.ties] == pytest.approx([CAPACITY], rel=2e-4)
     results = read_results_hdf5(folder / "deck_strengthened.h5")
     assert results.cases[0].solution.mechanics is not None
-    assert results.cases[0].solution.mechanics.load_factor == pytest.approx(0.5, rel=2e-5)
+    assert results.cases[0].solution.mechanics.load_factor == pytest.approx(0.5, rel=2e-4)
     assert verify_file(folder / "deck_strengthened.h5")[1] == ()
     table = (folder / "deck_strengthened.csv").read_text(encoding="utf-8").splitlines()
     rows = list(csv.DictReader(table))
