@@ -49,6 +49,9 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
     for number, section in enumerate(sections):
         path: KeyPath = ("ties", number)
         lines = list(build_lines(section, path, roster, tolerance))
+        if section.prestress is not None and section.prestress > capacity_of(section):
+            words = f"must be <= {capacity_of(section):.6g}, the capacity of the tie"
+            roster.refuse(Finding("out-of-bounds", words, *path, "prestress"))
         idle = sum(not can_move(line.bodies, fixed) for line in lines)
         if idle and not roster.faults:
             words = f"{idle} of {counted(len(lines), 'tie')} hold nothing: no two blocks that can move apart"
