@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise, product
 
 import numpy as np
@@ -152,8 +152,3 @@ def _vertical(section: Vertical, path: KeyPath, roster: Roster, tolerance: float
         if met is not None:
             line = np.stack([met[0], np.array([x, y, wall.low[2]])])
             yield Line(np.array([met[1], OUTSIDE]), line, pulls_along(line, closed=False))
-
-
-def with_capacities(ties: Ties, capacities: FloatArray) -> Ties:
-    """Candidates as ties of given capacities, (k,) N."""
-    return replace(ties, least=np.zeros(len(ties)), greatest=capacities)

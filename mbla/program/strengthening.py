@@ -37,16 +37,11 @@ class StrengthenedCase:
 
     program    : of the joints, and of the ties that are there; its dead load is q, its live load nothing
     pulls      : (n_rows, k) C, of candidates
-    joints     : (n,) their contact points among those of the solids
-    candidates : (m,) contact points of candidates, and which ones these are, (m,)
     ways       : from the velocities of the program to those of the free blocks, where guides leave fewer; else None
     """
 
     program: Program
     pulls: sp.csr_array
-    joints: IntArray
-    candidates: IntArray
-    numbers: IntArray
     ways: sp.csr_array | None
 
     def motion(self, velocities: FloatArray) -> FloatArray:
@@ -91,7 +86,7 @@ def strengthened_case(
         reduction=None,
     )
     ways = None if program.reduction is None else program.reduction.velocities
-    return StrengthenedCase(alone, sp.csr_array(pulls), joints, points, numbers, ways)
+    return StrengthenedCase(alone, sp.csr_array(pulls), ways)
 
 
 @dataclass(frozen=True)
