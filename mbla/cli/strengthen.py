@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.decks import read_given_deck, refuse_unfit_name, run_options
-from mbla.cli.options import add_analysis_options, add_deck_options, seconds
+from mbla.cli.options import add_analysis_options, add_deck_options
 from mbla.process.collector import loading
 
 
@@ -18,8 +18,8 @@ def add_strengthen(commands: Any) -> None:
         help="the cheapest ties with which a structure carries what it has to",
         description="Find the cheapest capacities of the candidates of the section strengthen with which each load "
         "case carries its required load factor: one program of all load cases, whose mechanisms prove what they cost "
-        "at least. Then the strengthened structure is analysed by the deck's own flow rule, and capacities are raised "
-        "together while that falls short. Writes DECK_strengthened.yaml, its table as CSV and its results, with "
+        "at least. Then the strengthened structure is analysed by the deck's own flow rule, and while that falls short "
+        "the program is asked for more. Writes DECK_strengthened.yaml, its table as CSV and its results, with "
         "pictures where the extra mbla[pictures] is installed.",
         epilog="Exit status 0: strengthened, and every load factor is verified; 4: not verified, or still short; 5: no "
         "capacities of these candidates suffice.",
@@ -27,7 +27,6 @@ def add_strengthen(commands: Any) -> None:
     command.set_defaults(action=strengthen, about={"deck": "deck"})
     command.add_argument("deck", type=Path, metavar="DECK")
     add_deck_options(command)
-    command.add_argument("--time-limit", type=seconds, metavar="S", help="instead of analysis.time_limit")
     add_analysis_options(command)
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 

@@ -44,15 +44,15 @@ SELECTORS = (
     "load_cases.*.objective.force.on",
     "load_cases.*.pushover.control.on",
     "symmetry.#.halves",
-    "ties.#.on",
+    "ties.#.on.#",
     "ties.#.ring.around",
     "strengthen.candidates.#.across.between.#",
     "strengthen.candidates.#.ring.around",
     "strengthen.candidates.#.vertical.down",
-    "strengthen.candidates.#.on",
+    "strengthen.candidates.#.on.#",
 )
 """Where blocks are chosen."""
-WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on", "strengthen.candidates.#.on")
+WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on.#", "strengthen.candidates.#.on.#")
 """Where ground may be meant."""
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
@@ -91,7 +91,7 @@ def check_references(tree: Tree) -> Iterator[Fault]:
     choices = _keys(data.get("groups"))
     for reference in REFERENCES:
         names = dict.fromkeys((*known[reference.kind], *reference.also))
-        if reference.path.removesuffix(".#") in SELECTORS:
+        if reference.path in SELECTORS or reference.path.removesuffix(".#") in SELECTORS:
             names |= dict.fromkeys(choices)
         for path, name in find(data, reference.path.split(".")):
             if isinstance(name, str) and name not in names:

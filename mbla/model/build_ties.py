@@ -17,14 +17,17 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows
-from mbla.model.solids.touching import touched_blocks
+from mbla.model.solids.touching import is_within, touched_blocks
 from mbla.model.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
 from mbla.model.transform import AffineMap, repetitions
-from mbla.model.wording import counted, vector
+from mbla.model.wording import counted, named, vector
 
 CLOSES = 1e-9
 """distance of the last point from the first, over the length of a line, at which it is closed"""
+BESIDE = 0.1
+"""how far beside the corner of a ring its blocks are looked for, over the size of the smallest"""
 ALIKE = 1e-9
 """distance over the length of a strip that is none"""
 
@@ -132,6 +135,10 @@ def build_lines(section: TieSection, path: KeyPath, roster: Roster, tolerance: f
 def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
     """The lines of one copy of a tie."""
     if section.ring is not None:
+        if not (np.array_equal(copy.matrix, np.eye(3)) and not copy.offset[:2].any()):
+            words = "copies of a ring may be moved along z only: it goes round its blocks wherever they are"
+            roster.refuse(Finding("tie-misfit", words, *path, "repeat"))
+            return
         for number, z in enumerate(section.ring.z):
             yield from _ring(section, z, copy, (*path, "ring"), number, roster, tolerance)
         return
@@ -182,6 +189,9 @@ def _block_at(
     if chosen is None or (roster.partial and anchor is None):
         return None
     found = touched_blocks(places[number], blocks, chosen, tolerance)
+    if len(found) > 1 and anchor is None:
+        roster.refuse(_on_joint(f"the point {vector(places[number])}", found, blocks, *path, "through", number))
+        return None
     if len(found):
         return int(found[0])
     where = f"no block lies at {vector(places[number])}"
@@ -217,10 +227,43 @@ def _ring(
         roster.refuse(Finding("tie-off-blocks", words, *path, "z", number))
         return
     places = _corners_of(np.column_stack([outline, np.full(len(outline), height)]))
-    bodies = [touched_blocks(place, roster.blocks, chosen, tolerance) for place in places]
-    owners = np.array([found[0] for found in bodies if len(found)], dtype=np.int64)
-    if len(owners) == len(places):
-        yield Line(owners, places, pulls_along(places, closed=True), closed=True)
+    owners = list[IntArray]()
+    for before, place, after in zip(np.roll(places, 1, axis=0), places, np.roll(places, -1, axis=0), strict=True):
+        found = touched_blocks(place, roster.blocks, chosen, tolerance)
+        held = _held_at_corner(before, place, after, roster.blocks, found, tolerance)
+        if held is None:
+            roster.refuse(_on_joint(f"its corner {vector(place)}", found, roster.blocks, *path, "z", number))
+            return
+        owners.append(held)
+    places = np.repeat(places, [len(held) for held in owners], axis=0)
+    yield Line(np.concatenate(owners), places, pulls_along(places, closed=True), closed=True)
+
+
+def _on_joint(what: str, found: IntArray, blocks: Blocks, *key: str | int) -> Finding:
+    """A point of a tie that is on several blocks."""
+    words = f"{what} lies on the joint between {named(found, blocks.name)}: move it"
+    return Finding("tie-on-joint", words + (", or choose one of them in `on`" if "through" in key else ""), *key)
+
+
+def _held_at_corner(
+    before: FloatArray, place: FloatArray, after: FloatArray, blocks: Blocks, found: IntArray, tolerance: float
+) -> IntArray | None:
+    """Which of the blocks at a corner of a ring it presses on: one, or the two between which the corner is.
+
+    None where they lie above each other, so that it is left open which of them it holds.
+    """
+    if len(found) < 2:
+        return found
+    near = BESIDE * float(blocks.sizes[found].min())
+    held = list[int]()
+    for other in (before, after):
+        step = other - place
+        beside = place + min(0.5, near / float(np.linalg.norm(step))) * step
+        there = touched_blocks(beside, blocks, found, tolerance)
+        if len(there) > 1:
+            return None
+        held += [block for block in there.tolist() if block not in held]
+    return np.array(held, dtype=np.int64) if held else None
 
 
 def _corners_of(outline: FloatArray) -> FloatArray:
@@ -250,28 +293,32 @@ def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) 
     """A force along the strip at each place where it crosses from one block to the next."""
     if roster.partial:
         return
-    crossings = 0
-    for begin, end in pairwise(places):
-        along = (end - begin) / np.linalg.norm(end - begin)
-        cuts = cuts_of(begin, end, roster.blocks)
-        middles = begin + 0.5 * (cuts[:-1] + cuts[1:])[:, None] * (end - begin)
-        under = [touched_blocks(middle, roster.blocks, np.arange(len(roster.blocks)), tolerance) for middle in middles]
-        chosen = _followed(under)
-        for row in np.flatnonzero((np.diff(chosen) != 0) & (chosen[:-1] >= 0) & (chosen[1:] >= 0)).tolist():
-            place = begin + cuts[row + 1] * (end - begin)
-            yield Line(chosen[[row, row + 1]], np.stack([place, place]), np.stack([along, -along]))
-            crossings += 1
+    blocks, everything = roster.blocks, np.arange(len(roster.blocks))
+    crossings, last, came = 0, OUTSIDE, np.zeros(3)
+    for number, (begin, end) in enumerate(pairwise(places)):
+        along = unit(end - begin)
+        cuts = cuts_of(begin, end, blocks)
+        for first, then in pairwise(cuts.tolist()):
+            middle = begin + 0.5 * (first + then) * (end - begin)
+            under = touched_blocks(middle, blocks, everything, tolerance)
+            wrong = None
+            if len(under) > 1:
+                wrong = _on_joint(f"its part about {vector(middle)}", under, blocks, *path, number)
+            elif len(under) and is_within(middle, blocks, int(under[0]), tolerance):
+                words = f"its part about {vector(middle)} is inside of {blocks.name(int(under[0]))}: a strip is glued"
+                wrong = Finding("tie-misfit", f"{words} to faces; give points on them", *path, number)
+            if wrong is not None:
+                roster.refuse(wrong)
+                return
+            block = int(under[0]) if len(under) else OUTSIDE
+            if OUTSIDE not in (block, last) and block != last:
+                place, way = begin + first * (end - begin), came + along
+                way = unit(way) if np.linalg.norm(way) > BESIDE else along
+                yield Line(np.array([last, block]), np.stack([place, place]), np.stack([way, -way]))
+                crossings += 1
+            last, came = block, along
     if not crossings:
         roster.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
-
-
-def _followed(under: Sequence[IntArray]) -> IntArray:
-    """Of the blocks under each part of a strip one, (n,): that of the part before where it goes on; -1 without any."""
-    chosen = np.full(len(under), -1)
-    for row, found in enumerate(under):
-        if len(found):
-            chosen[row] = chosen[row - 1] if row and chosen[row - 1] in found else found[0]
-    return chosen
 
 
 def cuts_of(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:

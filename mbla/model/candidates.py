@@ -15,12 +15,15 @@ from mbla.deck.sections.ties import TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.build_ties import Line, build_lines, can_move, cuts_of, ties_of
+from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import touched_blocks
 from mbla.model.ties import OUTSIDE, Ties, joined_ties, pulls_along
 
+MOST_LINES = 5000
+"""candidates that one pattern lays out at most"""
 UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -37,19 +40,25 @@ class Candidates:
     most: FloatArray
 
 
-def build_candidates(sections: Sequence[Candidate], roster: Roster, fixed: BoolArray, tolerance: float) -> Candidates:
+def build_candidates(
+    sections: Sequence[Candidate], roster: Roster, fixed: BoolArray, grounds: Sequence[Ground], tolerance: float
+) -> Candidates:
     """The candidates of a deck; faults go to the roster.
 
     fixed     : (n_blocks,) blocks that do not move
+    grounds   : planes in which bars may end
     tolerance : of contacts, relative to block size
     """
     parts, counts = list[Ties](), dict[str, int]()
     costs, most = [np.zeros(0)], [np.zeros(0)]
+    stays = _Stays(fixed, grounds)
     for number, section in enumerate(sections):
         path: KeyPath = ("strengthen", "candidates", number)
-        lines = [line for line in _lines(section, path, roster, tolerance) if can_move(line.bodies, fixed)]
+        lines = [line for line in _lines(section, path, roster, stays, tolerance) if can_move(line.bodies, fixed)]
         if not lines and not roster.faults:
             words = "lays out no tie: none of its lines meets blocks that can move apart"
+            if section.vertical is not None:
+                words += ", or ends on a fixed block or on ground"
             roster.refuse(Finding("tie-without-effect", words, *path))
         made = ties_of("tie", section.name or given(section, PATTERNS)[0], lines, counts)
         parts.append(made)
@@ -58,11 +67,24 @@ def build_candidates(sections: Sequence[Candidate], roster: Roster, fixed: BoolA
     return Candidates(joined_ties(parts), np.concatenate(costs), np.concatenate(most))
 
 
-def _lines(section: Candidate, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+@dataclass(frozen=True)
+class _Stays:
+    """What does not move: ``fixed`` blocks, (n_blocks,), and grounds."""
+
+    fixed: BoolArray
+    grounds: Sequence[Ground]
+
+    def bears(self, place: FloatArray, block: int, near: float) -> bool:
+        """Whether a block that a line leaves at a place, (3,), is fixed, or on ground within a distance."""
+        planes = self.grounds
+        return bool(self.fixed[block]) or any(abs(plane.normal @ (place - plane.point)) <= near for plane in planes)
+
+
+def _lines(section: Candidate, path: KeyPath, roster: Roster, stays: _Stays, tolerance: float) -> Iterator[Line]:
     if section.across is not None:
         yield from _across(section.across, (*path, "across"), roster, tolerance)
     elif section.vertical is not None:
-        yield from _vertical(section.vertical, (*path, "vertical"), roster, tolerance)
+        yield from _vertical(section.vertical, (*path, "vertical"), roster, stays, tolerance)
     else:
         keys = section.model_dump(include={"ring", "through", "on"}, exclude_none=True, by_alias=True)
         yield from build_lines(TieSection.model_validate({**keys, "capacity": 1.0}), path, roster, tolerance)
@@ -108,8 +130,20 @@ def _across(section: Across, path: KeyPath, roster: Roster, tolerance: float) ->
     reach = np.array([_reach(wall, along) for wall in (one, other)])
     margin = 0.01 * float(np.ptp(reach))
     begins, ends = (reach.min() - margin) * along, (reach.max() + margin) * along
+    places = _places(one, other, aside, section.every)
+    if not len(places):
+        low, high = _shared(one, other, aside)
+        words = f"must be <= {high - low:.6g}, the length along which the walls face each other"
+        if high <= low:
+            words = "the walls do not face each other: along which way do the ties go?"
+        roster.refuse(Finding("out-of-bounds" if high > low else "tie-without-effect", words, *path, "every"))
+        return
+    count = len(section.z) * len(places) ** (1 if section.pairs == "opposite" else 2)
+    if count > MOST_LINES:
+        roster.refuse(_too_many(count, *path))
+        return
     for z in section.z:
-        across = [s * aside + (z - s * aside[2]) * UP for s in _places(one, other, aside, section.every)]
+        across = [s * aside + (z - s * aside[2]) * UP for s in places]
         across = [each - (each @ along) * along for each in across]
         starts_at = [one.met_by(each + begins, each + ends) for each in across]
         stops_at = [other.met_by(each + ends, each + begins) for each in across]
@@ -128,27 +162,44 @@ def _reach(wall: _Wall, way: FloatArray) -> tuple[float, float]:
 
 def _places(one: _Wall, other: _Wall, aside: FloatArray, every: float) -> FloatArray:
     """Coordinates along two walls where they lie across from each other, evenly from their middle."""
-    ends = np.array([_reach(one, aside), _reach(other, aside)])
-    low, high = ends[:, 0].max(), ends[:, 1].min()
-    count = max(int((high - low) // every), 0)
+    low, high = _shared(one, other, aside)
+    count = min(max(int((high - low) // every), 0), MOST_LINES + 1)
     return np.asarray((low + high) / 2.0 + every * (np.arange(count) - (count - 1) / 2.0))
 
 
-def _vertical(section: Vertical, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
-    """Lines from the highest block at each place of a grid down to below the lowest."""
+def _shared(one: _Wall, other: _Wall, aside: FloatArray) -> tuple[float, float]:
+    """Least and greatest coordinate of what two walls have in common along a unit vector."""
+    ends = np.array([_reach(one, aside), _reach(other, aside)])
+    return float(ends[:, 0].max()), float(ends[:, 1].min())
+
+
+def _too_many(count: int, *key: str | int) -> Finding:
+    return Finding("too-many-candidates", f"lays out {count} ties, at most {MOST_LINES} can be handled", *key)
+
+
+def _vertical(section: Vertical, path: KeyPath, roster: Roster, stays: _Stays, tolerance: float) -> Iterator[Line]:
+    """Lines from the highest block at each place of a grid down to where the lowest one there is fixed or on ground."""
     chosen = select_blocks(section.down, (*path, "down"), roster)
     if chosen is None:
         return
     wall = _Wall.of(roster, chosen, tolerance)
+    everything = _Wall.of(roster, np.arange(len(roster.blocks)), tolerance)
+    counts = [max((wall.high[axis] - wall.low[axis]) // section.every, 1.0) for axis in (0, 1)]
+    if counts[0] * counts[1] > MOST_LINES:
+        roster.refuse(_too_many(int(counts[0] * counts[1]), *path, "every"))
+        return
     grid = []
     for axis in (0, 1):
-        count = max(int((wall.high[axis] - wall.low[axis]) // section.every), 1)
+        count = int(counts[axis])
         middle = (wall.low[axis] + wall.high[axis]) / 2.0
         grid.append(middle + section.every * (np.arange(count) - (count - 1) / 2.0))
-    margin = 0.01 * (wall.high[2] - wall.low[2])
+    margin = 0.01 * (everything.high[2] - everything.low[2])
     for x, y in product(*grid):
-        top, foot = np.array([x, y, wall.high[2] + margin]), np.array([x, y, wall.low[2] - margin])
-        met = wall.met_by(top, foot)
-        if met is not None:
-            line = np.stack([met[0], np.array([x, y, wall.low[2]])])
+        top, foot = np.array([x, y, wall.high[2] + margin]), np.array([x, y, everything.low[2] - margin])
+        met, below = wall.met_by(top, foot), everything.met_by(foot, top)
+        if met is None or below is None:
+            continue
+        near = tolerance * float(roster.blocks.sizes[below[1]])
+        if stays.bears(*below, near):
+            line = np.stack([met[0], below[0]])
             yield Line(np.array([met[1], OUTSIDE]), line, pulls_along(line, closed=False))

@@ -42,6 +42,8 @@ ON_MASSES = ("gravity", "acceleration")
 AT_PLACES = ("force", "moment", "line", "pressure", "vehicle")
 """kinds of loads that have to lie in the plane, and those of which images are taken"""
 
+UNNAMED = "the plane of symmetry"
+"""in words"""
 ACROSS = 1e-9
 """component across the plane, relative to a vector, that is rounding"""
 
@@ -92,9 +94,9 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
             value = np.array(vector_of(entry.load) if kind == "gravity" else entry.load.acceleration)
             if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
                 continue
+            plane = mirror.label if mirror.label == UNNAMED else f"{UNNAMED} {mirror.label}"
             message = (
-                f"acts across the plane of symmetry {mirror.label}: the other half would have to be pushed the "
-                "other way; give the whole structure"
+                f"acts across {plane}: the other half would have to be pushed the other way; give the whole structure"
             )
         yield Finding("symmetry-broken", message, *entry.path, kind)
 
@@ -111,6 +113,10 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
         them = named(guided, model.blocks.name)
         message = f"{them} cannot be guided and halved: by symmetry it moves in the plane only"
         yield Finding("symmetry-broken", message, *path, "halves")
+    for number, section in enumerate(deck.content.ties):
+        if section.ring is not None:
+            words = "goes round the whole structure: give that, or the half of it with `through`, from ground to ground"
+            yield Finding("symmetry-broken", f"{words} in the plane", "ties", number, "ring")
     for name in dict.fromkeys(case.deck_name for case in model.load_cases if case.objective is not None):
         message = "a force through a cut of one half is no question of the other: give the whole structure"
         yield Finding("symmetry-broken", message, "load_cases", name, "objective")
@@ -307,7 +313,7 @@ class Mirror:
 def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> Mirror:
     """The plane as it stands to the blocks; raises DeckError where blocks reach across it."""
     blocks, (point, normal, label) = model.blocks, plane_of(plane)
-    label = label or "the plane of symmetry"
+    label = label or UNNAMED
     heights = (blocks.vertices - point) @ normal
     allowed = deck.contacts.tolerance * blocks.sizes
     above, below = (row_maxima(sign * heights, blocks.vertex_start) for sign in (1.0, -1.0))

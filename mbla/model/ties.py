@@ -23,6 +23,8 @@ from mbla.model.solids.ragged import items_of_rows
 
 AT_ONE_PLACE = ("strip", "fill")
 """forms whose points lie at one place, and whose direction is that of their pulls"""
+ONE_PLACE = 1e-9
+"""length of a stretch over that of its line that is none"""
 OUTSIDE = -1
 """stands for a block where a tie is held outside of the model"""
 
@@ -146,9 +148,17 @@ def joined_ties(parts: list[Ties]) -> Ties:
 
 
 def pulls_along(places: FloatArray, *, closed: bool) -> FloatArray:
-    """Force on each point of a line, (m, 3), for a tension of 1; its stretches have lengths."""
+    """Force on each point of a line, (m, 3), for a tension of 1.
+
+    Two points at one place, on two blocks between which it bends, pull at each other midway between its directions.
+    """
     ahead = np.roll(places, -1, axis=0) - places
-    ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=1), 1e-300)[:, None]
+    length = np.linalg.norm(ahead, axis=1)
+    there = length > ONE_PLACE * length.sum()
+    ahead[there] /= length[there, None]
+    ahead[~there] = 0.0
+    middle = (np.roll(ahead, 1, axis=0) + np.roll(ahead, -1, axis=0))[~there]
+    ahead[~there] = middle / np.maximum(np.linalg.norm(middle, axis=1), ONE_PLACE)[:, None]
     behind = np.roll(ahead, 1, axis=0)
     if not closed:
         ahead[-1], behind[0] = 0.0, 0.0

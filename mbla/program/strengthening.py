@@ -28,7 +28,6 @@ from mbla.program.assemble import assemble
 from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits
-from mbla.program.yield_conditions.limits import YieldLimits
 
 
 @dataclass(frozen=True)
@@ -136,16 +135,13 @@ class StrengtheningForm:
         return lines + 2 * len(self.cases) * len(self.costs)
 
 
-def strengthening_form(
-    cases: Sequence[StrengthenedCase], limits: Sequence[YieldLimits], costs: FloatArray, most: FloatArray
-) -> StrengtheningForm:
+def strengthening_form(cases: Sequence[StrengthenedCase], costs: FloatArray, most: FloatArray) -> StrengtheningForm:
     """The program of all cases.
 
-    limits : of the joints of each: its own, or others
     costs  : (k,) of a unit of capacity; most : (k,) in the unit of force of the programs, inf without a limit
     """
     n, k = len(cases), len(costs)
-    forms = tuple(kinematic_form(case.program, own) for case, own in zip(cases, limits, strict=True))
+    forms = tuple(kinematic_form(case.program, case.program.limits) for case in cases)
     limited = np.flatnonzero(np.isfinite(most))
     sizes = [len(case.program.dead_load) for case in cases]
     local = [form.cone_program.matrix.shape[1] - size for form, size in zip(forms, sizes, strict=True)]

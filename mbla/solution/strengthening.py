@@ -1,12 +1,11 @@
 """The cheapest capacities of ties: found by one cone program of all load cases, and what its mechanisms prove.
 
-Without normality the program is repeated with the friction of each joint held at what the normal forces of the program
-before give it. Where that comes to rest its capacities are a start, else those with normality are; analysis of the
-strengthened structure decides.
+By associative flow: without dilatancy a structure needs more, which the analysis of the strengthened one shows.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,11 +23,8 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.verification.case import Case
 
-MOST_REPEATS, SAME = 8, 1e-3
-"""Programs with friction held, and change of the cost from one to the next at which they have come to rest."""
-
 NEGLIGIBLE = 1e-6
-"""Capacity over the greatest that is rounding of the program."""
+"""Capacity over the greatest, and over the mean load of a block, that is rounding of the program."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +44,6 @@ class Cheapest:
     use        : (k,) worth of a candidate over its cost: 1 of those that are used
     cost       : of the capacities
     least_cost : proved by the mechanisms: no capacities cost less by associative flow; nan where they prove nothing
-    repeats    : programs with friction held
     """
 
     status: Status
@@ -56,7 +51,6 @@ class Cheapest:
     use: FloatArray
     cost: float
     least_cost: float
-    repeats: int
     reason: str = ""
 
 
@@ -81,6 +75,13 @@ class Strengthening:
         """With all candidates among the contacts."""
         return tied(solids_of(self.model.of_case(load_case), self.contacts))
 
+    def asking(self, factors: Mapping[str, float]) -> Strengthening:
+        """The same with other load factors required, by load case."""
+        return replace(
+            self,
+            requirements=tuple(replace(each, load_factor=factors[each.load_case.name]) for each in self.requirements),
+        )
+
     def take(self, rows: IntArray) -> Strengthening:
         """The same with some of the candidates, (n,)."""
         ties = self.model.ties.take(np.concatenate([np.arange(self.first), self.first + rows]))
@@ -97,11 +98,8 @@ class Strengthening:
         return 1.0
 
 
-def cheapest(strengthening: Strengthening, *, friction_held: bool) -> Cheapest:
-    """The cheapest capacities with which all requirements are met.
-
-    friction_held : by repeated programs without normality, from that with it
-    """
+def cheapest(strengthening: Strengthening) -> Cheapest:
+    """The cheapest capacities with which all requirements are met by associative flow."""
     unit, scale = strengthening.unit, float(strengthening.costs.mean())
     count = len(strengthening.costs)
     cases = [
@@ -111,57 +109,19 @@ def cheapest(strengthening: Strengthening, *, friction_held: bool) -> Cheapest:
         for each in strengthening.requirements
     ]
     costs, most = strengthening.costs / scale, strengthening.most / unit
-    form = strengthening_form(cases, [case.program.limits for case in cases], costs, most)
-    solution = _solved(form, strengthening, 1)
-    found = _answer(strengthening, form, solution, unit, scale, 0)
-    if found.status not in WITH_VALUE:
-        return found
-    least = proved_least_cost(strengthening, form, solution)
-    found = with_normality = replace(found, least_cost=least)
-    if not friction_held or not found.capacities.any():
-        return found
-    for repeat in range(1, MOST_REPEATS + 1):
-        held = [
-            replace(
-                case.program.limits,
-                friction=np.zeros(len(forces)),
-                cohesion=case.program.limits.cohesion + case.program.limits.friction * np.maximum(forces[:, 0], 0.0),
-            )
-            for case, forces in zip(cases, form.forces(solution.z), strict=True)
-        ]
-        form = strengthening_form(cases, held, costs, most)
-        solution = _solved(form, strengthening, repeat + 1)
-        after = replace(_answer(strengthening, form, solution, unit, scale, repeat), least_cost=least)
-        if after.status not in WITH_VALUE:
-            break
-        if abs(after.cost - found.cost) <= SAME * after.cost:
-            return after
-        found = after
-    return with_normality
-
-
-def _solved(form: StrengtheningForm, strengthening: Strengthening, number: int) -> ConeSolution:
-    return cone_solver(form.cone_program, strengthening.settings, strengthening.log).solve(number, -1.0)
-
-
-def _answer(
-    strengthening: Strengthening,
-    form: StrengtheningForm,
-    solution: ConeSolution,
-    unit: float,
-    scale: float,
-    repeats: int,
-) -> Cheapest:
-    none = np.zeros(len(strengthening.costs))
+    form = strengthening_form(cases, costs, most)
+    solution = cone_solver(form.cone_program, strengthening.settings, strengthening.log).solve(1, -1.0)
+    none = np.zeros(count)
     if solution.status not in WITH_VALUE:
         reason = f"the program was not solved: {solution.shortfall}"
         if solution.status is Status.NO_EQUILIBRIUM:
             reason = "no capacities of these candidates suffice: a mechanism does not stretch them enough"
-        return Cheapest(solution.status, none, none, np.nan, np.nan, repeats, reason)
+        return Cheapest(solution.status, none, none, np.nan, np.nan, reason)
     capacities = unit * form.capacities(solution.z)
-    capacities[capacities <= NEGLIGIBLE * capacities.max(initial=0.0)] = 0.0
+    capacities[capacities <= NEGLIGIBLE * capacities.max(initial=unit)] = 0.0
     cost = float(capacities @ strengthening.costs)
-    return Cheapest(solution.status, capacities, form.use(solution.x), cost, np.nan, repeats)
+    least = proved_least_cost(strengthening, form, solution)
+    return Cheapest(solution.status, capacities, form.use(solution.x), cost, least)
 
 
 def proved_least_cost(strengthening: Strengthening, form: StrengtheningForm, solution: ConeSolution) -> float:

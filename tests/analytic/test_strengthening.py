@@ -48,7 +48,9 @@ def cheapest_of(text: str) -> Cheapest:
         model = build_model(deck)
         contacts, structure, section = contacts_of(deck, model), structure_of(deck), deck.content.strengthen
         assert section is not None
-        found = build_candidates(section.candidates, structure.roster, model.fixed, deck.contacts.tolerance)
+        found = build_candidates(
+            section.candidates, structure.roster, model.fixed, model.grounds, deck.contacts.tolerance
+        )
         assert not structure.roster.faults
         cases = {case.name: case for case in model.load_cases}
         question = Strengthening(
@@ -61,7 +63,7 @@ def cheapest_of(text: str) -> Cheapest:
             settings=solver_settings(deck.analysis),
             log=lambda record: None,
         )
-        return cheapest(question, friction_held=False)
+        return cheapest(question)
 
 
 def test_a_wall_that_overturns_needs_so_much_of_a_rod() -> None:

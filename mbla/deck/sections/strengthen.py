@@ -19,7 +19,7 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import Section, exactly_one_of, rule
 from mbla.deck.sections.selectors import Selector
-from mbla.deck.sections.ties import Anchor, Ring
+from mbla.deck.sections.ties import Ring
 from mbla.errors import Finding
 
 PATTERNS = ("across", "ring", "vertical", "through")
@@ -58,11 +58,11 @@ class Candidate(Section):
     through: Annotated[list[Point], Field(min_length=2, max_length=1000)] | None = Field(
         None, description="one tie, as of ties"
     )
-    on: Annotated[list[Anchor], Field(min_length=2, max_length=1000)] | None = Field(
+    on: Annotated[list[Selector], Field(min_length=2, max_length=1000)] | None = Field(
         None, description="through: the block of each point, or ground, as of ties"
     )
     cost: PositiveNumber = Field(1.0, description="of a unit of capacity over a unit of length, in any currency")
-    most: PositiveForce | None = Field(None, description="greatest capacity; any unless given")
+    most: PositiveForce | None = Field(None, description="greatest capacity, also once rounded up; any unless given")
 
 
 class StrengthenSection(Section):
@@ -89,8 +89,12 @@ def candidate(item: Candidate) -> Iterator[Finding]:
 
 @rule(StrengthenSection)
 def catalogue(section: StrengthenSection) -> Iterator[Finding]:
-    """Capacities ascend."""
+    """Capacities ascend; what is limited may have one of them."""
     values = section.catalogue or []
     for number in range(1, len(values)):
         if values[number] <= values[number - 1]:
             yield Finding("out-of-bounds", f"must be > {values[number - 1]:g}, the one before", "catalogue", number)
+    for number, item in enumerate(section.candidates):
+        if values and item.most is not None and item.most < min(values):
+            words = f"must be >= {min(values):g}, the least of the catalogue"
+            yield Finding("out-of-bounds", words, "candidates", number, "most")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from mbla.deck.items.item import Repeat
 from mbla.deck.quantities import (
@@ -18,8 +18,8 @@ from mbla.deck.quantities import (
     PositiveLength,
     PositiveStress,
 )
-from mbla.deck.section import Section, exactly_one_of, given, rule, shape
-from mbla.deck.sections.selectors import Selector, SelectorTerm
+from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 
 FORMS = ("through", "ring", "strip")
@@ -42,12 +42,6 @@ class Ring(Section):
     z: Annotated[list[Length], Field(min_length=1)] = Field(description="its height; a ring at each of several")
 
 
-Anchor: TypeAlias = Annotated[
-    Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
-]
-
-
 @exactly_one_of(*FORMS)
 class TieSection(Section):
     """A tie, strut, ring or strip, or several alike; it weighs nothing, and its force has the limits given here."""
@@ -62,7 +56,7 @@ class TieSection(Section):
         description="FRP or FRCM glued to faces along this line: where it crosses from block to block it carries "
         "tension along the line, at every joint up to its capacity",
     )
-    on: Annotated[list[Anchor], Field(min_length=2, max_length=1000)] | None = Field(
+    on: Annotated[list[Selector], Field(min_length=2, max_length=1000)] | None = Field(
         None,
         description="for each point of through: the block that it is fixed to, or `ground` for what does not move "
         "outside of the model; unless given the block at the point",
@@ -75,7 +69,7 @@ class TieSection(Section):
         description="between its ends: passes, it slides there without friction and has one force; fixed, it is held "
         "there and has a force in each stretch",
     )
-    capacity: PositiveForce | None = Field(None, description="greatest force, whatever else is given")
+    capacity: PositiveForce | None = Field(None, description="greatest force")
     area: PositiveArea | None = Field(None, description="cross-section, with strength")
     diameter: PositiveLength | None = Field(None, description="of a round bar, in place of area")
     strength: PositiveStress | None = Field(None, description="stress at which it yields, or that it may have")
@@ -99,6 +93,10 @@ def tie(item: TieSection) -> Iterator[Finding]:
     """A capacity, one cross-section, and keys that apply."""
     if item.capacity is None and item.strength is None and item.anchorage is None and item.plate is None:
         yield Finding("missing-key", "needs capacity, or area or diameter with strength")
+    others = given(item, ("strength", "anchorage", "plate"))
+    if item.capacity is not None and others:
+        words = "only one may be given of capacity and of what it follows from: strength, anchorage, plate"
+        yield Finding("one-of-several", words, others[0])
     sections = given(item, ("area", "diameter"))
     if len(sections) > 1:
         yield Finding("one-of-several", "only one of area and diameter may be given", sections[1])

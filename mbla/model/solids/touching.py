@@ -34,6 +34,13 @@ def touched_blocks(point: FloatArray, blocks: Blocks, chosen: IntArray, toleranc
     return np.array([block for block in around if _touches(point, blocks, block, tolerance)], dtype=np.int64)
 
 
+def is_within(point: FloatArray, blocks: Blocks, block: int, tolerance: float) -> bool:
+    """Whether a point, (3,), lies in a block and not on its surface, by more than ``tolerance`` of its size."""
+    corners = _triangles(blocks, block)
+    moved = point + tolerance * float(blocks.sizes[block]) * WAYS
+    return all(_turns_round(each, corners) > 0.5 for each in moved)
+
+
 def _touches(point: FloatArray, blocks: Blocks, block: int, tolerance: float) -> bool:
     corners = _triangles(blocks, block)
     moved = point + tolerance * float(blocks.sizes[block]) * np.vstack([np.zeros(3), WAYS])

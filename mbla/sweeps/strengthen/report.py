@@ -59,6 +59,7 @@ def record_of(answer: Strengthened) -> dict[str, Any]:
         "program_cost": as_json(found.cost),
         "least_cost": as_json(found.least_cost),
         "cost": as_json(answer.cost),
+        "asked": answer.asked,
         "raised": answer.raised,
         "analyses": answer.analyses,
         "cases": {
@@ -97,7 +98,10 @@ def lines_of(answer: Strengthened) -> list[str]:
     if found.status not in WITH_VALUE:
         return sentence(full_sentence(f"No strengthening: {found.reason}"))
     used = int((answer.capacities > 0.0).sum())
-    lines = [f"{answer.deck.path.name}: {used} of {counted(count, 'candidate')} used, cost {number(answer.cost)}"]
+    if not used:
+        lines = [f"{answer.deck.path.name}: nothing has to be added"]
+    else:
+        lines = [f"{answer.deck.path.name}: {used} of {counted(count, 'candidate')} used, cost {number(answer.cost)}"]
     rows = [row for row in rows_of(answer) if row["capacity"] > 0.0 or row["worth"] > 0.0][:MOST]
     head = ["candidate", "from", "to", f"length [{units.length}]"]
     head += [f"capacity [{units.force}]", "cheapest", "cost", "worth"]
@@ -141,10 +145,14 @@ def _bound_words(answer: Strengthened) -> str:
     if math.isnan(found.least_cost):
         says = "Nothing proves that no others are cheaper"
     says += f"; those of the program cost {number(found.cost)}"
-    if found.repeats:
-        says += f", after {counted(found.repeats, 'program')} with friction held"
+    section = answer.deck.content.strengthen
+    assert section is not None  # there is no answer without
+    more = {name: factor for name, factor in answer.asked.items() if factor > section.required[name]}
+    if more:
+        given_factors = ", ".join(f"{number(factor)} ({name})" for name, factor in more.items())
+        says += f"; those written are of load factors {given_factors}, for the analysis to find what is required"
     if answer.raised > 1.0:
-        says += f", raised by {100 * (answer.raised - 1):.3g} % for the analysis"
-    if answer.deck.content.strengthen is not None and answer.deck.content.strengthen.catalogue is not None:
-        says += ", rounded up to the catalogue"
+        says += f", raised by {100 * (answer.raised - 1):.3g} % where the program had no more to give"
+    if section.catalogue is not None:
+        says += ", rounded up to the catalogue: above its greatest as several ties beside each other"
     return f"{says}."

@@ -1,9 +1,9 @@
 """``mbla strengthen``: the cheapest ties with which a structure carries what it has to, as a deck that is analysed.
 
 The capacities of the program are rounded up to a catalogue where there is one, and candidates that it hardly uses are
-left out as long as that makes the rest cheaper. Then the strengthened structure is
-analysed by the deck's own flow rule, whose least load factors decide: while one falls short all capacities are raised
-together, by the secant of the load factor that is shortest.
+left out as long as that makes the rest cheaper. Then the strengthened structure is analysed by the deck's own flow
+rule, whose least load factors decide: while one falls short the program is asked for as much more in that load case, by
+the secant, and where it has no more to give all capacities are raised together.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import WITH_VALUE
+from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
 
 SHORT = 1e-6
@@ -55,8 +55,11 @@ ACCURACY = 1e-4
 MOST_ROUNDS, LITTLE = 10, 0.3
 """programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
 which a candidate is left out"""
-MOST_RAISES, LEAST_RAISE, MOST_RAISE = 8, 2e-3, 1.0
-"""analyses after the first one, and shares by which all capacities are raised at least and at most"""
+MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
+"""analyses after the first one, share of a required load factor that is asked for beyond what was short, and what an
+analysis gains at least of what is asked for more"""
+RAISE = 1.15
+"""by which all capacities are raised where the program has no more to give"""
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,8 @@ class Strengthened:
 
     cheapest   : answer of the program
     capacities : (k,) N, as written in the deck: rounded, and raised as far as the analysis asked for it
-    raised     : factor on the capacities of the program before they were rounded
+    asked      : load factors of which they are the cheapest capacities, by load case
+    raised     : factor on these before they were rounded
     cost       : of these capacities
     factors    : by load case: required, and of the strengthened structure, nan without a result
     verified   : whether these are verified
@@ -78,6 +82,7 @@ class Strengthened:
     candidates: Candidates
     cheapest: Cheapest
     capacities: FloatArray
+    asked: dict[str, float]
     raised: float
     cost: float
     factors: dict[str, tuple[float, float]]
@@ -94,7 +99,7 @@ class Strengthened:
     def exit_code(self) -> int:
         """0: strengthened and verified; 4: not verified, or still short; 5: no capacities suffice."""
         if self.cheapest.status not in WITH_VALUE:
-            return 5 if self.cheapest.status.value == "no_equilibrium" else 4
+            return 5 if self.cheapest.status is Status.NO_EQUILIBRIUM else 4
         return 0 if self.suffices and self.verified else 4
 
 
@@ -117,11 +122,15 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
     refuse_unfit(deck)
     section = deck.content.strengthen
     assert section is not None
+    stem = f"{deck.path.stem}_strengthened"
+    with OutputFolder(options.folder_for(deck.path), stem, options.force, secondary=True) as out:
+        out.refuse(f"{stem}.yaml", f"{stem}.csv")
     model = build_model(deck)
     contacts = contacts_of(deck, model)
     model = held_model(model, contacts)
     structure = structure_of(deck)
-    candidates = build_candidates(section.candidates, structure.roster, model.fixed, deck.contacts.tolerance)
+    tolerance = deck.contacts.tolerance
+    candidates = build_candidates(section.candidates, structure.roster, model.fixed, model.grounds, tolerance)
     if structure.roster.faults:
         raise DeckError(structure.roster.faults)
     cases = {case.name: case for case in model.load_cases}
@@ -130,25 +139,20 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
         contacts=contacts,
         first=len(model.ties),
         costs=candidates.costs,
-        most=candidates.most,
+        most=greatest_there(candidates.most, section.catalogue),
         requirements=tuple(Requirement(cases[name], factor) for name, factor in section.required.items()),
         settings=solver_settings(deck.analysis),
         log=log,
     )
-    found = cheapest(question, friction_held=deck.analysis.flow_rule != "associative")
+    found = cheapest(question)
     if found.status not in WITH_VALUE:
         none = np.zeros(len(candidates.costs))
-        return Strengthened(deck, model, candidates, found, none, 1.0, math.nan, {}, False, 0, ())
-    if section.catalogue is not None:
-        found = with_fewer(question, found, section.catalogue)
-    return _analysed(deck, model, candidates, found, options)
+        return Strengthened(deck, model, candidates, found, none, section.required, 1.0, math.nan, {}, False, 0, ())
+    return _analysed(deck, model, candidates, found, question, options, stem)
 
 
-def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[float]) -> Cheapest:
-    """Capacities that cost less once they are rounded up: of fewer candidates, without those that are hardly used.
-
-    What candidates are worth and what all cost at least stays that of all of them.
-    """
+def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[float]) -> FloatArray:
+    """Capacities, (k,), that cost less once they are rounded up: of candidates without those that are hardly used."""
     best = found.capacities
     rows = np.flatnonzero(best)
     for _ in range(MOST_ROUNDS):
@@ -158,14 +162,14 @@ def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[flo
             kept = np.delete(rows, np.argmin(best[rows] / rounded[rows]))
         if not len(kept):
             break
-        fewer = cheapest(question.take(kept), friction_held=False)
+        fewer = cheapest(question.take(kept))
         capacities = np.zeros_like(best)
         capacities[kept] = fewer.capacities
         cost = float(rounded_up(capacities, catalogue) @ question.costs)
         if fewer.status not in WITH_VALUE or cost >= float(rounded @ question.costs):
             break
         best, rows = capacities, np.flatnonzero(capacities)
-    return replace(found, capacities=best, cost=float(best @ question.costs))
+    return best
 
 
 def refuse_unfit(deck: Deck) -> None:
@@ -183,41 +187,77 @@ def refuse_unfit(deck: Deck) -> None:
             raise UsageError("strengthen-not-possible", words)
 
 
-def _analysed(deck: Deck, model: Model, candidates: Candidates, found: Cheapest, options: RunOptions) -> Strengthened:
-    """The strengthened structure, its capacities raised until it carries what it has to."""
-    section, raised, tried = deck.content.strengthen, 1.0, list[tuple[float, float]]()
+def _analysed(
+    deck: Deck,
+    model: Model,
+    candidates: Candidates,
+    first: Cheapest,
+    question: Strengthening,
+    options: RunOptions,
+    stem: str,
+) -> Strengthened:
+    """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
+    section = deck.content.strengthen
     assert section is not None
-    folder, stem = options.folder_for(deck.path), f"{deck.path.stem}_strengthened"
-    for number in range(MOST_RAISES + 1):
-        capacities = rounded_up(raised * found.capacities, section.catalogue)
-        with TemporaryDirectory() as place:
-            path = Path(place) / f"{stem}.yaml"
-            path.write_text(strengthened_deck(deck, model, candidates.ties, capacities, path.parent), encoding="utf-8")
-            asked = RunOptions(cases=tuple(section.required))
-            results = solve_deck(read_deck(path), asked, StatusFile(StringIO(), ""), None, perf_counter())
-        factors = {name: (required, _factor(results, name)) for name, required in section.required.items()}
-        short = min((factor - required) / (abs(required) or 1.0) for required, factor in factors.values())
-        if all(_carried(*each) for each in factors.values()) or math.isnan(short) or number == MOST_RAISES:
+    required = dict(section.required)
+    asked, raised, found, tried = required, 1.0, first, list[tuple[dict[str, float], dict[str, float]]]()
+    capacities, wanted = np.full(len(question.costs), np.nan), None
+    for number in range(MOST_REPEATS + 1):
+        if wanted is None:
+            wanted = found.capacities
+            if section.catalogue is not None:
+                wanted = with_fewer(question.asking(asked), found, section.catalogue)
+        fitted = np.minimum(rounded_up(raised * wanted, section.catalogue), question.most)
+        if not np.array_equal(fitted, capacities):
+            capacities = fitted
+            results = _analysis(deck, model, candidates.ties, capacities, stem)
+            factors = {name: _factor(results, name) for name in required}
+            tried.append((asked, factors))
+        if all(_carried(required[name], factors[name]) for name in required) or any(map(math.isnan, factors.values())):
             break
-        tried.append((raised, short))
-        raised *= 1.0 + float(np.clip(_secant(tried), LEAST_RAISE, MOST_RAISE))
+        if number == MOST_REPEATS:
+            break
+        more = {name: _ask_for(name, required[name], tried) for name in required}
+        after = cheapest(question.asking(more)) if raised == 1.0 else None
+        if after is not None and after.status in WITH_VALUE:
+            asked, found, wanted = more, after, None
+        else:
+            raised *= RAISE
     verified = all(case.checks.verified for case in results.cases)
     cost = float(capacities @ candidates.costs)
-    answer = Strengthened(deck, model, candidates, found, capacities, raised, cost, factors, verified, number + 1, ())
-    return replace(answer, files=_files(answer, results, folder, stem, options))
+    pairs = {name: (required[name], factors[name]) for name in required}
+    answer = Strengthened(
+        deck, model, candidates, first, capacities, asked, raised, cost, pairs, verified, len(tried), ()
+    )
+    return replace(answer, files=_files(answer, results, options.folder_for(deck.path), stem, options))
 
 
-def _secant(tried: Sequence[tuple[float, float]]) -> float:
-    """Share by which to raise all capacities, from factors on them and what was short there, over what is required."""
-    if len(tried) < 2 or tried[-1][1] <= tried[-2][1]:
-        return -2.0 * tried[-1][1]
-    (before, was), (now, short) = tried[-2:]
-    return -short * (now - before) / (short - was) / now + LEAST_RAISE / 4.0
+def _ask_for(name: str, required: float, tried: Sequence[tuple[dict[str, float], dict[str, float]]]) -> float:
+    """Load factor to ask of the program for a load case that fell short, from what was asked before and found."""
+    asked, found = tried[-1][0][name], tried[-1][1][name]
+    if _carried(required, found):
+        return asked
+    slope = 1.0
+    if len(tried) > 1 and asked > tried[-2][0][name]:
+        slope = (found - tried[-2][1][name]) / (asked - tried[-2][0][name])
+    return float(asked + (required - found) / min(max(slope, LEAST_SLOPE), 1.0) + MARGIN * required)
+
+
+def _analysis(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, stem: str) -> Results:
+    """Of the structure with ties of given capacities, (k,) N, in the load cases that have to carry something."""
+    assert deck.content.strengthen is not None  # who calls knows
+    with TemporaryDirectory() as place:
+        path = Path(place) / f"{stem}.yaml"
+        path.write_text(strengthened_deck(deck, model, ties, capacities, path.parent), encoding="utf-8")
+        asked = RunOptions(cases=tuple(deck.content.strengthen.required))
+        return solve_deck(read_deck(path), asked, StatusFile(StringIO(), ""), None, perf_counter())
 
 
 def _factor(results: Results, name: str) -> float:
     """The load factor to design with: of flow without normality the least that was found; nan without a result."""
     for case in results.cases:
+        if case.load_case.name == name and case.status is Status.UNBOUNDED:
+            return math.inf
         if case.load_case.name == name and result_of(case) is not None:
             least, _ = least_and_greatest(results.model.of_case(case.load_case), case)
             mechanics = result_of(case)
@@ -232,9 +272,19 @@ def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> Flo
         return capacities * (1.0 + ACCURACY)
     values = np.array(catalogue)
     row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
-    several = np.ceil(capacities / values[-1] * (1.0 - SHORT))
+    several = np.ceil(capacities / values[-1] * (1.0 - SHORT))  # ties beside each other
     found = np.where(capacities > values[-1] * (1.0 + SHORT), several * values[-1], values[row])
     return np.where(capacities > 0.0, found, 0.0)
+
+
+def greatest_there(most: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
+    """Greatest capacities, (k,), of those that there are, up to given ones, of which none is below the least."""
+    if catalogue is None:
+        return most
+    values, limited = np.array(catalogue), np.isfinite(most)
+    row = np.searchsorted(values, most * (1.0 + SHORT), side="right") - 1
+    several = np.floor(np.where(limited, most, 0.0) / values[-1] * (1.0 + SHORT)) * values[-1]
+    return np.where(limited, np.maximum(values[np.maximum(row, 0)], several), np.inf)
 
 
 def strengthened_deck(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, folder: Path) -> str:
