@@ -27,7 +27,10 @@ def asked(folder: Path, force: str, guide: str = "fixed: [x, rz]") -> Model:
 supports: [{{ground: {{z: 0}}}}, {{blocks: one, {guide}}}]
 ties:
   - {{through: [[0, 0.5, 1], [2, 0.5, 1]], on: [one, two], capacity: 1}}
-  - {{through: [[2, 0.5, 1], [3, 0.5, 1]], on: [two, ground], capacity: 1, repeat: {{count: 2, translate: [0, 0.2, 0]}}}}
+  - through: [[2, 0.5, 1], [3, 0.5, 1]]
+    on: [two, ground]
+    capacity: 1
+    repeat: {{count: 2, translate: [0, 0.2, 0]}}
 load_cases: {{f: {{objective: {{force: {{{force}}}}}}}}}
 """)
     return build_model(read_deck(path))
