@@ -90,7 +90,7 @@ def held_along(guides: Guides, direction: FloatArray) -> IntArray:
     """Guided blocks that cannot slide along a unit direction, (3,), so that their guides take forces along it."""
     wanted = slide(direction, 1)[0]
     left = [wanted - ways @ np.linalg.lstsq(ways, wanted, rcond=None)[0] for ways in guides.motions]
-    return guides.blocks[np.array([bool(np.linalg.norm(rest) > ALONG) for rest in left], dtype=bool)]
+    return np.asarray(guides.blocks[np.array([np.linalg.norm(rest) > ALONG for rest in left], dtype=bool)])
 
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
