@@ -28,12 +28,12 @@ def with_gauge(model: Model, contacts: Contacts, load_case: LoadCase, felt_as: i
 
     The cut of a deck is one-sided: symmetry of the structure is not assumed of the forces.
 
-    felt_as : number of the gauge among the blocks at which ties pull
+    contacts : with the cut
+    felt_as  : number of the gauge among the blocks at which ties pull
     """
     objective, n_blocks = load_case.objective, len(model.blocks)
     assert objective is not None  # that is why there is a gauge
-    cut = objective.crossed(contacts.bodies)
-    weights = contacts.areas * (cut != 0)
+    weights = contacts.areas * (contacts.cut != 0)
     middle = weights @ contacts.centroids / (weights.sum() or 1.0)
     ties = model.ties
     if len(objective.ties):
@@ -53,7 +53,7 @@ def with_gauge(model: Model, contacts: Contacts, load_case: LoadCase, felt_as: i
             mirrors=(),
             ties=ties,
         ),
-        replace(contacts, bodies=bodies, cut=cut),
+        replace(contacts, bodies=bodies),
     )
 
 

@@ -31,7 +31,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.gauge import gauge_way, with_gauge
 from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
-from mbla.model.model import LoadCase, Model, Objective
+from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.ragged import numbered
@@ -146,18 +146,11 @@ def solids_of(model: Model, contacts: Contacts, load_case: LoadCase | None = Non
     solids = _solids_of(model, contacts)
     if load_case is None or load_case.objective is None or load_case.settlement is None:
         return solids
-    by_solids = replace(load_case, objective=_on_solids(load_case.objective, solids))
-    gauged, cut = with_gauge(solids.model, solids.contacts, by_solids, len(solids.label))
+    # sides are those of blocks: a solid may have some on either side, and some on none
+    sided = replace(solids.contacts, cut=load_case.objective.crossed(contacts.bodies))
+    gauged, cut = with_gauge(solids.model, sided, load_case, len(solids.label))
     motion = gauge_way(load_case) / load_case.settlement.unit
     return replace(solids, model=gauged, contacts=cut, solid_of_block=solids.label, gauge=motion)
-
-
-def _on_solids(objective: Objective, solids: Solids) -> Objective:
-    """The objective with sides by solids; blocks of one solid are on one side, or glue would join both."""
-    n_solids, n_blocks = len(solids.model.blocks), len(solids.label)
-    sides = np.zeros(n_solids, dtype=np.int64)
-    sides[solids.label] = objective.sides[:n_blocks]
-    return replace(objective, sides=np.concatenate([sides, objective.sides[n_blocks:]]))
 
 
 def _solids_of(model: Model, contacts: Contacts) -> Solids:

@@ -98,7 +98,8 @@ def _load_cases(
     load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)
     if section.objective is not None:
-        return [case for load_case in load_cases for case in build_objective(section, path, load_case, site, ties)]
+        guides = supports.guides
+        return [end for each in load_cases for end in build_objective(section, path, each, site, guides, ties)]
     if section.settlement is not None:
         settles = (*path, "settlement")
         return [

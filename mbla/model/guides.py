@@ -21,6 +21,9 @@ from mbla.model.wording import counted, vector
 WAYS = 6
 """columns of the motions of a body; those beyond its own ways are zero"""
 
+ALONG = 1e-9
+"""what a guide leaves of a unit slide along a direction, up to which it lets its block go there"""
+
 
 @dataclass(frozen=True)
 class Guides:
@@ -81,6 +84,13 @@ def rigid_motions(centres: FloatArray, centroids: FloatArray) -> FloatArray:
         motions[:, :, axis] = slide(along, len(centroids))
         motions[:, :, 3 + axis] = turn(along, centres, centroids)
     return motions
+
+
+def held_along(guides: Guides, direction: FloatArray) -> IntArray:
+    """Guided blocks that cannot slide along a unit direction, (3,), so that their guides take forces along it."""
+    wanted = slide(direction, 1)[0]
+    left = [wanted - ways @ np.linalg.lstsq(ways, wanted, rcond=None)[0] for ways in guides.motions]
+    return np.asarray(guides.blocks[np.array([np.linalg.norm(rest) > ALONG for rest in left], dtype=bool)])
 
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")

@@ -27,11 +27,12 @@ from mbla.deck.sections.objective import ForceSection, ObjectiveSection
 from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase, Objective, Settlement
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
-from mbla.model.ties import Ties
+from mbla.model.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
 
 ENDS = {"least": 1.0, "greatest": -1.0}
@@ -39,15 +40,15 @@ ENDS = {"least": 1.0, "greatest": -1.0}
 
 
 def build_objective(
-    section: LoadCaseSection, path: KeyPath, load_case: LoadCase, site: LoadSite, ties: Ties
+    section: LoadCaseSection, path: KeyPath, load_case: LoadCase, site: LoadSite, guides: Guides, ties: Ties
 ) -> list[LoadCase]:
     """A load case for each end, its loads at the given load factor among the dead loads.
 
-    Refuses blocks on both sides, sides without blocks that move, ties that there are not, and a structure without
-    loads.
+    Refuses blocks on both sides, sides without blocks that move, forces of supports where a guide takes part of them,
+    ties that there are not, and a structure without loads.
     """
     assert section.objective is not None  # that is why it is built
-    found = _sought(section.objective, (*path, "objective"), site, ties)
+    found = _sought(section.objective, (*path, "objective"), site, guides, ties)
     if found is None:
         return []
     at, free = section.at or 0.0, ~site.fixed
@@ -88,11 +89,11 @@ class _Sought:
     words: str
 
 
-def _sought(section: ObjectiveSection, path: KeyPath, site: LoadSite, ties: Ties) -> _Sought | None:
+def _sought(section: ObjectiveSection, path: KeyPath, site: LoadSite, guides: Guides, ties: Ties) -> _Sought | None:
     """What an objective asks for; None where a fault was left."""
     none = np.zeros(0, dtype=np.int64)
     if section.force is not None:
-        found = _sides(section.force, (*path, "force"), site)
+        found = _sides(section.force, (*path, "force"), site, guides, ties)
         if found is None:
             return None
         sides, words = found
@@ -114,7 +115,9 @@ def _sought(section: ObjectiveSection, path: KeyPath, site: LoadSite, ties: Ties
     return _Sought(everything, rows, unit(largest), words)
 
 
-def _sides(asked: ForceSection, path: KeyPath, site: LoadSite) -> tuple[IntArray, str] | None:
+def _sides(
+    asked: ForceSection, path: KeyPath, site: LoadSite, guides: Guides, ties: Ties
+) -> tuple[IntArray, str] | None:
     """Sides of the cut by body, and the force in words; None where a fault was left."""
     blocks, n_blocks = site.blocks, len(site.blocks)
     chosen: dict[str, BoolArray] = {}
@@ -133,15 +136,30 @@ def _sides(asked: ForceSection, path: KeyPath, site: LoadSite) -> tuple[IntArray
     text = "force"
     text += " of the supports" if source is None else f" of {_words(source)}"
     text += " on all other blocks" if target is None else f" on {_words(target)}"
-    ground = np.full(len(site.grounds), source is None)
+    of_supports = source is None
     source = site.fixed if source is None else source
     target = ~source if target is None else target
     if site.fixed[target].all():
         words = f"no block that {'these act' if asked.on is None else 'it acts'} on can move: the force is no unknown"
         site.refuse(Finding("objective-not-possible", words, *path, "from" if asked.on is None else "on"))
         return None
-    sides = np.where(target, 1, np.where(source, -1, 0))
-    return np.concatenate([sides, np.where(ground, -1, 0)]).astype(np.int64), text
+    held = np.intersect1d(held_along(guides, unit(np.array(asked.direction))), np.flatnonzero(target))
+    if of_supports and len(held):
+        words = f"a guide holds {named(held, blocks.name)} that way, and its force is none of a joint"
+        words = f"{words}: ask for the force `from` what it holds, or on other blocks"
+        site.refuse(Finding("objective-not-possible", words, *path, "direction"))
+        return None
+    sides, outside = np.where(target, 1, np.where(source, -1, 0)), -1 if of_supports else 0
+    text += _apart(ties, np.append(sides, outside))
+    return np.append(sides, np.full(len(site.grounds), outside)).astype(np.int64), text
+
+
+def _apart(ties: Ties, sides: IntArray) -> str:
+    """In words how many ties cross the cut, whose forces do not count; the last side is that of what is outside."""
+    assert OUTSIDE == -1  # the last one
+    least, greatest = (each.reduceat(sides[ties.bodies], ties.start[:-1]) for each in (np.minimum, np.maximum))
+    count = int((least * greatest < 0).sum())
+    return f" (without {counted(count, 'tie')})" if count else ""
 
 
 def _words(chosen: BoolArray) -> str:

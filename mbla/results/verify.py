@@ -28,6 +28,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, Tilt
 from mbla.model.settlement import with_reference
 from mbla.program.build import crushable_interfaces, takes_stress_blocks
+from mbla.results.diff.cases import least_factor
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
@@ -57,7 +58,7 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     deck, disagreements = rebuilt(results)
     again = _recomputed(results, deck)
     for case in again.cases:
-        found = (*_unproved(case), *(() if deck is None else _left_out(case, deck)))
+        found = (*_unproved(results.model, case), *(() if deck is None else _left_out(case, deck)))
         disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
     disagreements += differences_of_file(path, write_results_hdf5(again))
     code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
@@ -125,13 +126,13 @@ def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crusha
     )
 
 
-def _unproved(case: CaseResult) -> list[str]:
+def _unproved(model: Model, case: CaseResult) -> list[str]:
     """Claims of a case that do not follow from what they must follow from."""
     found, solution, checks = [], case.solution, case.checks
     associative, standing = solution.associative, solution.standing
     if associative is not None:
         least, most = checks.static_bound, checks.kinematic_bound
-        room = SOLVED_RESIDUAL * max(abs(most), abs(least))
+        room = SOLVED_RESIDUAL * max(abs(most), abs(least), least_factor(model, case.load_case))
         if associative.load_factor < least - room or associative.load_factor > most + room:
             found.append(
                 f"the associative load factor {associative.load_factor:.8g} is not between its bounds {least:.8g} "

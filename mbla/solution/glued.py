@@ -19,7 +19,7 @@ from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
-from mbla.solution.mechanics import contact_modes
+from mbla.solution.mechanics import AT_REST, contact_modes
 from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.verification.statics import contact_velocities
 
@@ -49,8 +49,7 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
         standing = replace(standing, block=int(solids.first_blocks[standing.block]))
     if solids.gauge is not None:
         size = None if size is None else replace(size, free_blocks=size.free_blocks - 1)
-        speed = ROUNDING * float(np.abs(solids.gauge).max())
-        solution = _with_mechanics(solution, lambda part: _without_rounding(part, speed))
+        solution = _with_mechanics(solution, lambda part: _without_rounding(part, solids))
     return _with_motions(replace(solution, standing=standing, size=size), solids.block_motions)
 
 
@@ -212,28 +211,28 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
         if mechanics is not None and id(mechanics) not in found:
             still = np.where(model.fixed[:, None], 0.0, mechanics.mechanism)
             moved = contact_velocities(solids.model, solids.contacts, solids.solid_motions(still))
-            # where all that moves moves with the gauge of an objective, what is left of it is rounding
-            speed = 0.0 if solids.gauge is None else float(np.abs(solids.gauge).max())
-            if _near(moved, mechanics.contact_velocities, speed):
+            if _near(moved, mechanics.contact_velocities):
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
-            found[id(getattr(solution, part))] = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
+            mechanics = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
+            found[id(getattr(solution, part))] = _without_rounding(mechanics, solids)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
 
 
-def _without_rounding(mechanics: Mechanics, speed: float) -> Mechanics:
-    """The same, with joints at rest where none moves by more than that: all that moves moves with a gauge."""
-    if np.abs(mechanics.contact_velocities).max(initial=0.0) > speed:
+def _without_rounding(mechanics: Mechanics, solids: Solids) -> Mechanics:
+    """The same, with joints at rest where all that moves moves with the gauge of an objective, but for rounding."""
+    largest = float(np.abs(mechanics.contact_velocities).max(initial=0.0))
+    if solids.gauge is None or largest > AT_REST * np.abs(solids.gauge).max():
         return mechanics
     still = np.zeros_like(mechanics.contact_velocities)
     return replace(mechanics, contact_velocities=still, modes=np.full_like(mechanics.modes, ContactMode.STICK))
 
 
-def _near(one: FloatArray, other: FloatArray, size: float) -> bool:
-    """Whether two arrays differ by no more than rounding of the largest entry, or of that size."""
-    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=size))
+def _near(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two arrays differ by no more than rounding of the largest entry."""
+    return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
 
 
 def _with_modes(

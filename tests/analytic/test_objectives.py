@@ -342,6 +342,21 @@ def test_glued_blocks_are_one() -> None:
     assert ends_of(glued + forces)["right"] == pytest.approx(ends_of(BEAM + forces)["right"], rel=EXACT)
 
 
+def test_glue_beside_a_cut_takes_no_part_in_it() -> None:
+    """Two cubes glued to each other, and a slab on one of them: the weight amid the edges where they meet."""
+    deck = f"""{HEAD.replace("{joint: dry}", "{joint: dry, overrides: [{joint: glued, between: [one, two]}]}")}
+blocks:
+  - box: {{group: one, material: stone, min: [0, 0, 0], max: [1, 1, 1]}}
+  - box: {{group: two, material: stone, min: [1, 0, 0], max: [2, 1, 1]}}
+  - box: {{group: slab, material: stone, min: [0, 0, 1], max: [2, 1, 2]}}
+supports: [{{ground: {{z: 0}}}}]
+"""
+    forces = {name: f"on: {name}, direction: [0, 0, 1]" for name in ("one", "two")}
+    found = ends_of(deck + asked(**forces, slab="from: two, on: slab, direction: [0, 0, 1]"))
+    for name, most in (("one", 4.0), ("two", 4.0), ("slab", 2.0)):
+        assert np.array(found[name]) / WEIGHT == pytest.approx((0.0, most), abs=EXACT), name
+
+
 def test_forces_in_space() -> None:
     """A slab on four columns: two of them, on one diagonal, can carry all of it, or nothing."""
     column = "box: {{group: c{i}, material: stone, min: [{x}, {y}, -1], max: [{x1}, {y1}, 0]}}"

@@ -126,6 +126,37 @@ def test_what_a_file_says_is_found_again(solved: tuple[Results, Path]) -> None:
     assert (stored.series, stored.end, stored.sides.tolist()) == ("left", "least", [-1, 1, 1, 1, 0])
 
 
+STILL = """
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - box: {group: one, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: two, material: stone, min: [1, 0, 0], max: [2, 1, 1]}
+  - box: {group: top, material: stone, min: [0, 0, 1], max: [2, 1, 1.5]}
+  - box: {group: column, material: stone, min: [0.2, 0.3, 1.5], max: [0.5, 0.6, 2.5]}
+contacts: {joint: dry%s}
+supports: [{ground: {z: 0}}]
+load_cases:
+  along: {objective: {force: {direction: [1, 1, 0], from: column, on: top}}}
+analysis: {contact_model: convex}
+"""
+
+
+@pytest.mark.parametrize("glue", ["", ", overrides: [{joint: glued, between: [one, two]}]"], ids=["dry", "glued"])
+def test_of_a_force_that_statics_alone_gives_no_joint_moves(tmp_path: Path, glue: str) -> None:
+    """Nothing pushes the column: what joints move as the gauge does is what the solver leaves."""
+    path = tmp_path / "still.yaml"
+    path.write_text(STILL % glue, encoding="utf-8")
+    results = run(path, RunOptions(folder=tmp_path / "out"))
+    for case in results.cases:
+        assert case.status is Status.SOLVED
+        assert end_value(case) == pytest.approx(0.0, abs=1e-2)  # N, of a weight of 60 kN
+        assert case.solution.mechanics is not None
+        assert not case.solution.mechanics.modes.any()
+    assert verify_file(tmp_path / "out" / "still.h5")[1] == ()
+
+
 def test_a_picture_of_forces_has_both_lines_of_thrust(solved: tuple[Results, Path]) -> None:
     results = solved[0]
     scene = scene_of(results, results.case("all@least"), PictureOptions(), "forces")

@@ -79,14 +79,14 @@ def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
 
     left : size of the program in which glued blocks are bodies
     """
-    label, n_solids = solids.solid_of_block, len(solids.model.blocks)
+    label = solids.solid_of_block
     held = len(solids.contacts.report.held)
     joined = 0
     saved = held
     if label is not None:
         sizes = np.bincount(label)
         joined = int(sizes[sizes > 1].sum())
-        saved += len(label) - n_solids
+        saved += len(label) - len(sizes)  # a gauge is none of them
     unknowns = left.unknowns + 6 * saved
     before = replace(left, unknowns=unknowns, largest=unknowns)
     state = StepState.APPLIED if saved else StepState.NONE

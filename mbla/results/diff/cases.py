@@ -212,7 +212,12 @@ def _value(scene: Scene, name: str) -> float:
 
 
 def least_factor(model: Model, load_case: LoadCase) -> float:
-    """A share of dead over live load on the free blocks: load factors below are compared as if they were that."""
+    """A share of dead over live load on the free blocks: load factors below are compared as if they were that.
+
+    Of a reaction, or another force that is sought, a share of its unit, in which its load factor counts.
+    """
+    if load_case.settlement is not None:
+        return ZERO
     dead, live = (float(np.abs(load[model.free, :3]).sum()) for load in (load_case.dead_load, load_case.live_load))
     return ZERO * dead / live if live > 0.0 else 0.0
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
@@ -35,9 +36,9 @@ class Residuals:
                       the block itself has to balance where that is less
     yielding        : largest excess of a force over its yield conditions, over the same of the lighter block
     tension         : the part of it that is tension beyond the tensile strength
-    penetration     : largest closing velocity over the largest contact speed, where the joint cannot crush, 0 where no
-                      joint moves with the blocks; or the
-                      largest velocity of a block against its guide, over the largest of any, if that is more
+    penetration     : largest closing velocity over the largest contact speed, that of a cut that opens among them,
+                      where the joint cannot crush, 0 where no joint moves with the blocks; or the largest velocity of a
+                      block against its guide, over the largest of any, if that is more
     complementarity : see the module's text
     slip            : the part of it that is sliding not against friction
     live_power      : of the live load on the mechanism, should be 1
@@ -68,7 +69,7 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     moved, (by_interfaces, by_crushing) = case.velocities(u), case.interface_velocities(motions)
     v, interfaces = moved - by_interfaces, case.interface_terms(mechanics)
     sliding = np.hypot(v[:, 1], v[:, 2])
-    speed = float(np.linalg.norm(moved, axis=1).max(initial=0.0))
+    speed = float(np.linalg.norm(moved, axis=1).max(initial=gauge_speed(contacts, u)))
     closing = np.where(np.isinf(limits.compression), np.maximum(by_crushing[:, 0] - moved[:, 0], 0.0), 0.0)
     dead_power, live_power = case.powers(u)
     strength = limits.friction * x[:, 0] + limits.cohesion
@@ -90,6 +91,14 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
         live_power=live_power,
         power_balance=share_of(abs(lost), balance),
     )
+
+
+def gauge_speed(contacts: Contacts, mechanism: FloatArray) -> float:
+    """Speed at which the gauge of an objective, the last block, opens its cut; 0 without one.
+
+    Joints of the cut move by that much less: blocks that follow the gauge leave them at rest but for rounding.
+    """
+    return 0.0 if contacts.cut is None else float(np.linalg.norm(mechanism[-1, :3]))
 
 
 def penetration_of(closing: FloatArray, speed: float, mechanism: FloatArray, arms: FloatArray) -> float:

@@ -20,7 +20,7 @@ from mbla.solution.solution import Status
 from mbla.solution.solve import solve_parts
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
-from tests.line import HEAD, case_of, factor_of, line_of
+from tests.line import HEAD, case_of, cases_of, factor_of, line_of
 
 DECK = """
 mbla: 1
@@ -158,6 +158,16 @@ def test_unknowns_before_and_after(law: str, foot: str, found: int, before: int,
     step = step_of(law, foot)
     assert (step.found, step.before.unknowns, step.after.unknowns) == (found, before, after)
     assert step.state is (StepState.APPLIED if found else StepState.NONE)
+
+
+@pytest.mark.parametrize(("law", "found"), [("dry", 0), ("glued", 3)])
+def test_the_gauge_of_a_force_is_none_of_the_blocks_that_glue_saves(law: str, found: int) -> None:
+    sought = text(law, "dry").replace(
+        "push: {live: [{acceleration: [1, 0, 0]}]}", "push: {objective: {force: {from: foot, direction: [0, 0, 1]}}}"
+    )
+    _, _, cases = cases_of(sought)
+    steps = [step for case in cases for step in case.solution.reductions if step.name == "glued"]
+    assert [(step.found, step.before.unknowns - step.after.unknowns) for step in steps] == [(found, 4 * found)] * 2
 
 
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
