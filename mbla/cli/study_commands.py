@@ -142,8 +142,8 @@ def add_find(commands: Any) -> None:
         "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
         "before it. Prints every value that was looked at; writes no files.",
         epilog="Exit status 0: found and verified; 4: the last answer is not verified, is a jump of the load factor or "
-        "stands only in a self-stressed state, or nothing was found and of some steps of --scan nothing is known; 5: no "
-        "value between the bounds, as far as the steps show.",
+        "stands only by self-stress, or nothing was found and of some steps of --scan nothing is known; 5: no value "
+        "between the bounds, as far as the steps show.",
     )
     command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
     command.add_argument("deck", type=Path, metavar="DECK")
