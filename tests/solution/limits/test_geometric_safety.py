@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,10 @@ import numpy as np
 import pytest
 
 import mbla
+from mbla.contacts import Contacts
+from mbla.model import Model
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.results import CaseResult
 from mbla.results.verify import verify_file
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.solution import GeometricSafety, Status
@@ -104,9 +108,15 @@ def test_what_has_none_says_so(text: str, overrides: tuple[str, ...], words: str
     assert words in said[0]
 
 
-def test_a_factor_that_is_too_large_is_not_proved() -> None:
+@pytest.fixture(scope="module")
+def leaning() -> tuple[Model, Contacts, CaseResult]:
     model, case = case_of(LEANING)
-    found, contacts = case.solution.geometric_safety, mbla.run(LEANING).contacts
+    return model, mbla.run(LEANING).contacts, case
+
+
+def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Model, Contacts, CaseResult]) -> None:
+    model, contacts, case = leaning
+    found = case.solution.geometric_safety
     assert found is not None
     assert proved(model, contacts, case.load_case, found)
     assert not proved(model, contacts, case.load_case, replace(found, sizes=0.999 * found.sizes))
@@ -114,6 +124,29 @@ def test_a_factor_that_is_too_large_is_not_proved() -> None:
     assert not proved(
         model, contacts, case.load_case, replace(found, forces=1.001 * found.forces, sizes=found.sizes - 1e-3)
     )
+
+
+@pytest.mark.parametrize(
+    "forged",
+    [
+        lambda found: replace(found, sizes=found.sizes * [2.0, 1.0]),
+        lambda found: replace(found, pressed=found.pressed + 1.0),
+        lambda found: replace(found, load_factors=3.0 * found.load_factors),
+        lambda found: replace(found, load_factors=np.nan * found.load_factors),
+        lambda found: replace(
+            found,
+            **{name: getattr(found, name)[:1] for name in ("sizes", "pressed", "load_factors", "forces", "mechanisms")},
+        ),
+    ],
+    ids=["ends far apart", "pressed", "load factors", "no load factors", "no end that falls"],
+)
+def test_what_does_not_belong_to_its_proof_is_not_proved(
+    forged: Callable[[GeometricSafety], GeometricSafety], leaning: tuple[Model, Contacts, CaseResult]
+) -> None:
+    model, contacts, case = leaning
+    found = case.solution.geometric_safety
+    assert found is not None
+    assert not proved(model, contacts, case.load_case, forged(found))
 
 
 def test_result_files_keep_it_and_verify_proves_it_again(tmp_path: Path) -> None:
