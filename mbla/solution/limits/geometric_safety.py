@@ -70,7 +70,9 @@ def with_geometric_safety(
     against = _against(model, contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
     if found is None:
-        why = against or "no forces were found that carry the dead load at any size of the joints"
+        why = (
+            against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
+        )
         words = f"there is no geometric factor of safety: {why}"
         return replace(solution, remarks=(*solution.remarks, Message("geometric-safety-not-done", words)))
     verified = proved(model, contacts, load_case, found)
@@ -90,7 +92,7 @@ def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: An
 
 
 def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> GeometricSafety | None:
-    """The factor by which all joints may shrink while the dead load is carried; None where 1/16 is too much."""
+    """The factor by which all joints may shrink while the dead load is carried; None where 1/16 is too much, or nothing is."""
     solves = 0
 
     def at(factor: float) -> _Try:

@@ -14,6 +14,8 @@ import mbla
 from mbla.contacts import Contacts
 from mbla.model import Model
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.listing.geometric_safety import geometric_safety_lines
+from mbla.results.outcome import case_notices
 from mbla.results.results import CaseResult
 from mbla.results.verify import verify_file
 from mbla.solution.limits.geometric_safety import proved
@@ -83,6 +85,24 @@ def test_a_block_on_its_middle_stands_on_a_point() -> None:
     assert found.verified
 
 
+def test_what_stands_on_its_middles_or_by_self_stress_is_not_called_safe() -> None:
+    """A block on the ground; one between two others that only a thrust that nothing causes would hold."""
+    _, upright = case_of(SAFE)
+    assert "size is no measure of safety" in " ".join(" ".join(geometric_safety_lines(upright)).split())
+    between = SAFE.replace("min: [0, 0, 0]", "min: [0, 0, 1]").replace(
+        "joints: {", "joints: {ground: {friction: 0.7}, "
+    )
+    between = between.replace(
+        "supports: [{ground: {z: 0}}]",
+        """  - box: {group: left, material: stone, min: [-1, 0, 0], max: [0, 1, 2]}
+  - box: {group: right, material: stone, min: [1, 0, 0], max: [2, 1, 2]}
+supports: [{ground: {z: 0}, joint: ground}]""",
+    )
+    _, jammed = case_of(between)
+    assert "It is no safety: from the stress-free" in " ".join(" ".join(geometric_safety_lines(jammed)).split())
+    assert any("its geometric factor is no safety" in each.message for each in case_notices(jammed))
+
+
 def test_units_do_not_matter() -> None:
     small = LEANING.replace("mbla: 1", "mbla: 1\nunits: {length: mm}").replace("density: 2000", "density: 2.e-6")
     small = small.replace("b: 1, h: 2", "b: 1000, h: 2000").replace(
@@ -95,7 +115,7 @@ def test_units_do_not_matter() -> None:
 @pytest.mark.parametrize(
     ("text", "overrides", "words"),
     [
-        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "at any size of the joints"),
+        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "at no size of the joints"),
         (SAFE.replace("friction:", "compressive_strength: 1.e6, friction:"), (), "compressive strength"),
         (SAFE.replace("live:", "dead: [{gravity: none}], live:"), (), "no dead load"),
     ],
