@@ -92,7 +92,7 @@ def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: An
 
 
 def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> GeometricSafety | None:
-    """The factor by which all joints may shrink while the dead load is carried; None where 1/16 is too much, or nothing is."""
+    """The factor by which joints may shrink while the dead load is carried; None where none just carries it."""
     solves = 0
 
     def at(factor: float) -> _Try:
