@@ -141,8 +141,9 @@ def add_find(commands: Any) -> None:
         "dead load is just carried, between two bounds: by slopes of the associative load factor, which cost no "
         "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
         "before it. Prints every value that was looked at; writes no files.",
-        epilog="Exit status 0: found and verified; 4: found, and the last answer is not verified, or nothing is known "
-        "between the bounds; 5: no value between the bounds, as far as the steps of --scan show.",
+        epilog="Exit status 0: found and verified; 4: the last answer is not verified, is a jump of the load factor or "
+        "stands only by self-stress, or nothing was found and of some steps of --scan nothing is known; 5: no value "
+        "between the bounds, as far as the steps show.",
     )
     command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
     command.add_argument("deck", type=Path, metavar="DECK")

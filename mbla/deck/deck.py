@@ -151,8 +151,7 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
     # What is no name at all is not looked up as well.
     seen = {(fault.place, fault.key) for fault in faults}
     faults += [fault for fault in first_faults(check_references(tree)) if (fault.place, fault.key) not in seen]
-    if content is not None and not faults:
-        faults += parameter_faults(tree, content)
+    faults += first_faults(parameter_faults(tree, None if faults else content))
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
     return Deck(

@@ -93,23 +93,31 @@ def dimensions_at(path: KeyPath) -> set[str]:
     return {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
 
 
-def parameter_faults(tree: Tree, content: DeckContent) -> Iterator[Fault]:
-    """What is wrong with the key paths that a deck itself has for parameters."""
-    asked = content.analysis.sensitivity
-    named: dict[KeyPath, str] = {}
-    if isinstance(asked, list):
-        named = {("analysis", "sensitivity", row): key for row, key in enumerate(asked)}
-    if content.find is not None:
-        named["find", "parameter"] = content.find.parameter
-    for place, key in named.items():
+def parameter_faults(tree: Tree, content: DeckContent | None) -> Iterator[Fault]:
+    """What is wrong with the key paths that a deck itself has for parameters.
+
+    content : None where the deck has other faults: only keys that it has not are found then
+    """
+    for place, key in _asked(tree.data):
         try:
             path = path_of_key(tree.data, key)
         except RefusedError as refusal:
             yield tree.fault(place, Message("parameter-key", refusal.message.words))
             continue
-        if path[0] in ("analysis", "find") or number_at(content, path) is None:
+        if content is not None and (path[0] in ("analysis", "find") or number_at(content, path) is None):
             words = f"{key_text(path)} is no real number of the structure or its loads that the deck gives"
             yield tree.fault(place, Message("parameter-key", words))
+
+
+def _asked(data: Mapping[str, Any]) -> Iterator[tuple[KeyPath, str]]:
+    """Where a deck has key paths of parameters, and these, as far as they are text."""
+    analysis, find = (each if isinstance(each := data.get(name), dict) else {} for name in ("analysis", "find"))
+    slopes = analysis.get("sensitivity")
+    for row, key in enumerate(slopes if isinstance(slopes, list) else []):
+        if isinstance(key, str):
+            yield ("analysis", "sensitivity", row), key
+    if isinstance(key := find.get("parameter"), str):
+        yield ("find", "parameter"), key
 
 
 def unit_of(paths: Sequence[KeyPath], units: Units) -> str:

@@ -176,9 +176,10 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
     """What a reader must know of a case's figures, as warnings."""
     name, standing, notices = case.load_case.name, case.solution.standing, []
     if standing is not None and standing.verdict is Standing.SELF_STRESS:
-        what = (
-            "; its load factor is no collapse load" if locked_in(case) and case.solution.mechanics is not None else ""
-        )
+        figures = ["load factor is no collapse load"] if locked_in(case) and case.solution.mechanics is not None else []
+        safety = case.solution.geometric_safety
+        figures += ["geometric factor is no safety"] if safety is not None and safety.factor >= 1.0 else []
+        what = f"; its {' and its '.join(figures)}" if figures else ""
         text = f"{name}: the structure stands only in a self-stressed state{what}"
         notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}", name))
     if standing is not None and standing.verdict is Standing.DOUBTFUL:

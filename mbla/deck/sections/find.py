@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import Field
 
 from mbla.deck.quantities import Integer, Line, Name, Number, Quantity, Switch
-from mbla.deck.section import Section, exactly_one_of, rule
+from mbla.deck.section import EXACTLY_ONE, Section, one_of, rule
 from mbla.errors import Finding
 
 MOST_STEPS = 1000
@@ -17,7 +17,6 @@ TOLERANCE = 1e-6
 """of the value that is found, relative, unless the deck says otherwise"""
 
 
-@exactly_one_of()
 class TargetSection(Section):
     """What the result should be; one of these."""
 
@@ -28,6 +27,9 @@ class TargetSection(Section):
         description="true: the limit at which the dead load is just carried, whatever the live load; measured by the "
         "greatest uniform pressure in all joints, as of water, that is carried with it: 0 at the limit",
     )
+
+
+EXACTLY_ONE[TargetSection] = tuple(TargetSection.model_fields)  # its rule is that of ``find``: its faults come together
 
 
 class FindSection(Section):
@@ -47,7 +49,8 @@ class FindSection(Section):
 
 @rule(FindSection)
 def find(section: FindSection) -> Iterator[Finding]:
-    """Bounds are in order, and a switch is on."""
+    """There is one target, bounds are in order, and a switch is on."""
+    yield from (each.below("target") for each in one_of(section.target, EXACTLY_ONE[TargetSection]))
     least, greatest = section.bounds
     if not least < greatest:
         yield Finding("out-of-bounds", f"must be > {least:g}, the other bound", "bounds", 1)

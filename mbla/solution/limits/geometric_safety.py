@@ -38,6 +38,8 @@ LEAST, MOST = 1.0 / 16.0, 1000.0
 """Factors between which it is looked for"""
 TOLERANCE = 1e-6
 """of the factor, relative; it is proved to lie between two that are twice that apart"""
+APART = 1e-4
+"""of the factor, relative: two further apart prove none; 2e-6 is usual, accuracy draft leaves up to 5e-5"""
 STEP = 1.1
 """From one factor to the next at least, until one on the other side is found"""
 
@@ -68,7 +70,9 @@ def with_geometric_safety(
     against = _against(model, contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
     if found is None:
-        why = against or "no forces were found that carry the dead load at any size of the joints"
+        why = (
+            against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
+        )
         words = f"there is no geometric factor of safety: {why}"
         return replace(solution, remarks=(*solution.remarks, Message("geometric-safety-not-done", words)))
     verified = proved(model, contacts, load_case, found)
@@ -77,7 +81,7 @@ def with_geometric_safety(
 
 def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: AnalysisSection) -> str:
     if len(model.ties):
-        return "there are ties, which do not shrink with the joints"
+        return "there are ties, or soil that holds it sideways, which do not shrink with the joints"
     if load_case.settlement is not None:
         return "a support gives way"
     if analysis.contact_model == "convex" or crushable_interfaces(model, contacts).any():
@@ -88,7 +92,7 @@ def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: An
 
 
 def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> GeometricSafety | None:
-    """The factor by which all joints may shrink while the dead load is carried; None where 1/16 is too much."""
+    """The factor by which joints may shrink while the dead load is carried; None where none just carries it."""
     solves = 0
 
     def at(factor: float) -> _Try:
@@ -161,7 +165,14 @@ def _result(ends: tuple[_Try, ...], solves: int) -> GeometricSafety | None:
 
 
 def proved(model: Model, contacts: Contacts, load_case: LoadCase, safety: GeometricSafety) -> bool:
-    """Whether forces and mechanisms prove that the dead load stands at one end and falls at the other."""
+    """Whether forces and mechanisms prove that the dead load stands at one end and falls at the other, next to it.
+
+    The load factors are to be those of the forces and mechanisms too; without an end that falls, the one that stands is
+    the least size that is looked for.
+    """
+    next_to_it = safety.most <= (1.0 + APART) * safety.factor
+    if not (next_to_it or (len(safety.sizes) == 1 and safety.factor >= (1.0 - TOLERANCE) * MOST)):
+        return False
     bounds = []
     for row, size in enumerate(safety.sizes):
         whole = Structure(model, shrunk(contacts, float(size)), load_case)
@@ -176,5 +187,9 @@ def proved(model: Model, contacts: Contacts, load_case: LoadCase, safety: Geomet
         )
         case = Case(solids.model, solids.contacts, solids.load_case(posed.load_case))
         bounds.append(associative_bounds(case, state))
+    for own, (least, most) in zip(safety.load_factors, bounds, strict=True):
+        room = TOLERANCE * abs(own)
+        if not np.isfinite(own) or own < least - room or own > most + room:
+            return False
     stands = bounds[0][0] >= safety.pressed[0]
     return bool(stands and (len(bounds) == 1 or bounds[1][1] < safety.pressed[1]))

@@ -24,6 +24,8 @@ ALIKE = 3.0
 """Ratio of slopes up to which a cubic goes through both"""
 PATIENCE = 2
 """Steps in a row with little progress that are allowed"""
+NARROW, FAR = 1e-3, 1e-2
+"""A function jumps over zero where, in so small a share of the first bracket, it keeps so much of its largest size"""
 
 
 class Sample(Protocol):
@@ -53,19 +55,14 @@ class Zero(Generic[S]):
     bracket  : the nearest samples below and above zero
     error    : of ``best.x``: its value over its slope, but no more than the bracket is wide
     complete : the error is within the tolerance
+    jumps    : the function is not near zero on either side of it
     """
 
     best: S
     bracket: tuple[S, S]
     error: float
     complete: bool
-
-    @property
-    def jumps(self) -> bool:
-        """Whether the function is not near zero on either side of it."""
-        below, above = self.bracket
-        width = abs(above.x - below.x)
-        return self.complete and self.error >= width > 0.0 and not math.isfinite(above.y - below.y)
+    jumps: bool = False
 
 
 def scan(low: float, high: float, steps: int, at: Callable[[float], S]) -> list[S]:
@@ -91,7 +88,8 @@ def find_zero(one: S, other: S, at: Callable[[float], S], tolerance: float) -> Z
     while True:
         best, error = _best(below, above, seen)
         if error <= tolerance or len(seen) > MOST:
-            return Zero(best, (below, above), error, error <= tolerance)
+            complete = error <= tolerance
+            return Zero(best, (below, above), error, complete, complete and _jumps(below, above, seen, error))
         middle = 0.5 * (below.x + above.x)
         sample = at(middle if slow >= PATIENCE else _next(below, above, seen, tolerance))
         if math.isnan(sample.y):
@@ -116,6 +114,16 @@ def _best(below: S, above: S, seen: Sequence[S]) -> tuple[S, float]:
         distance = abs(end.y / slope) if towards and math.isfinite(end.y) else width
         found.append((end, 0.0 if end.y == 0.0 else min(width, distance)))
     return min(found, key=lambda each: (each[1], abs(each[0].y)))
+
+
+def _jumps(below: S, above: S, seen: Sequence[S], error: float) -> bool:
+    """Whether neither end is near zero, by their slopes where one is infinite, else by what was seen."""
+    width = abs(above.x - below.x)
+    if not math.isfinite(above.y - below.y):
+        return error >= width > 0.0
+    largest = max(abs(each.y) for each in seen if math.isfinite(each.y))
+    near = min(abs(below.y), abs(above.y)) <= FAR * largest
+    return not near and width <= NARROW * abs(seen[1].x - seen[0].x)
 
 
 def _next(below: S, above: S, seen: Sequence[S], tolerance: float) -> float:

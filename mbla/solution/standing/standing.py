@@ -18,6 +18,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.process.sharing import shared
 from mbla.process.stopwatch import stage
+from mbla.program.build import CaseProgram
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.cone_solvers.choice import cone_solver
@@ -88,6 +89,12 @@ def assess_dead_load(
     if weakening.outcome is Outcome.UNDECIDED:
         verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
     return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+
+
+def standing_where_carried(program: CaseProgram, settings: SolverSettings) -> StandingResult:
+    """Standing of a load case whose dead load some contact forces are known to carry; without its forces."""
+    parts = program.reduced.parts if program.convex is None else (program.convex.points,)
+    return worst_standing([assess_dead_load(part, settings).standing for part in parts])
 
 
 def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:

@@ -14,11 +14,13 @@ import math
 from dataclasses import dataclass, replace
 
 from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
+from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
 from mbla.deck import Deck, read_deck_text
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
+from mbla.program.build import build_program
 from mbla.results.outcome import least_and_greatest, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
@@ -27,11 +29,21 @@ from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
 from mbla.solution.sensitivity.sensitivity import slope_by
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Status
+from mbla.solution.solution import StandingResult, Status
+from mbla.solution.standing.standing import standing_where_carried
 from mbla.sweeps.find.question import Question
 
 SAME = 1e-7
 """Difference of load factors, relative, that is none"""
+
+
+REFUSED = "refused"
+"""status of a value with which the deck is not valid"""
+WITHOUT_SIZE = {
+    math.inf: "some forces carry the dead load whatever the pressure in the joints, as in a wedge",
+    -math.inf: "the dead load alone is not carried, and no pressure in the joints changes that",
+}
+"""What a structure that has no limit of pressure does"""
 
 
 @dataclass(frozen=True)
@@ -62,24 +74,40 @@ class Answer:
 
 def answer_at(deck: Deck, question: Question, x: float) -> Answer:
     """The result for a value; a deck that is refused with it has none, and says why."""
-    text = f"{question.parameter}={x!r}"
     try:
-        varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, text), expected=False)
-        model = build_model(varied)
-        contacts = contacts_of(varied, model)
+        varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
     except DeckError as error:
-        return Answer(x, math.nan, math.nan, math.nan, "refused", verified=False, words=str(error.faults[0]), solves=0)
-    structure = Structure(held_model(model, contacts), contacts, _case(model, question.load_case))
+        return Answer(x, math.nan, math.nan, math.nan, REFUSED, verified=False, words=str(error.faults[0]), solves=0)
     answer = _stands if question.kind == "stands" else _factor
     return answer(varied, question, structure, x)
 
 
-def _case(model: Model, name: str) -> LoadCase:
-    cases = select_cases(model, (name,))
-    if len(cases) > 1:
-        words = f"{name} travels: choose one of its positions, such as {cases[0].name}"
-        raise UsageError("find-option", f"--case {words}")
-    return cases[0]
+def refuse_unfit_deck(deck: Deck, question: Question) -> None:
+    """Raises DeckError with the faults that the deck has as it stands, where it has some."""
+    _structure(deck, question)
+
+
+def _structure(deck: Deck, question: Question, *overrides: str) -> tuple[Deck, Structure]:
+    """The deck with some values changed, and its structure; raises DeckError where it is refused."""
+    varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, *overrides), expected=False)
+    model = build_model(varied)
+    contacts = contacts_of(varied, model)
+    return varied, Structure(held_model(model, contacts), contacts, _case(model, question))
+
+
+def _case(model: Model, question: Question) -> LoadCase:
+    """Raises UsageError for one that has several answers, or another than is looked for."""
+    cases = select_cases(model, (question.load_case,))
+    name, case = question.load_case, cases[0]
+    if case.settlement is not None:
+        words = f"{name}: its answer is a force, which is no target; choose another load case, or mbla sweep"
+    elif len(cases) > 1:
+        words = f"{name} travels: choose one of its positions, such as {case.name}"
+    elif case.tilt is not None and question.kind != "stands":
+        words = f"{name}: a tilting table has an angle for its answer, no load factor; mbla sweep gives that for values"
+    else:
+        return case
+    raise UsageError("find-option", f"--case {words}")
 
 
 # --- load factors ---------------------------------------------------------------------------------------------------
@@ -121,13 +149,12 @@ def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResul
 
 def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
     """The greatest pressure in all joints that is carried with the dead load, and on which side of nothing it is."""
-    if structure.load_case.settlement is not None:
-        raise UsageError("find-option", f"{question.load_case}: a support that gives way has no limit of standing")
     found = joint_pressure(structure, deck.analysis)
     value, (least, most), verified = found.value, found.bounds, found.checks.verified
     if not math.isfinite(value):
-        words = found.solution.reason or "it is not verified"
-        return Answer(x, math.nan, value, math.nan, found.status.value, verified, words, found.solves)
+        side = found.status.value if math.isnan(value) else "stands" if value > 0.0 else "does not stand"
+        words = WITHOUT_SIZE.get(value) or found.solution.reason or "it is not verified"
+        return Answer(x, math.nan, value, math.nan, side, verified, words, found.solves)
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: Structure) -> Structure:
@@ -136,3 +163,13 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     slope = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed)
     own = math.nan if slope is None else slope.slope
     return Answer(x, value, value, own, stands, verified, "", found.solves, (least, most))
+
+
+def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:
+    """Whether it stands from the stress-free assembly for a value at which some forces carry the dead load."""
+    varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
+    settings = solver_settings(varied.analysis)
+    model, contacts, case = structure.model, structure.contacts, replace(structure.load_case, tilt=None)
+    return standing_where_carried(
+        build_program(tied(solids_of(model, contacts, case)), case, settings.analysis), settings
+    )

@@ -70,13 +70,17 @@ def question_of(deck: Deck, options: Any) -> Question:
     if missing:
         names = " and ".join(f"--{name}" for name in missing)
         raise UsageError("find-option", f"{deck.path}: find needs {names}, or a section find in the deck")
-    path = _parameter(deck, given["parameter"])
     least, greatest = given["bounds"]
     steps = (1 if section is None else section.scan) if options.scan is None else options.scan
+    path, load_case, faults = _parameter(deck, given["parameter"]), _load_case(deck, options), list[str]()
+    faults += [path] if isinstance(path, str) else []
     if not -math.inf < least < greatest < math.inf:
-        raise UsageError("find-option", f"--bounds {least:g} {greatest:g}: two numbers, the second the greater")
+        faults.append(f"--bounds {least:g} {greatest:g}: two numbers, the second the greater")
     if not 1 <= steps <= MOST_STEPS:
-        raise UsageError("find-option", f"--scan {steps}: 1 to {MOST_STEPS} steps are allowed")
+        faults.append(f"--scan {steps}: 1 to {MOST_STEPS} steps are allowed")
+    faults += [] if load_case else [f"--case is needed: the deck has {', '.join(deck.content.load_cases)}"]
+    if faults or isinstance(path, str):
+        raise UsageError("find-option", "\n".join(faults))
     return Question(
         parameter=".".join(map(str, path)),
         path=path,
@@ -86,24 +90,22 @@ def question_of(deck: Deck, options: Any) -> Question:
         bounds=(float(least), float(greatest)),
         scan=steps,
         tolerance=options.tolerance or (TOLERANCE if section is None else section.tolerance),
-        load_case=_load_case(deck, options.case or (None if section is None else section.load_case)),
+        load_case=load_case,
     )
 
 
-def _parameter(deck: Deck, key: str) -> KeyPath:
-    """Its path; raises UsageError where it is no real number of the structure or its loads."""
+def _parameter(deck: Deck, key: str) -> KeyPath | str:
+    """Its path, or what is wrong with it where it is no real number of the structure or its loads."""
     try:
         path = path_of_key(deck.data, key)
     except RefusedError as refusal:
-        raise UsageError("find-option", f"--parameter {key}: {refusal.message.words}") from refusal
+        return f"--parameter {key}: {refusal.message.words}"
     if path[0] in ("analysis", "find") or number_at(deck.content, path) is None:
-        raise UsageError("find-option", f"--parameter {key}: {key_text(path)} is no real number that the deck gives")
+        return f"--parameter {key}: {key_text(path)} is no real number that the deck gives"
     return path
 
 
-def _load_case(deck: Deck, name: str | None) -> str:
-    """Name of the load case; raises UsageError where it is not said and there are several."""
-    names = list(deck.content.load_cases)
-    if name is None and len(names) > 1:
-        raise UsageError("find-option", f"--case is needed: the deck has {', '.join(names)}")
-    return names[0] if name is None else name
+def _load_case(deck: Deck, options: Any) -> str:
+    """Name of the load case; empty where it is not said and there are several."""
+    names, section = list(deck.content.load_cases), deck.content.find
+    return options.case or (section and section.load_case) or (names[0] if len(names) == 1 else "")

@@ -13,11 +13,13 @@ from mbla.process.sharing import Memory, sharing
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
 from mbla.solution.limits.zeros import Zero, changes, find_zero, scan
-from mbla.sweeps.find.answer import Answer, answer_at
+from mbla.solution.solution import Standing, StandingResult
+from mbla.sweeps.find.answer import REFUSED, Answer, answer_at, refuse_unfit_deck, standing_at
 from mbla.sweeps.find.question import TARGETS, Question, question_of
 
 FOUND, IN_DOUBT, NOTHING = 0, 4, 5
-"""exit status: every value verified; one that is not, or nothing known at all; no change of sign between the bounds"""
+"""exit status: every value verified; one that is not, that is a jump of the load factor or no limit of standing, or
+nothing found and something not known; no change of sign between the bounds"""
 
 
 @dataclass(frozen=True)
@@ -26,11 +28,15 @@ class Finding:
 
     answers : in the order in which they were looked for
     zeros   : values at which the result is the target, from the least on
+    scanned : answers at the steps between the bounds
+    standing : of ``stands``, at each zero on the side that stands: whether it does from the stress-free assembly
     """
 
     question: Question
     answers: tuple[Answer, ...]
     zeros: tuple[Zero[Answer], ...]
+    scanned: tuple[Answer, ...]
+    standing: tuple[StandingResult, ...]
 
     @property
     def solves(self) -> int:
@@ -41,9 +47,22 @@ class Finding:
     def exit_code(self) -> int:
         """See ``FOUND``."""
         if not self.zeros:
-            return IN_DOUBT if all(math.isnan(each.y) for each in self.answers) else NOTHING
-        sound = all(zero.complete and _sure(zero) for zero in self.zeros)
-        return FOUND if sound else IN_DOUBT
+            return IN_DOUBT if self.unknown else NOTHING
+        stands = self.question.kind == "stands"
+        sound = all(_sure(zero) and (stands or not zero.jumps) for zero in self.zeros)
+        return FOUND if sound and all(each.verdict is Standing.YES for each in self.standing) else IN_DOUBT
+
+    @property
+    def unknown(self) -> tuple[Answer, ...]:
+        """Steps at which not even the side is known."""
+        return tuple(each for each in self.scanned if math.isnan(each.y))
+
+    @property
+    def found_words(self) -> list[str]:
+        """A sentence or some on every value that was found."""
+        of_load_factor = [None] * (len(self.zeros) - len(self.standing))
+        pairs = zip(self.zeros, [*self.standing, *of_load_factor], strict=True)
+        return [_found_words(self.question, zero, standing) for zero, standing in pairs]
 
     @property
     def record(self) -> dict[str, Any]:
@@ -66,8 +85,10 @@ class Finding:
                     "complete": zero.complete,
                     "jumps": zero.jumps,
                     **_answer_json(zero.best),
+                    "says": says,
+                    **({"standing": self.standing[row].verdict.value} if self.standing else {}),
                 }
-                for zero in self.zeros
+                for row, (zero, says) in enumerate(zip(self.zeros, self.found_words, strict=True))
             ],
             "evaluations": [{"value": each.x, **_answer_json(each)} for each in self.answers],
             "solves": self.solves,
@@ -99,9 +120,12 @@ class Finding:
             lines += sentence(full_sentence(words))
         if question.kind == "stands":
             lines += sentence(PRESSURE)
-        for zero in self.zeros:
-            lines += sentence(_found_words(question, zero))
-        if not self.zeros:
+        for words in self.found_words:
+            lines += sentence(words)
+        if self.unknown:
+            at = ", ".join(f"{each.x:.9g}" for each in self.unknown)
+            lines += sentence(UNKNOWN.format(question.parameter, at))
+        elif not self.zeros:
             lines += sentence(NO_CHANGE.format(question.scan))
         return [*lines, f"  {counted(len(self.answers), 'value')}, {counted(self.solves, 'solve')}"]
 
@@ -114,11 +138,15 @@ NO_CHANGE = (
     "Nothing was found: the result is on one side of the target at both ends of every step ({} from bound to bound). "
     "Other bounds or a finer --scan may find it."
 )
+UNKNOWN = (
+    "There is no result for {} = {}: values next to it may be missed. Other bounds or a finer --scan may find them."
+)
 
 
 def _sure(zero: Zero[Answer]) -> bool:
-    """Whether the answer that counts is verified: of a jump those on both sides."""
-    return all(each.verified for each in zero.bracket) if zero.jumps else zero.best.verified
+    """Whether the search came to its end and the answer that counts is verified: of a jump those on both sides."""
+    answers = zero.bracket if zero.jumps else (zero.best,)
+    return zero.complete and all(each.verified for each in answers)
 
 
 def _answer_json(answer: Answer) -> dict[str, Any]:
@@ -126,26 +154,33 @@ def _answer_json(answer: Answer) -> dict[str, Any]:
     return {name: as_json(getattr(answer, name)) for name in names}
 
 
-def _found_words(question: Question, zero: Zero[Answer]) -> str:
+def _found_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
     """Value, error, which way the result goes, and how sure it is."""
     below, above = zero.bracket
     unit = f" {question.unit}" if question.unit else ""
-    name, rises = question.parameter, below.x < above.x
-    between = f"between {min(below.x, above.x):.9g} and {max(below.x, above.x):.9g}{unit}"
-    if zero.jumps:
-        says = f"{name} {between}: there the result jumps from {_side(below)} to {_side(above)}"
-    else:
+    name, rises, stands = question.parameter, below.x < above.x, question.kind == "stands"
+    says = f"{name} between {min(below.x, above.x):.9g} and {max(below.x, above.x):.9g}{unit}"
+    if zero.jumps and not stands:
+        ends = f"{_side(min(zero.bracket, key=_place))} to {_side(max(zero.bracket, key=_place))}"
+        says += f": there the result jumps over the target, from {ends}; no value gives {number(question.target)}"
+    elif zero.complete and not zero.jumps:
         says = f"{name} = {zero.best.x:.9g}{unit}, within {small(zero.error)} by "
         says += "the values around it" if math.isnan(zero.best.slope) else "the slope there"
-    if question.kind == "stands":
-        says += f"; it stands {'above' if rises else 'below'}"
-    else:
+    side = "above" if rises else "below"
+    if standing is not None and standing.verdict is not Standing.YES:
+        says += f"; {side} some forces carry the dead load, but {standing.reason}; so this is no limit of standing"
+    elif stands:
+        says += f"; it stands {side}"
+    elif not zero.jumps:
         says += f"; the result {'rises' if rises else 'falls'} with it"
     if not zero.complete:
-        says += "; the search did not come to its end"
-    status = "verified" if _sure(zero) else "NOT verified"
-    shown = f"mbla run --set {name}={zero.best.x!r} shows it"
-    return f"{says}. The last answer is {status}; {shown}."
+        return f"{says}. The search did not come to its end: nothing narrower is known."
+    says += f". The last answer is {'verified' if _sure(zero) else 'NOT verified'}"
+    return f"{says}; mbla run --set {name}={zero.best.x!r} shows it."
+
+
+def _place(answer: Answer) -> float:
+    return answer.x
 
 
 def _side(answer: Answer) -> str:
@@ -162,6 +197,8 @@ def find(deck: Deck, options: Any, report: Callable[[Answer], None] | None = Non
     ------
     UsageError
         The question is not complete, or names what the deck does not have.
+    DeckError
+        The deck is refused as it stands, and at every step.
     SolverError, LimitError
         As a run does.
     """
@@ -176,5 +213,17 @@ def find(deck: Deck, options: Any, report: Callable[[Answer], None] | None = Non
 
     with sharing(Memory()):
         samples = scan(*question.bounds, question.scan, at)
-        zeros = [find_zero(one, other, at, question.absolute_tolerance) for one, other in changes(samples)]
-    return Finding(question, tuple(answers), tuple(zeros))
+        if all(each.status == REFUSED for each in samples):
+            refuse_unfit_deck(deck, question)
+        zeros = tuple(find_zero(one, other, at, question.absolute_tolerance) for one, other in changes(samples))
+        asked = zeros if question.kind == "stands" else ()
+        standing = tuple(standing_at(deck, question, _standing_side(zero, question)) for zero in asked)
+    return Finding(question, tuple(answers), zeros, tuple(samples), standing)
+
+
+def _standing_side(zero: Zero[Answer], question: Question) -> float:
+    """A value that stands, if some do, as near to the limit as that is asked for."""
+    limit, stands = zero.best.x, zero.bracket[1].x
+    if not zero.complete or zero.jumps:
+        return stands
+    return limit + math.copysign(min(question.absolute_tolerance, abs(stands - limit)), stands - limit)

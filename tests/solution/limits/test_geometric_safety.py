@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,12 @@ import numpy as np
 import pytest
 
 import mbla
+from mbla.contacts import Contacts
+from mbla.model import Model
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.listing.geometric_safety import geometric_safety_lines
+from mbla.results.outcome import case_notices
+from mbla.results.results import CaseResult
 from mbla.results.verify import verify_file
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.solution import GeometricSafety, Status
@@ -79,6 +85,24 @@ def test_a_block_on_its_middle_stands_on_a_point() -> None:
     assert found.verified
 
 
+def test_what_stands_on_its_middles_or_by_self_stress_is_not_called_safe() -> None:
+    """A block on the ground; one between two others that only a thrust that nothing causes would hold."""
+    _, upright = case_of(SAFE)
+    assert "size is no measure of safety" in " ".join(" ".join(geometric_safety_lines(upright)).split())
+    between = SAFE.replace("min: [0, 0, 0]", "min: [0, 0, 1]").replace(
+        "joints: {", "joints: {ground: {friction: 0.7}, "
+    )
+    between = between.replace(
+        "supports: [{ground: {z: 0}}]",
+        """  - box: {group: left, material: stone, min: [-1, 0, 0], max: [0, 1, 2]}
+  - box: {group: right, material: stone, min: [1, 0, 0], max: [2, 1, 2]}
+supports: [{ground: {z: 0}, joint: ground}]""",
+    )
+    _, jammed = case_of(between)
+    assert "It is no safety: from the stress-free" in " ".join(" ".join(geometric_safety_lines(jammed)).split())
+    assert any("its geometric factor is no safety" in each.message for each in case_notices(jammed))
+
+
 def test_units_do_not_matter() -> None:
     small = LEANING.replace("mbla: 1", "mbla: 1\nunits: {length: mm}").replace("density: 2000", "density: 2.e-6")
     small = small.replace("b: 1, h: 2", "b: 1000, h: 2000").replace(
@@ -91,7 +115,7 @@ def test_units_do_not_matter() -> None:
 @pytest.mark.parametrize(
     ("text", "overrides", "words"),
     [
-        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "at any size of the joints"),
+        (LEANING.replace("[1, 0, -9.81]", "[6, 0, -9.81]"), ("parameters.h=1",), "at no size of the joints"),
         (SAFE.replace("friction:", "compressive_strength: 1.e6, friction:"), (), "compressive strength"),
         (SAFE.replace("live:", "dead: [{gravity: none}], live:"), (), "no dead load"),
     ],
@@ -104,9 +128,15 @@ def test_what_has_none_says_so(text: str, overrides: tuple[str, ...], words: str
     assert words in said[0]
 
 
-def test_a_factor_that_is_too_large_is_not_proved() -> None:
+@pytest.fixture(scope="module")
+def leaning() -> tuple[Model, Contacts, CaseResult]:
     model, case = case_of(LEANING)
-    found, contacts = case.solution.geometric_safety, mbla.run(LEANING).contacts
+    return model, mbla.run(LEANING).contacts, case
+
+
+def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Model, Contacts, CaseResult]) -> None:
+    model, contacts, case = leaning
+    found = case.solution.geometric_safety
     assert found is not None
     assert proved(model, contacts, case.load_case, found)
     assert not proved(model, contacts, case.load_case, replace(found, sizes=0.999 * found.sizes))
@@ -114,6 +144,29 @@ def test_a_factor_that_is_too_large_is_not_proved() -> None:
     assert not proved(
         model, contacts, case.load_case, replace(found, forces=1.001 * found.forces, sizes=found.sizes - 1e-3)
     )
+
+
+@pytest.mark.parametrize(
+    "forged",
+    [
+        lambda found: replace(found, sizes=found.sizes * [2.0, 1.0]),
+        lambda found: replace(found, pressed=found.pressed + 1.0),
+        lambda found: replace(found, load_factors=3.0 * found.load_factors),
+        lambda found: replace(found, load_factors=np.nan * found.load_factors),
+        lambda found: replace(
+            found,
+            **{name: getattr(found, name)[:1] for name in ("sizes", "pressed", "load_factors", "forces", "mechanisms")},
+        ),
+    ],
+    ids=["ends far apart", "pressed", "load factors", "no load factors", "no end that falls"],
+)
+def test_what_does_not_belong_to_its_proof_is_not_proved(
+    forged: Callable[[GeometricSafety], GeometricSafety], leaning: tuple[Model, Contacts, CaseResult]
+) -> None:
+    model, contacts, case = leaning
+    found = case.solution.geometric_safety
+    assert found is not None
+    assert not proved(model, contacts, case.load_case, forged(found))
 
 
 def test_result_files_keep_it_and_verify_proves_it_again(tmp_path: Path) -> None:

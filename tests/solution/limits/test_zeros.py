@@ -91,6 +91,12 @@ def test_a_jump() -> None:
     assert evaluations < MOST
 
 
+def test_a_jump_between_two_finite_values() -> None:
+    (found,), _ = zeros(lambda x: (x + 0.7 if x > 0.3 else x - 2, NAN), 0, 1, slopes=False)
+    assert found.complete
+    assert found.jumps
+
+
 def test_a_value_that_is_not_known_ends_it() -> None:
     (found,), evaluations = zeros(lambda x: (x - 0.7, NAN) if abs(x - 0.5) > 0.4 else (NAN, NAN), 0, 1, slopes=False)
     assert not found.complete

@@ -12,6 +12,7 @@ import pytest
 
 from mbla import cli
 from mbla.deck import read_deck_text
+from mbla.errors import DeckError, UsageError
 from mbla.sweeps.find.study import Finding, find
 from tests.decks.folder import PATHS, deck_of, name_of
 from tests.line import BLOCK, WALL
@@ -24,6 +25,23 @@ OF_DECKS = {
 }
 """value that the section `find` of each deck asks for, and how near"""
 UPWARDS = BLOCK.replace("live:", "dead: [{force: [0, 0, 30000], on: block}], live:")
+MU = ("parameters.mu", "load_factor", 0.3, (0.1, 1.0))
+LEDGE = BLOCK.replace("live:", "dead: [{gravity: [2.4, 0, -9.81]}], live:")
+WEDGED = BLOCK.replace(
+    "supports: [{ground: {z: 0}}]",
+    """  - box: {group: left, material: stone, min: [-1, 0, 0], max: [0, 1, 1]}
+  - box: {group: right, material: stone, min: [1, 0, 0], max: [2, 1, 1]}
+supports: [{blocks: [left, right]}]""",
+)
+JAMMED = WEDGED.replace("min: [0, 0, 0]", "min: [0, 0, 1]").replace("1]}", "2]}")
+JAMMED = JAMMED.replace("blocks: [left, right]", "ground: {z: 0}, joint: ground").replace(
+    "joints: {", "joints: {ground: {friction: 0.7}, "
+)
+"""Between two blocks: these are fixed, or stand on the ground with friction of their own"""
+
+
+def said(found: Finding) -> str:
+    return " ".join(" ".join(found.lines).split())
 
 
 def asked(text: str, parameter: str, kind: str, target: float, bounds: tuple[float, float], **more: Any) -> Finding:
@@ -114,13 +132,41 @@ def test_where_it_stops_standing_the_load_factor_jumps() -> None:
     (zero,) = found.zeros
     assert zero.jumps
     assert zero.best.x == pytest.approx(30000 / (2 * 9.81), rel=1e-4)
-    assert "jumps from no_equilibrium" in " ".join(" ".join(found.lines).split())
+    assert found.exit_code == 4
+    assert "jumps over the target, from no_equilibrium to" in said(found)
+    assert "no value gives -0.1" in found.record["found"][0]["says"]
 
 
 def test_a_deck_that_is_refused_has_no_value() -> None:
     found = asked(BLOCK, "parameters.mu", "load_factor", 0.3, (-1.0, 1.0))
-    assert (found.exit_code, found.answers[0].status) == (5, "refused")
+    assert (found.exit_code, found.answers[0].status) == (4, "refused")
     assert "must be >= 0" in found.answers[0].words
+    assert "There is no result for parameters.mu = -1: values next to it may be missed" in said(found)
+
+
+def test_a_deck_that_is_refused_whatever_the_value_has_its_faults() -> None:
+    with pytest.raises(DeckError, match="glue"):
+        asked(BLOCK.replace("on: block", "on: no").replace("{joint: dry}", "{joint: glue}"), *MU)
+
+
+@pytest.mark.parametrize(
+    ("live", "words"),
+    [
+        ("live: [{tilt: {axis: [0, 1, 0]}}]", "a tilting table has an angle"),
+        ("objective: {force: {direction: [0, 0, 1], on: block}}", "its answer is a force"),
+    ],
+)
+def test_a_load_case_without_a_load_factor_is_refused(live: str, words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        asked(BLOCK.replace("live: [{acceleration: [1, 0, 0]}]", live), *MU)
+
+
+@pytest.mark.parametrize(("text", "most"), [(JAMMED, 4), (WEDGED, 4), (LEDGE, 0)])
+def test_what_stands_only_in_a_self_stressed_state_has_no_limit_of_standing(text: str, most: int) -> None:
+    """A block between two others is held by a thrust that nothing causes; one on a slope by its weight."""
+    found = asked(text, "parameters.mu", "stands", 0.0, (0.0, 1.0), tolerance=1e-3)
+    assert found.exit_code == most
+    assert ("from the stress-free assembly it falls" in said(found)) == bool(most)
 
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
