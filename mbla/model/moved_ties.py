@@ -2,7 +2,8 @@
 
 A tie that has yielded stays as long as it was at most, and carries nothing until it is that long again: its slack is
 the greatest length so far less the present one; a strut's the present one less the least. What takes both senses has
-none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks.
+none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks; the push of fill
+turns with the block too, and is never slack.
 
 A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps in which it got longer,
 each by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates.

@@ -58,6 +58,8 @@ def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
     assert ties.places[0] == pytest.approx([5, 0.5, 0.5])
     assert ties.pulls[0] == pytest.approx([1, 0, 0])
     assert ties.bodies.tolist() == [0, OUTSIDE]
+    assert ties.forms == ("fill",)
+    assert ties.lengths.tolist() == [0.0]
 
 
 @pytest.mark.parametrize("flow", ["associative", "non_associative"])
