@@ -61,7 +61,9 @@ class TieHistory:
     def broken(self, ties: Ties) -> BoolArray:
         """Which ties, as built, have broken, (n,)."""
         size = np.where(ties.lengths > 0.0, ties.lengths, 0.0)
-        return np.asarray(self.yielded > ties.breaks_at * size + NO_YIELD * np.maximum(size, self.longest))
+        breaks_at = np.where(np.isfinite(ties.breaks_at), ties.breaks_at, 0.0)
+        beyond = self.yielded > breaks_at * size + NO_YIELD * np.maximum(size, self.longest)
+        return np.asarray(np.isfinite(ties.breaks_at) & beyond)
 
 
 def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:

@@ -9,6 +9,8 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.model import build_model
+from mbla.model.moved_ties import TieHistory, moved_ties
+from mbla.model.pose import Pose
 from mbla.model.ties import OUTSIDE
 from mbla.solution.solution import Status
 from tests.line import case_of
@@ -60,6 +62,16 @@ def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
     assert ties.bodies.tolist() == [0, OUTSIDE]
     assert ties.forms == ("fill",)
     assert ties.lengths.tolist() == [0.0]
+
+
+def test_it_never_breaks_and_keeps_its_direction_as_the_block_moves(tmp_path: Path) -> None:
+    """0.2 m into the soil and 0.3 m down: the push stays level, whatever the block has moved by."""
+    model = build_model(read_deck(write(tmp_path, 0.0)))
+    pose = Pose(np.array([[0.2, 0.0, -0.3]]), np.eye(3)[None])
+    there = moved_ties(model.ties, model.blocks, pose)
+    assert there.pulls == pytest.approx(model.ties.pulls)
+    history = TieHistory.at_rest(model.ties).after(model.blocks, model.ties, np.array([[-0.2, 0, 0, 0, 0, 0.0]]), there)
+    assert not history.broken(model.ties).any()
 
 
 @pytest.mark.parametrize("flow", ["associative", "non_associative"])
