@@ -115,6 +115,23 @@ def test_of_a_half_with_its_image() -> None:
     assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        ("dead: [{gravity: none}], live: [{force: [1, 0, 0], on: wedge}]", "though gravity here is (0, 0, 0) m/s2"),
+        ("dead: [{gravity: [0, 0, -1.62]}], live: [{force: [1, 0, 0], on: wedge}]", "gravity here is (0, 0, -1.62) m"),
+        ("live: [{tilt: {axis: [0, 1, 0]}}]", "though gravity turns against it"),
+        ("dead: [{gravity: [0, 0, -9.80665]}], live: [{acceleration: [1, 0, 0]}]", None),
+    ],
+)
+def test_a_warning_where_gravity_is_another(tmp_path: Path, load: str, words: str | None) -> None:
+    path = write(tmp_path, 0.0)
+    path.write_text(path.read_text().partition("  into:")[0] + f"  case: {{{load}}}\n")
+    texts = [each.message for each in build_model(read_deck(path)).notices if each.identifier == "soil-stress-stays"]
+    assert len(texts) == (words is not None)
+    assert all("case: the fill soil pushes" in text and str(words) in text for text in texts)
+
+
 def test_a_notice_says_that_it_is_calibrated(tmp_path: Path) -> None:
     notices = build_model(read_deck(write(tmp_path, 0.0))).notices
     text = next(notice.message for notice in notices if notice.identifier == "fill-restrains")
