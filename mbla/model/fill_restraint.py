@@ -25,7 +25,7 @@ from mbla.errors import Notice
 from mbla.model.fill import FillBody, columns
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
-from mbla.model.ties import NO_TIES, OUTSIDE, Ties
+from mbla.model.ties import FILL, NO_TIES, OUTSIDE, Ties
 from mbla.model.wording import counted
 
 LEVEL = 1e-6
@@ -60,7 +60,7 @@ def coefficients(passive: Passive) -> tuple[float, float]:
 
 
 def _struts(body: FillBody, passive: Passive, blocks: Blocks, fixed: BoolArray) -> Ties:
-    """Struts on faces, from there outwards to a point as far off as the block is large."""
+    """Struts between faces and what lies outside of the model, both ends in the middle of the face."""
     own = columns(body, blocks)
     faces, of_face = np.unique(body.faces[own.rows], return_inverse=True)
     normals = blocks.face_normals[faces]
@@ -77,15 +77,14 @@ def _struts(body: FillBody, passive: Passive, blocks: Blocks, fixed: BoolArray) 
     outwards = np.column_stack([normals[:, :2] / np.where(slopes > 0, slopes, 1.0)[:, None], np.zeros(len(faces))])
     outwards, middles, owner = outwards[chosen], middles[chosen], owner[chosen]
     n = len(chosen)
-    ends = middles + blocks.sizes[owner][:, None] * outwards
     greatest = most * loads[chosen] + cohesive * (areas * slopes / normals[:, 2])[chosen]
     return Ties(
         names=tuple(f"{body.name}[{number}]" for number in range(n)),
-        forms=("strut",) * n,
+        forms=(FILL,) * n,
         closed=np.zeros(n, dtype=np.int64),
         start=starts(np.full(n, 2)),
         bodies=np.column_stack([owner, np.full(n, OUTSIDE)]).ravel(),
-        places=np.stack([middles, ends], axis=1).reshape(-1, 3),
+        places=np.repeat(middles, 2, axis=0),
         pulls=np.stack([outwards, -outwards], axis=1).reshape(-1, 3),
         least=-greatest,
         greatest=-least * loads[chosen],

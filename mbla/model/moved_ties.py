@@ -2,7 +2,8 @@
 
 A tie that has yielded stays as long as it was at most, and carries nothing until it is that long again: its slack is
 the greatest length so far less the present one; a strut's the present one less the least. What takes both senses has
-none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks.
+none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks; the push of fill
+turns with the block too, and is never slack.
 
 A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps in which it got longer,
 each by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates.
@@ -60,7 +61,9 @@ class TieHistory:
     def broken(self, ties: Ties) -> BoolArray:
         """Which ties, as built, have broken, (n,)."""
         size = np.where(ties.lengths > 0.0, ties.lengths, 0.0)
-        return np.asarray(self.yielded > ties.breaks_at * size + NO_YIELD * np.maximum(size, self.longest))
+        breaks_at = np.where(np.isfinite(ties.breaks_at), ties.breaks_at, 0.0)
+        beyond = self.yielded > breaks_at * size + NO_YIELD * np.maximum(size, self.longest)
+        return np.asarray(np.isfinite(ties.breaks_at) & beyond)
 
 
 def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:

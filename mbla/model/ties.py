@@ -6,7 +6,8 @@ unit direction, or where it passes along the sum of two::
     first point e₁     passed (e₂ − e₁) ...     last point −eₙ
 
 with e the direction of each stretch: one force all along, without friction where it passes. A closed tie passes all of
-its points. A strip pulls together the two faces of each joint that it crosses, along itself.
+its points. A strip pulls together the two faces of each joint that it crosses, along itself. What fill does on a face
+is a tie of the form ``fill``, whose force is the push, negative; its limits are the passive and the active pressure.
 
 Its elongation rate is −Σ pull · v over the velocities v of its points: normality asks that it is at ``greatest`` where
 it gets longer, and at ``least`` where it gets shorter.
@@ -21,7 +22,9 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.model.solids.ragged import items_of_rows
 
-AT_ONE_PLACE = ("strip", "fill")
+FILL = "fill"
+"""form of what fill does on a face: a push between two limits, from outside of the model"""
+AT_ONE_PLACE = ("strip", FILL)
 """forms whose points lie at one place, and whose direction is that of their pulls"""
 ONE_PLACE = 1e-9
 """length of a stretch over that of its line that is none"""
@@ -34,7 +37,7 @@ class Ties:
     """All ties of a model, n of them with m points.
 
     names     : of each
-    forms     : tie, strut, bar, ring or strip
+    forms     : tie, strut, bar, ring, strip or fill
     closed    : (n,) its last point is joined to the first one
     start     : (n + 1,) points of tie k are rows start[k]:start[k + 1] of the next three
     bodies    : (m,) block at each point, or ``OUTSIDE``
@@ -67,14 +70,19 @@ class Ties:
 
     @property
     def lengths(self) -> FloatArray:
-        """Of the lines of ties, (n,) m; nothing where a strip crosses a joint."""
+        """Of the lines of ties, (n,) m; nothing where their points lie at one place."""
         ends = self.stretches
         length = np.linalg.norm(self.places[ends[:, 1]] - self.places[ends[:, 0]], axis=1)
         return np.asarray(np.bincount(self.tie_of_point[ends[:, 0]], length, len(self)), dtype=np.float64)
 
     @property
+    def of_fill(self) -> BoolArray:
+        """Which are what fill does on faces, (n,)."""
+        return np.array([form == FILL for form in self.forms], dtype=bool)
+
+    @property
     def lengths_known(self) -> BoolArray:
-        """Which are lines between places; strips are not, which cross a joint at one place, (n,)."""
+        """Which are lines between places; those at one place are not, (n,)."""
         return np.array([form not in AT_ONE_PLACE for form in self.forms], dtype=bool)
 
     @property

@@ -9,6 +9,8 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.model import build_model
+from mbla.model.moved_ties import TieHistory, moved_ties
+from mbla.model.pose import Pose
 from mbla.model.ties import OUTSIDE
 from mbla.solution.solution import Status
 from tests.line import case_of
@@ -58,6 +60,18 @@ def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
     assert ties.places[0] == pytest.approx([5, 0.5, 0.5])
     assert ties.pulls[0] == pytest.approx([1, 0, 0])
     assert ties.bodies.tolist() == [0, OUTSIDE]
+    assert ties.forms == ("fill",)
+    assert ties.lengths.tolist() == [0.0]
+
+
+def test_it_never_breaks_and_keeps_its_direction_as_the_block_moves(tmp_path: Path) -> None:
+    """0.2 m into the soil and 0.3 m down: the push stays level, whatever the block has moved by."""
+    model = build_model(read_deck(write(tmp_path, 0.0)))
+    pose = Pose(np.array([[0.2, 0.0, -0.3]]), np.eye(3)[None])
+    there = moved_ties(model.ties, model.blocks, pose)
+    assert there.pulls == pytest.approx(model.ties.pulls)
+    history = TieHistory.at_rest(model.ties).after(model.blocks, model.ties, np.array([[-0.2, 0, 0, 0, 0, 0.0]]), there)
+    assert not history.broken(model.ties).any()
 
 
 @pytest.mark.parametrize("flow", ["associative", "non_associative"])
@@ -99,6 +113,23 @@ def test_of_a_half_with_its_image() -> None:
     assert result.solution.mechanics is not None
     expected = 0.3 * (STONE + SOIL) + 0.5 * 3 * PRESSURE
     assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        ("dead: [{gravity: none}], live: [{force: [1, 0, 0], on: wedge}]", "though gravity here is (0, 0, 0) m/s2"),
+        ("dead: [{gravity: [0, 0, -1.62]}], live: [{force: [1, 0, 0], on: wedge}]", "gravity here is (0, 0, -1.62) m"),
+        ("live: [{tilt: {axis: [0, 1, 0]}}]", "though gravity turns against it"),
+        ("dead: [{gravity: [0, 0, -9.80665]}], live: [{acceleration: [1, 0, 0]}]", None),
+    ],
+)
+def test_a_warning_where_gravity_is_another(tmp_path: Path, load: str, words: str | None) -> None:
+    path = write(tmp_path, 0.0)
+    path.write_text(path.read_text().partition("  into:")[0] + f"  case: {{{load}}}\n")
+    texts = [each.message for each in build_model(read_deck(path)).notices if each.identifier == "soil-stress-stays"]
+    assert len(texts) == (words is not None)
+    assert all("case: the fill soil pushes" in text and str(words) in text for text in texts)
 
 
 def test_a_notice_says_that_it_is_calibrated(tmp_path: Path) -> None:

@@ -14,13 +14,15 @@ of a facet takes the lines that end on it, as a vertical force where they do on 
 the plane of slopes, which is a polygon. Of two pieces in one line the upper one takes it.
 
 All of the load lands: what would leave the blocks sideways, across the way in which it spreads, is kept on them in
-proportion, as the spandrels keep it. What goes beyond their ends is carried by the ground there and counted apart.
+proportion, as the spandrels keep it. So is what goes past the last of them at slopes at which any face of a block
+stands, as the upright one of an end wall. Only what goes beyond is left to the ground there and counted apart.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,9 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.fill import Dispersal
 from mbla.model.fill import FillBody
+from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, signed_areas
+from mbla.model.solids.ragged import row_maxima
 
 HAIR = 1e-9
 """depth over the extent of the fill to which a load that stands on a block itself is lifted, so that it has a side"""
@@ -44,16 +48,20 @@ GAUSS = np.polynomial.legendre.leggauss(8)
 class Spread:
     """Where a load lands.
 
-    blocks : (n,) ascending, each once
+    blocks : (n,) ascending, each once; none where no line of it ends on them
     shares : (n,) of the load; they add up to 1 less ``beyond``
     points : (n, 3) where each acts
-    beyond : share that goes past the ends of the blocks
+    beyond : share that goes past the ends of all blocks
+    met    : share that goes past those under the fill and meets faces of blocks all the same; in ``shares``, if any
+    others : (m,) these blocks, ascending
     """
 
     blocks: IntArray
     shares: FloatArray
     points: FloatArray
     beyond: float
+    met: float = 0.0
+    others: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
 
 
 @dataclass(frozen=True)
@@ -75,48 +83,48 @@ class _Pieces:
         return np.asarray(at_load / (1.0 - along * slopes[:, 0] - across * slopes[:, 1]))
 
 
-def spread(body: FillBody, place: FloatArray, along: FloatArray, width: float) -> Spread | None:
-    """Shares of a vertical load that stands on the fill at a place, (3,), whose z does not count; None where all of it
-    goes beyond.
+def spread(body: FillBody, place: FloatArray, along: FloatArray, width: float, blocks: Blocks) -> Spread:
+    """Shares of a vertical load that stands on the fill at a place, (3,), whose z does not count.
 
-    along : (3,) unit, horizontal: the way in which it spreads, of a force also across
-    width : of a line load, across, half of it to each side of the place; 0 for a force
+    along  : (3,) unit, horizontal: the way in which it spreads, of a force also across
+    width  : of a line load, across, half of it to each side of the place; 0 for a force
+    blocks : of the model
     """
     law, line = body.dispersal, width > 0.0
     most = math.tan(math.radians(law.angle))
-    lifted = 0.0 if law.contact is None else law.contact / (2.0 * most)
     across = np.array([-along[1], along[0], 0.0])
-    away = body.triangles - place
-    local = np.stack([away @ along, away @ across, -away[..., 2]], axis=2)
     slope = float(-body.normal @ across / body.normal[2]) if line else 0.0  # a line follows the top
-    extent = float(np.abs(local[..., :2]).max())
-    local[..., 2] += float(body.tops(place)) - place[2] + slope * local[..., 1] + lifted + HAIR * extent
-    pieces, owner = _reached(local, most, width)
-    if not len(owner):
-        return None
+    away = (body.triangles - place).reshape(-1, 3)
+    extent = float(np.abs(np.stack([away @ along, away @ across])).max(initial=0.0))
+    lifted = (0.0 if law.contact is None else law.contact / (2.0 * most)) + HAIR * extent
+
+    def seen(points: FloatArray) -> FloatArray:
+        """Points (..., 3) from the load: along, across, below its origin."""
+        away = points - place
+        below = float(body.tops(place)) - place[2] - away[..., 2] + slope * (away @ across) + lifted
+        return np.stack([away @ along, away @ across, below], axis=-1)
+
+    pieces, owner = _reached(seen(body.triangles), most, width)
     rows, images = _visible(pieces, line, most * (width or most))
-    if not len(rows):
-        return None
     shares, points = _integrals(pieces, rows, images, law, width)
-    ends = _cumulative(law, np.array(_bounds(images)))
-    kept = float(ends[1] - ends[0])
+    ends = _bounds(images)
+    kept = _between(law, *ends)
     if kept <= NOTHING or not shares.sum() > NOTHING:
-        return None
-    seen = shares > NOTHING**2 * shares.sum()  # others have nothing left of them
-    rows, shares, points = rows[seen], shares[seen], points[seen]
-    blocks, row = np.unique(body.blocks[owner[rows]], return_inverse=True)
-    total = summed(row, shares, len(blocks))
-    means = summed(row, shares[:, None] * points, len(blocks)) / total[:, None]
-    heights = body.tops(place) + slope * means[:, 1] + lifted + HAIR * extent - means[:, 2]
+        ends, kept, shares = (math.inf, -math.inf), 0.0, np.zeros(len(shares))
+    met, others = (0.0, np.empty(0, np.int64)) if kept >= 1.0 - NOTHING else _met(blocks, seen, law, width, ends)
+    beyond = 1.0 - kept - met if kept + met < 1.0 - NOTHING else 0.0
+    landed = shares > NOTHING**2 * shares.sum()  # others have nothing left of them
+    rows, shares, points = rows[landed], shares[landed], points[landed]
+    found, row = np.unique(body.blocks[owner[rows]], return_inverse=True)
+    total = summed(row, shares, len(found))
+    means = summed(row, shares[:, None] * points, len(found)) / total[:, None]
     at = place + means[:, :1] * along + means[:, 1:2] * across
-    at[:, 2] = heights
-    beyond = 1.0 - kept if kept < 1.0 - NOTHING else 0.0
-    return Spread(blocks, total * ((1.0 - beyond) / total.sum()), at, beyond)
+    at[:, 2] = body.tops(place) + slope * means[:, 1] + lifted - means[:, 2]
+    return Spread(found, total * ((1.0 - beyond) / (total.sum() or 1.0)), at, beyond, met, others)
 
 
-def _reached(local: FloatArray, most: float, width: float) -> tuple[_Pieces, IntArray]:
-    """What of triangles (n, 3, 3) lines of the load reach, if nothing stands in the way; and their rows (m,)."""
-    loops = local
+def _clipped(loops: FloatArray, most: float, width: float) -> tuple[FloatArray, IntArray]:
+    """What of loops (n, k, 3) lines of the load reach, if nothing stands in the way, and their rows (m,)."""
     for sign in (1.0, -1.0):
         loops = cut(loops, most * loops[..., 2] - sign * loops[..., 0])
         if width > 0.0:
@@ -124,11 +132,44 @@ def _reached(local: FloatArray, most: float, width: float) -> tuple[_Pieces, Int
         else:
             loops = cut(loops, most * loops[..., 2] - sign * loops[..., 1])
     left = np.flatnonzero((loops[..., 2] > 0.0).all(axis=1))
+    return loops[left], left
+
+
+def _met(
+    blocks: Blocks, seen: Callable[[FloatArray], FloatArray], law: Dispersal, width: float, ends: tuple[float, float]
+) -> tuple[float, IntArray]:
+    """Share of the load between the last slope of the pieces, ``ends``, and the last one at which lines meet a face of
+    any block, and the blocks there, (n,).
+    """
+    most, start = math.tan(math.radians(law.angle)), blocks.loop_start
+    corners = seen(blocks.vertices)[blocks.loops]
+    reach = most * row_maxima(corners[:, 2], start)
+    near = reach > 0.0
+    for axis, side in ((0, reach), (1, width / 2 if width > 0.0 else reach)):
+        near &= (row_maxima(corners[:, axis], start) >= -side) & (row_maxima(-corners[:, axis], start) >= -side)
+    faces = np.flatnonzero(near)
+    counts = np.diff(start)[faces]
+    columns = np.minimum(np.arange(counts.max(initial=1)), counts[:, None] - 1)
+    loops, left = _clipped(corners[start[faces][:, None] + columns], most, width)
+    images = _flat(loops, width > 0.0)
+    seen_as_areas = np.abs(signed_areas(images)) > NOTHING * most * (width or most)  # not from their edges
+    slopes, owner = images[seen_as_areas, :, 0], blocks.block_of_face[faces[left[seen_as_areas]]]
+    if not len(slopes):
+        return 0.0, owner
+    least, most_of = slopes.min(axis=1), slopes.max(axis=1)
+    share = _between(law, min(ends[0], least.min()), max(ends[1], most_of.max())) - _between(law, *ends)
+    past = (least < ends[0] - NOTHING * most) | (most_of > ends[1] + NOTHING * most)
+    return (share, np.unique(owner[past])) if share > NOTHING else (0.0, owner[:0])
+
+
+def _reached(local: FloatArray, most: float, width: float) -> tuple[_Pieces, IntArray]:
+    """What of triangles (n, 3, 3) lines of the load reach, if nothing stands in the way; and their rows (m,)."""
+    loops, left = _clipped(local, most, width)
     a, b, c = local[left].transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     slopes = -normals[:, :2] / normals[:, 2:]
     at_load = a[:, 2] - (slopes * a[:, :2]).sum(axis=1)
-    return _Pieces(loops[left], np.column_stack([at_load, slopes])), left
+    return _Pieces(loops, np.column_stack([at_load, slopes])), left
 
 
 def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
@@ -141,8 +182,10 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
     if line:
         parts = np.arange(EDGE_PARTS)[:, None] / EDGE_PARTS
         on = np.roll(loops, -1, axis=1)
-        loops = (loops[:, :, None] + parts * (on - loops)[:, :, None]).reshape(len(loops), -1, 3)
-    flat = np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=2)
+        loops = (loops[:, :, None] + parts * (on - loops)[:, :, None]).reshape(
+            len(loops), EDGE_PARTS * loops.shape[1], 3
+        )
+    flat = _flat(loops, line)
     rows = np.flatnonzero(signed_areas(flat) > NOTHING * size)
     images = np.atleast_1d(shapely.polygons(flat[rows]))
     images = np.where(shapely.is_valid(images), images, shapely.make_valid(images))
@@ -158,10 +201,17 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
     return rows, images
 
 
+def _flat(loops: FloatArray, line: bool) -> FloatArray:
+    """Images of loops (n, k, 3) in the plane of slopes, (n, k, 2), which across a line load is one of places."""
+    return np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=2)
+
+
 def _bounds(images: Any) -> tuple[float, float]:
-    """Least and greatest slope along of images (n,)."""
+    """Least and greatest slope along of images (n,); the wrong way round without any."""
     import shapely
 
+    if not len(images):
+        return math.inf, -math.inf
     least, _, greatest, _ = shapely.total_bounds(images)
     return float(least), float(greatest)
 
@@ -207,6 +257,11 @@ def _cumulative(law: Dispersal, slopes: FloatArray) -> FloatArray:
         return np.asarray(slopes * 0.5 / math.tan(angle))
     own = np.arctan(slopes)
     return np.asarray((own + np.sin(own) * np.cos(own)) / (2.0 * (angle + math.sin(angle) * math.cos(angle))))
+
+
+def _between(law: Dispersal, least: float, greatest: float) -> float:
+    """Share of lines between two slopes; nothing the wrong way round."""
+    return float(np.diff(_cumulative(law, np.array([least, greatest])))[0]) if least < greatest else 0.0
 
 
 def beside(body: FillBody, places: FloatArray, along: FloatArray, reach: float) -> BoolArray:

@@ -51,6 +51,12 @@ def vector_of(load: Load) -> tuple[float, float, float]:
     return (0.0, 0.0, 0.0) if load.gravity == "none" else load.gravity
 
 
+def gravity_of(dead: Iterable[Entry]) -> FloatArray:
+    """The sum of gravity among dead loads, (3,) in the deck's unit of length per s2."""
+    found = [entry.factor * np.array(vector_of(entry.load)) for entry in dead if entry.load.gravity is not None]
+    return np.asarray(sum(found, np.zeros(3)))
+
+
 def with_gravity(dead: Iterable[Entry], path: KeyPath, units: Units) -> list[Entry]:
     """The dead loads of a case, before them 9.81 m/s2 along -z where none of them is gravity."""
     entries = list(dead)

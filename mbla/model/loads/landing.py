@@ -17,7 +17,7 @@ from mbla.model.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread, beside, emerging, spread
 from mbla.model.loads.load_kind import LoadSite
-from mbla.model.wording import vector
+from mbla.model.wording import named, vector
 
 UPRIGHT = 1e-9
 """horizontal component relative to a force, a line or a path, up to which it is none"""
@@ -81,8 +81,12 @@ class Landing:
         across = width / 2 * np.array([-along[1], along[0], 0.0])
         places = np.stack([place - across, place, place + across])
         reach = NEAR * float(self.site.blocks.sizes[body.blocks].min())
-        if beside(body, places, along, reach).any():
-            words = f"at {vector(place)} it stands beside the fill {body.name}: move it, or make its width smaller"
+        outside = places[beside(body, places, along, reach)]
+        if len(outside):
+            smaller = ", or shorten it" if self.path[-1] == "line" else ", or make its width smaller"
+            words = (
+                f"at {vector(outside[0])} it is beside the fill {body.name}: move it{smaller if width > 0.0 else ''}"
+            )
             self.site.refuse(Finding("load-beside-structure", words, *self.path))
             return None
         for each in places:
@@ -94,7 +98,24 @@ class Landing:
                 )
                 self.site.refuse(Finding("load-not-on-fill", words, *self.path))
                 return None
-        return spread(body, place, along, width) or NOWHERE
+        found = spread(body, place, along, width, self.site.blocks)
+        if not len(found.blocks):
+            under = self._straight_down(body, place)
+            if under >= 0 and under not in body.blocks:
+                name = self.site.blocks.name(under)
+                words = (
+                    f"at {vector(place)} it stands over {name}, on which the fill {body.name} does not lie: add {name} "
+                    "to on of the fill, or leave out through"
+                )
+                self.site.refuse(Finding("load-not-on-fill", words, *self.path))
+                return None
+        return found
+
+    def _straight_down(self, body: FillBody, place: FloatArray) -> int:
+        """The block straight under a place on the top of a fill, -1 for none."""
+        on_top = np.append(place[:2], body.tops(place))
+        blocks = self.site.blocks
+        return int(Below(blocks, np.array([0.0, 0.0, -1.0]), np.arange(len(blocks))).at(on_top[None])[0])
 
     def sound(self, forces: FloatArray, way: FloatArray, width: float) -> bool:
         """Whether forces (n, 3) that come along a way, (3,), can be spread so; a fault where not.
@@ -122,8 +143,9 @@ class Landing:
             self.site.refuse(Finding("load-not-on-fill", words, *self.path))
         return not slanting.any()
 
-    def remark_beyond(self, words: str, share: float) -> None:
-        """A notice where part of a load goes past the ends of the blocks."""
+    def remark_beyond(self, words: str, forces: FloatArray, landed: Sequence[Spread]) -> None:
+        """A notice where part of a load, forces (n, 3), goes past the ends of all blocks."""
+        share = share_of(forces, [each.beyond for each in landed])
         if self.through is not None and share > 0.0:
             message = (
                 f"{words}: {100 * share:.3g} % of it goes through the fill {self.through.name} beyond the ends of the "
@@ -131,9 +153,41 @@ class Landing:
             )
             self.site.roster.remark(Notice("notice", "load-beyond-fill", message))
 
+    def remark_met(self, words: str, forces: FloatArray, landed: Sequence[Spread]) -> None:
+        """What of a load, forces (n, 3), meets blocks where they carry no fill: which, and what becomes of it.
 
-NOWHERE = Spread(np.empty(0, np.int64), np.empty(0), np.empty((0, 3)), 1.0)
-"""All of a load goes beyond the ends of the blocks."""
+        A notice, as nothing is lost on upright faces; a warning where a block is not under the fill, or all is lost.
+        """
+        if self.through is None:
+            return
+        name, blocks = self.through.name, self.site.blocks
+        kept = [each for each in landed if len(each.blocks) and each.met > 0.0]
+        if kept:
+            others = np.unique(np.concatenate([each.others for each in kept]))
+            strange = np.setdiff1d(others, self.through.blocks)
+            share = share_of(forces, [each.met if len(each.blocks) else 0.0 for each in landed])
+            message = f"{words}: {100 * share:.3g} % of it goes through the fill {name} towards "
+            after = "; what would meet them there acts on the blocks under the load instead, in proportion"
+            if len(strange):
+                which = f"{named(strange, blocks.name)}, on which this fill does not lie"
+                self.site.warn("load-off-fill", f"{message}{which}{after}: add them to its on if they carry it")
+            else:
+                which = f"faces without fill of {named(others, blocks.name)}, as upright ones are"
+                self.site.roster.remark(Notice("notice", "load-towards-wall", f"{message}{which}{after}"))
+        lost = [0.0 if len(each.blocks) else each.met for each in landed]
+        if share_of(forces, lost) > 0.0:
+            others = np.unique(np.concatenate([each.others for each in landed if not len(each.blocks)]))
+            message = (
+                f"{words}: {100 * share_of(forces, lost):.3g} % of it reaches no block under the fill {name} but meets "
+                f"{named(others, blocks.name)} from beside, and is left out: give what it does there as loads"
+            )
+            self.site.warn("load-off-fill", message)
+
+
+def share_of(forces: FloatArray, shares: Sequence[float]) -> float:
+    """Share of the sum of forces (n, 3), by the share of each, (n,)."""
+    sizes = np.linalg.norm(forces, axis=1)
+    return float(sizes @ np.array(shares) / sizes.sum()) if sizes.any() else 0.0
 
 
 def level(way: Sequence[float] | FloatArray) -> FloatArray:

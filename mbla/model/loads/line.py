@@ -63,7 +63,9 @@ def _landed(landing: Landing, line: LineLoad, begin: FloatArray, end: FloatArray
         site.refuse(Finding("load-beside-structure", message, *landing.path))
         return None
     if found is not None:
-        landing.remark_beyond(words, found.beyond)
+        force = np.array([line.force_per_length])
+        landing.remark_beyond(words, force, [found])
+        landing.remark_met(words, force, [found])
     return found
 
 

@@ -13,7 +13,7 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.gravity import with_gravity
+from mbla.model.loads.gravity import gravity_of, with_gravity
 from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of, without_levers
 from mbla.model.loads.tilt import tilt_loads
@@ -25,6 +25,8 @@ from mbla.model.wording import named, vector
 
 CANCELLED = 1e-12
 """sum of live loads, relative to the loads themselves, at which nothing is left of them"""
+SAME_GRAVITY = 0.01
+"""difference of gravity from the standard one, relative, that changes no stress of soil, as of 9.8 and 9.81"""
 COMPUTABLE = (1e-100, 1e100)
 """largest load of a case, in units of force"""
 
@@ -76,6 +78,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         tilt = tilt_loads(table, dead_loads, dead.total[:, :6], path, site)
         words = f"tilt about {vector(table.axis)}"
         live = live.plus(AppliedLoad(np.arange(len(site.blocks)), without_levers(tilt.across), words))
+    _judge_soil(name, gravity_of(dead_loads), tilt is not None, site)
     for number, load in enumerate(section.live or []):
         if load.travel is not None:  # a rule of the deck: at most one does
             positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
@@ -94,6 +97,20 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     if sound and dead.complete:
         _judge_size((*path, "dead") if section.dead is not None else path, dead, site)
     return tuple(cases)
+
+
+def _judge_soil(name: str, gravity: FloatArray, tilts: bool, site: LoadSite) -> None:
+    """Soil that holds faces is part of the structure: a warning where gravity of the case is not that of its stress."""
+    soils = [body.name for body in site.fill.values() if body.passive is not None]
+    usual = site.units.standard_gravity
+    other = np.linalg.norm(gravity - np.array([0.0, 0.0, -usual])) > SAME_GRAVITY * usual
+    if soils and (tilts or other):
+        why = "gravity turns against it" if tilts else f"gravity here is {vector(gravity)} {site.units.length}/s2"
+        words = (
+            f"{name}: the fill {', '.join(soils)} pushes on faces as under standard gravity along -z, with the active "
+            f"pressure at least, though {why}: leave out passive for this load case"
+        )
+        site.warn("soil-stress-stays", words)
 
 
 def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: LoadSite) -> Pushing | None:

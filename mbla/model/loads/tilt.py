@@ -18,7 +18,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.sections.loads import Tilt as TiltSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.gravity import mass_forces, vector_of
+from mbla.model.loads.gravity import gravity_of, mass_forces
 from mbla.model.loads.load_kind import Entry, LoadSite
 from mbla.model.model import Tilt
 from mbla.model.solids.plane import unit
@@ -30,13 +30,8 @@ ALONG = 1e-9
 def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite) -> Tilt:
     """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does."""
     axis = unit(np.array(load.axis))
-    gravity = np.zeros(3)
-    others = False
-    for entry in dead:
-        if entry.load.gravity is not None:
-            gravity += entry.factor * np.array(vector_of(entry.load))
-        else:
-            others = True
+    gravity = gravity_of(dead)
+    others = any(entry.load.gravity is None for entry in dead)
     level = gravity - (gravity @ axis) * axis
     everywhere = np.arange(len(site.blocks))
     turning = mass_forces(everywhere, level, site)[:, :6]

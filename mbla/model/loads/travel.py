@@ -19,9 +19,9 @@ from mbla.deck.sections.vehicles import Travel
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
-from mbla.model.loads.landing import Landing, level
+from mbla.model.loads.landing import Landing, level, share_of
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
-from mbla.model.loads.vehicle import axles_of, beyond_of
+from mbla.model.loads.vehicle import axles_of
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector
@@ -70,7 +70,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPo
         spread = landing.through is not None or axles.width > 0.0
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
         positions.append((position, _applied(position, landed, landing)))
-    _remark_beyond(name, axles.forces, [landed for landed, _ in found], landing)
+    _remark_parts(name, axles.forces, [landed for landed, _ in found], landing)
     return positions
 
 
@@ -146,14 +146,18 @@ def _blocks_in_words(landed: Spread, site: LoadSite) -> str:
     return site.blocks.name(int(under[0])) if len(under) == 1 else counted(len(under), "block")
 
 
-def _remark_beyond(name: str, forces: FloatArray, positions: Sequence[Landed], landing: Landing) -> None:
-    """The position at which most of the load goes beyond the ends of the blocks, if some does."""
-    shares = []
-    for landed in positions:
-        acting = [axle for axle, each in enumerate(landed) if each is not None]
-        shares.append(beyond_of(forces[acting], np.array([each.beyond for each in landed if each is not None])))
-    worst = int(np.argmax(shares))
-    landing.remark_beyond(f"{name}: at position {worst + 1} of {len(shares)}, where it is most", shares[worst])
+def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], landing: Landing) -> None:
+    """The positions at which most of the load goes beyond the ends of the blocks, and meets others, if some does."""
+    acting = [[axle for axle, each in enumerate(landed) if each is not None] for landed in positions]
+    there = [[each for each in landed if each is not None] for landed in positions]
+    for remark, part in ((landing.remark_beyond, "beyond"), (landing.remark_met, "met")):
+        shares = [
+            share_of(forces[axles], [getattr(each, part) for each in own])
+            for axles, own in zip(acting, there, strict=True)
+        ]
+        worst = int(np.argmax(shares))
+        words = f"{name}: at position {worst + 1} of {len(shares)}, where it is most"
+        remark(words, forces[acting[worst]], there[worst])
 
 
 def case_name(position: TravelPosition) -> str:

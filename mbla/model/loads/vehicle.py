@@ -74,14 +74,9 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
     forces = np.concatenate([each.shares[:, None] * force for each, force in zip(landed, axles.forces, strict=True)])
     points = np.concatenate([each.points for each in landed])
     unique, total = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
-    landing.remark_beyond(words, beyond_of(axles.forces, np.array([each.beyond for each in landed])))
+    landing.remark_beyond(words, axles.forces, landed)
+    landing.remark_met(words, axles.forces, landed)
     spread = "" if through is None else f" through fill {through.name}"
     return AppliedLoad(
         unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"
     )
-
-
-def beyond_of(forces: FloatArray, shares: FloatArray) -> float:
-    """Share of the sum of forces (n, 3) that goes beyond, by the share of each, (n,)."""
-    sizes = np.linalg.norm(forces, axis=1)
-    return float(sizes @ shares / sizes.sum()) if sizes.any() else 0.0

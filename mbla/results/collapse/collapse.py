@@ -87,6 +87,7 @@ class Collapse:
     motions    : of the parts that move, the heaviest first
     work       : where the power goes
     yielding   : ties that yield
+    soil       : faces on which fill is at its passive and at its active limit
     """
 
     interfaces: InterfaceMotion
@@ -94,18 +95,21 @@ class Collapse:
     motions: tuple[PartMotion, ...]
     work: Work
     yielding: int = 0
+    soil: tuple[int, int] = (0, 0)
 
 
 @kept
 def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
     """The mechanism of one load case."""
     parts = rigid_parts(model, contacts, mechanics.mechanism)
+    states = [row.state for row in tie_rows(model, mechanics)]
     return Collapse(
         interfaces=interface_motion(model, contacts, mechanics),
         parts=parts,
         motions=part_motions(model, parts, mechanics.mechanism),
         work=work_of(model, contacts, load_case, mechanics),
-        yielding=sum(row.state is TieState.YIELDS for row in tie_rows(model, mechanics)),
+        yielding=states.count(TieState.YIELDS),
+        soil=(states.count(TieState.PASSIVE), states.count(TieState.ACTIVE)),
     )
 
 

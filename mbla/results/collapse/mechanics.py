@@ -29,8 +29,8 @@ from mbla.solution.verification.statics import contact_resultants
 
 NO_POWER = 1e-9
 """share of the reference power up to which nothing is put in: a frictionless block that is pushed"""
-TIED = "ties to supports"
-"""name of what ties that are held by supports do on the structure"""
+TIED, SOIL = "ties to supports", "fill on faces"
+"""names of what ties that are held by supports, and fill, do on the structure sideways"""
 PARTS = (slice(0, 3), slice(3, 6))
 """forces and moments, velocities and rotations"""
 
@@ -43,7 +43,7 @@ class Work:
     dead     : of the dead load, negative where weights are lifted
     friction, cohesion, normal : (n_interfaces,) dissipated by sliding under friction, against cohesion, and by normal
                                  forces
-    ties : dissipated by ties, those that go slack by their prestress among them
+    ties : dissipated by ties and fill, those that go slack by their prestress among them
     reference : forces times speeds of the dead load, whatever the angle between them: what powers are measured by
     """
 
@@ -168,7 +168,8 @@ def reactions_of(
     supports = support_reactions(model, contacts, mechanics.contact_forces, by_group=by_group)
     tied, pulls = pulls_of_ties(model, mechanics)
     held = np.append(model.fixed, True)[tied]
-    return (*supports, *_by_name(names, taken), *_by_name([TIED] * int(held.sum()), -pulls[held]))
+    holders = np.where(model.ties.of_fill[model.ties.tie_of_point], SOIL, TIED)[: len(tied)]  # of none without forces
+    return (*supports, *_by_name(names, taken), *_by_name(holders[held].tolist(), -pulls[held]))
 
 
 def support_reactions(

@@ -16,10 +16,12 @@ from mbla.solution.solution import Mechanics, Solution
 
 
 class TieState(StrEnum):
-    """What a tie does in the mechanism; empty where it neither yields nor goes slack."""
+    """What a tie does in the mechanism; empty where it neither yields nor goes slack. Fill is at one of its limits."""
 
     YIELDS = "yields"
     SLACK = "slack"
+    PASSIVE = "passive limit"
+    ACTIVE = "active limit"
     HOLDS = ""
 
 
@@ -99,11 +101,14 @@ def _states(model: Model, mechanics: Mechanics | None) -> list[TieState]:
     size = float(np.abs(forces[np.isfinite(forces)]).max(initial=0.0)) or 1.0
     longer = share > np.maximum((ties.greatest - forces) / size, AT_REST)
     shorter = -share > np.maximum((forces - ties.least) / size, AT_REST)
-    yields = (longer & (ties.greatest > 0.0)) | (shorter & (ties.least < 0.0))
-    slack = (longer & (ties.greatest <= 0.0)) | (shorter & (ties.least >= 0.0))
-    return [
-        TieState.YIELDS if y else TieState.SLACK if s else TieState.HOLDS for y, s in zip(yields, slack, strict=True)
-    ]
+    soil = ties.of_fill
+    found = {
+        TieState.PASSIVE: soil & shorter,
+        TieState.ACTIVE: soil & longer,
+        TieState.YIELDS: ~soil & ((longer & (ties.greatest > 0.0)) | (shorter & (ties.least < 0.0))),
+        TieState.SLACK: ~soil & ((longer & (ties.greatest <= 0.0)) | (shorter & (ties.least >= 0.0))),
+    }
+    return [next((state for state, rows in found.items() if rows[row]), TieState.HOLDS) for row in range(len(ties))]
 
 
 def brittle_remarks(model: Model, solution: Solution) -> tuple[Message, ...]:

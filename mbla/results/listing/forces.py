@@ -134,10 +134,11 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
 
 
-def work_lines(load_case: LoadCase, work: Work) -> list[str]:
+def work_lines(load_case: LoadCase, work: Work, *, soil: bool = False) -> list[str]:
     """Shares of the power that the loads put in; nothing where they put in none.
 
     What is put in is positive, of loads that are lifted negative; what joints dissipate is positive.
+    soil : fill holds faces too
     """
     if work.supplied <= 0:
         return []
@@ -147,7 +148,8 @@ def work_lines(load_case: LoadCase, work: Work) -> list[str]:
 
     normal = float(work.normal.sum())
     joints = {"friction": float(work.friction.sum()), "cohesion": float(work.cohesion.sum())}
-    joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal, "ties": work.ties}
+    joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
+    joints["ties and soil" if soil else "ties"] = work.ties
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
     settles = load_case.settlement is not None and load_case.objective is None  # the dead load has the reaction at rest
     live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")

@@ -42,7 +42,7 @@ from mbla.results.listing.pushover import curve_lines
 from mbla.results.listing.sensitivity import sensitivity_lines
 from mbla.results.listing.summary import warning_lines
 from mbla.results.listing.text import counted, entry, full_sentence, heading, number, sentence
-from mbla.results.listing.tie_words import tie_force_lines
+from mbla.results.listing.tie_words import tie_force_lines, tie_title
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
 from mbla.results.outcome import dimension_of, result_of, unproved_words
 from mbla.results.results import CaseResult, Results
@@ -73,12 +73,12 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         sections.append(Section("Mechanism", mechanism_lines(model, contacts, how.failure)))
     if mechanics is not None and how is not None:
         work = enough_lines(case, enough_of(model, contacts, how.collapse.parts))
-        work += work_lines(load_case, how.collapse.work)
+        work += work_lines(load_case, how.collapse.work, soil=bool(model.ties.of_fill.any()))
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
         reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))
         sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
-        sections.append(Section("Ties", tie_force_lines(model, mechanics)))
+        sections.append(Section(tie_title(model), tie_force_lines(model, mechanics)))
         if solution.force_ranges is not None:
             ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
             sections.append(Section("Range of normal forces", ranges))

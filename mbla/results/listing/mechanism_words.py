@@ -69,6 +69,8 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
         (count(InterfaceMode.OPEN), "{} open", "interface"),
         (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
         (collapse.yielding, "{} yielding", "tie"),
+        (collapse.soil[0], "soil at its passive limit on {}", "face"),
+        (collapse.soil[1], "soil at its active limit on {}", "face"),
     ]
     found = ", ".join(text.format(counted(n, word)) for n, text, word in words if n)
     return f"{found or 'no interface opens, slides or crushes'}; {_moving(model, collapse, failure)}"

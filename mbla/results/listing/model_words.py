@@ -27,7 +27,7 @@ from mbla.results.listing.text import (
     small,
     table,
 )
-from mbla.results.listing.tie_words import tie_lines
+from mbla.results.listing.tie_words import tie_lines, tie_title
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
@@ -97,7 +97,7 @@ def model_lines(model: Model) -> list[str]:
     lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
     lines += heading("Supports") + _supports(model)
     if ties := tie_lines(model):
-        lines += heading("Ties") + ties
+        lines += heading(tie_title(model)) + ties
     lines += heading("Loads")
     for case in model.load_cases:
         lines += sentence(f"{case.name}")

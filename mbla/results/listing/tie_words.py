@@ -1,21 +1,43 @@
-"""Ties in the listing: what they are, and what they do at collapse."""
+"""Ties, and fill that holds faces, in the listing: what they are, and what they do at collapse."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from mbla.model.model import Model
+from mbla.model.ties import FILL
 from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, vector
 from mbla.solution.solution import Mechanics
 
 
+def tie_title(model: Model) -> str:
+    """Of what the following list."""
+    return "Ties and soil" if model.ties.of_fill.any() else "Ties"
+
+
 def tie_lines(model: Model) -> list[str]:
-    """The ties of a model with their limits; nothing without any."""
-    rows, size = tie_rows(model, None), float(np.abs(model.blocks.vertices).max(initial=0.0))
-    if not rows:
-        return []
-    units = model.units
+    """The ties of a model with their limits, then what fill does on faces; nothing without any."""
+    ties, soil = _parted(tie_rows(model, None))
+    lines = _tie_lines(model, ties) if ties else []
+    if soil:
+        words = f"Fill pushes on {counted(len(soil), 'face')}, each between two limits; a push is negative:"
+        head = ["face", "of", f"at [{model.units.length}]", f"force [{model.units.force}]"]
+        size = float(np.abs(model.blocks.vertices).max(initial=0.0))
+        table = [[row.name, row.from_body, vector(row.from_place, size), _limits(row)] for row in soil[:MOST_ROWS]]
+        lines += [*[""] * bool(ties), *sentence(words, ""), *long_table(head, table, len(soil), left=3)[1:]]
+    return lines
+
+
+def _parted(rows: Sequence[TieRow]) -> tuple[list[TieRow], list[TieRow]]:
+    """Ties, and what fill does on faces."""
+    return [row for row in rows if row.form != FILL], [row for row in rows if row.form == FILL]
+
+
+def _tie_lines(model: Model, rows: Sequence[TieRow]) -> list[str]:
+    size, units = float(np.abs(model.blocks.vertices).max(initial=0.0)), model.units
     head = ["tie", "from", "to", f"from [{units.length}]", f"to [{units.length}]", f"force [{units.force}]"]
     table = [
         [row.name, row.from_body, row.to_body, vector(row.from_place, size), vector(row.to_place, size), _limits(row)]
@@ -37,14 +59,33 @@ def _limits(row: TieRow) -> str:
 
 
 def tie_force_lines(model: Model, mechanics: Mechanics) -> list[str]:
-    """Forces of ties at collapse, those that yield first, then by how much of their capacity they use."""
-    rows = tie_rows(model, mechanics)
-    if not rows:
-        return []
-    yielding = sum(row.state is TieState.YIELDS for row in rows)
-    slack = sum(row.state is TieState.SLACK for row in rows)
-    order = sorted(rows, key=lambda row: (row.state is not TieState.YIELDS, -float(np.nan_to_num(row.use))))
-    head = ["tie", "from", "to", f"force [{model.units.force}]", "of capacity", "", "elongates"]
+    """Forces of ties at collapse, those that yield first, then by how much of their capacity they use; then of fill."""
+    ties, soil = _parted(tie_rows(model, mechanics))
+    lines = []
+    if ties:
+        yielding = sum(row.state is TieState.YIELDS for row in ties)
+        slack = sum(row.state is TieState.SLACK for row in ties)
+        words = (
+            f"{yielding} of {counted(len(ties), 'tie')} yield, {slack} are slack. Forces of ties that do neither are "
+            "those of the state shown; others are possible. Elongation rates are scaled as the mechanism:"
+        )
+        lines += ["", *sentence(words), *_force_table(model, ties, "tie", "of capacity", TieState.YIELDS)]
+    if soil:
+        passive = sum(row.state is TieState.PASSIVE for row in soil)
+        active = sum(row.state is TieState.ACTIVE for row in soil)
+        words = (
+            f"Fill is at its passive limit on {passive} of {counted(len(soil), 'face')}, at its active limit on "
+            f"{active}. Pushes of the others are those of the state shown; others are possible. Faces move away where "
+            "it elongates, at rates scaled as the mechanism:"
+        )
+        lines += ["", *sentence(words), *_force_table(model, soil, "face", "of passive", TieState.PASSIVE)]
+    return lines
+
+
+def _force_table(model: Model, rows: Sequence[TieRow], what: str, limit: str, state: TieState) -> list[str]:
+    """Rows with this state first."""
+    order = sorted(rows, key=lambda row: (row.state is not state, -float(np.nan_to_num(row.use))))
+    head = [what, "from", "to", f"force [{model.units.force}]", limit, "", "elongates"]
     shown = [
         [
             row.name,
@@ -57,8 +98,4 @@ def tie_force_lines(model: Model, mechanics: Mechanics) -> list[str]:
         ]
         for row in order[:MOST_ROWS]
     ]
-    words = (
-        f"{yielding} of {counted(len(rows), 'tie')} yield, {slack} are slack. Forces of ties that do neither are those "
-        "of the state shown; others are possible. Elongation rates are scaled as the mechanism:"
-    )
-    return ["", *sentence(words), *long_table(head, shown, len(rows), left=3)[1:]]
+    return long_table(head, shown, len(rows), left=3)[1:]

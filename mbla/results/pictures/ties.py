@@ -1,4 +1,4 @@
-"""Ties in pictures: lines from point to point, strips as short lines across joints; those that yield stand out."""
+"""Ties in pictures: lines from point to point, strips and fill as short lines there; those that yield stand out."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from mbla.results.pictures.marks import Mark, segments
 from mbla.results.pictures.page import GHOST
 from mbla.results.pictures.scene import Scene
 
-TIE, YIELDING = "#00695C", "#C2185B"
-"""colours of ties"""
+TIE, YIELDING, SOIL = "#00695C", "#C2185B", "#8D6E63"
+"""colours of ties, and of fill that holds faces"""
 STRIP = 0.3
-"""half length of the line that stands for a strip at a joint, over the size of the smaller block"""
+"""half length of the line that stands for what acts at one place, over the size of the smaller block"""
 
 
 def tie_marks(scene: Scene, *, at_work: bool = True) -> list[Mark]:
@@ -28,12 +28,15 @@ def tie_marks(scene: Scene, *, at_work: bool = True) -> list[Mark]:
     rows = tie_rows(scene.model, scene.mechanics if at_work else None)
     ends, bodies, owner = _segments(scene, ties)
     found = []
-    for label, colour, state in (
-        ("tie", TIE, TieState.HOLDS),
-        ("slack tie", GHOST, TieState.SLACK),
-        ("tie that yields", YIELDING, TieState.YIELDS),
+    for label, colour, state, soil in (
+        ("tie", TIE, TieState.HOLDS, False),
+        ("slack tie", GHOST, TieState.SLACK, False),
+        ("tie that yields", YIELDING, TieState.YIELDS, False),
+        ("soil on a face", SOIL, TieState.HOLDS, True),
+        ("soil, active limit", GHOST, TieState.ACTIVE, True),
+        ("soil, passive limit", YIELDING, TieState.PASSIVE, True),
     ):
-        chosen = np.flatnonzero([rows[row].state is state for row in owner.tolist()])
+        chosen = np.flatnonzero([rows[row].state is state for row in owner.tolist()] & (ties.of_fill[owner] == soil))
         texts = [_text(rows[row], scene.model.units.force) for row in owner[chosen].tolist()]
         mark = segments(label, colour, ends[chosen], bodies[chosen], texts, np.full(len(chosen), 0.7))
         found.append(replace(mark, bodies=np.repeat(bodies[chosen].reshape(-1, 1), 2, axis=1)))

@@ -23,7 +23,7 @@ CELLS = {
     "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
     "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
     "loads": "loads and reactions as vertices where they act",
-    "ties": "ties, struts and rings as lines, one for each stretch; strips as vertices where they cross a joint",
+    "ties": "ties, struts and rings as lines, one for each stretch; strips and fill as vertices where they act",
     "supports": "ground planes as slabs under what stands on them, fixed blocks, guided blocks, as polyhedra",
 }
 """files by what their names end in, and their cells"""
@@ -64,7 +64,7 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
         real("tie_forces", "force", "force"),
         real("tie_rates", "elongation rate for unit power of the live load", "velocity"),
         real("use", "share of the greatest force in its sense"),
-        integer("state", "0 holds, 1 yields, 2 slack"),
+        integer("state", "0 holds, 1 yields, 2 slack, 3 fill at its passive limit, 4 at its active one"),
         integer("figures", "what forces and motion are, as of interfaces"),
     ),
     ("supports", "cells"): (

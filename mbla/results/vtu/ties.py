@@ -1,4 +1,4 @@
-"""Ties for ParaView: their stretches as lines, strips as vertices where they cross a joint."""
+"""Ties for ParaView: their stretches as lines, strips and fill as vertices where they act."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.vtu.meshes import Mesh
 
-STATES = (TieState.HOLDS, TieState.YIELDS, TieState.SLACK)
+STATES = (TieState.HOLDS, TieState.YIELDS, TieState.SLACK, TieState.PASSIVE, TieState.ACTIVE)
 """in the order of their numbers in files"""
 
 

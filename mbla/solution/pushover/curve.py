@@ -297,7 +297,7 @@ def curve_of(
             potential=float(work[3]),
             new_mechanism=changed,
             debris=int(fallen.sum()),
-            broken=0 if number == 0 else len(model.ties) - len(solids.model.ties),
+            broken=0 if number == 0 else int((~model.ties.of_fill).sum() - (~solids.model.ties.of_fill).sum()),
         )
         rows.append(row)
         before = powers

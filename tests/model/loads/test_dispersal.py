@@ -138,6 +138,42 @@ def test_beyond_the_end(tmp_path: Path) -> None:
     assert f"{100 * left:.3g} % of it" in text
 
 
+def wall(group: str) -> str:
+    """As high as the top, 0.2 m from the load at x = 0.2."""
+    return f"box: {{group: {group}, material: stone, min: [-1, 0, 0], max: [0, 2, 2.2]}}"
+
+
+@pytest.mark.parametrize("load", [LINE, POINT])
+@pytest.mark.parametrize(
+    ("group", "identifier", "name"), [("row", "load-towards-wall", "row[10]"), ("end", "load-off-fill", "end[0]")]
+)
+def test_a_wall_in_the_way(tmp_path: Path, load: str, group: str, identifier: str, name: str) -> None:
+    """Nothing goes beyond where a wall stands, under the fill or not: the rest of the formula, in proportion."""
+    found = model(tmp_path, load.replace("4.3", "0.2"), *ROW, wall(group))
+    right = np.diff(law_up_to("boussinesq", np.arange(11) - 0.2, 1.2))
+    assert shares(found) == pytest.approx(np.append(100 * right / right.sum(), 0), rel=1e-8, abs=1e-6)
+    met, text = next((each.identifier, each.message) for each in found.notices if each.identifier != "material-unused")
+    assert met == identifier
+    assert f"{100 * (1 - right.sum()):.3g} % of it goes" in text
+    assert name in text
+
+
+def test_a_wall_beside_the_way(tmp_path: Path) -> None:
+    """A wall next to the end of the row, where no line of the load goes, holds nothing back."""
+    aside = wall("row").replace("[-1, 0, 0], max: [0, 2", "[-1, 2, 0], max: [0, 3")
+    found = model(tmp_path, LINE.replace("4.3", "0.2"), *ROW, aside)
+    assert shares(found).sum() == pytest.approx(100 * (1 - law_up_to("boussinesq", np.array([-0.2]), 1.2)[0]), rel=1e-8)
+
+
+def test_an_axle_that_meets_a_block_from_beside(tmp_path: Path) -> None:
+    """The second axle, 0.5 m outside of the row and above its end: left out, with a warning that names the block."""
+    load = "vehicle: {name: lorry, at: [2.5, 1, 9]}"
+    found = model(tmp_path, load, *ROW, top="level: 1.3", width=", width: 1")
+    assert shares(found).sum() == pytest.approx(60, rel=1e-8)
+    text = next(notice.message for notice in found.notices if notice.identifier == "load-off-fill")
+    assert "row[0] from beside, and is left out" in text
+
+
 def test_what_would_leave_sideways_is_kept(tmp_path: Path) -> None:
     """A force near the side of the row: the strip's formula along it all the same."""
     found = model(tmp_path, POINT.replace("1, 9", "0.1, 9"), *ROW)
@@ -205,6 +241,11 @@ def test_wherever_it_is(tmp_path: Path, angle: float) -> None:
     [
         ("line: {from: [4, 0, 9], to: [4, 2, 9], force_per_length: [1, 0, -50]}", "level: 2", "only vertical ones"),
         ("line: {from: [4, 0, 9], to: [4, 2.1, 9], force_per_length: [0, 0, -50]}", "level: 2", "beside the fill"),
+        (
+            "line: {from: [4, -1, 9], to: [4, 3, 9], force_per_length: [0, 0, -50]}",
+            "level: 2",
+            r"-1, 9\) .* shorten it",
+        ),
         ("line: {from: [14, 0, 9], to: [14, 2, 9], force_per_length: [0, 0, -50]}", "level: 2", "goes beyond"),
         ("line: {from: [4, 1, 9], to: [4, 1, 8], force_per_length: [0, 0, -50]}", "level: 2", "must not run along"),
         ("vehicle: {name: lorry, at: [4, 1, 9], along: [0, 0, 1]}", "level: 2", "upright"),
@@ -221,3 +262,10 @@ def test_wherever_it_is(tmp_path: Path, angle: float) -> None:
 def test_refused(tmp_path: Path, load: str, top: str, words: str) -> None:
     with pytest.raises(DeckError, match=words):
         model(tmp_path, load, *ROW, top=top)
+
+
+def test_over_a_block_without_fill_refused(tmp_path: Path) -> None:
+    """A deck of another group at the end of the row, as wide as all that the load reaches."""
+    other = "box: {group: end, material: stone, min: [-3, 0, 0], max: [0, 2, 1]}"
+    with pytest.raises(DeckError, match=r"stands over end\[0\], on which the fill soil does not lie"):
+        model(tmp_path, LINE.replace("4.3", "-1"), *ROW, other)
