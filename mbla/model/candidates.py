@@ -133,10 +133,12 @@ def _across(section: Across, path: KeyPath, roster: Roster, tolerance: float) ->
     places = _places(one, other, aside, section.every)
     if not len(places):
         low, high = _shared(one, other, aside)
-        words = f"must be <= {high - low:.6g}, the length along which the walls face each other"
-        if high <= low:
-            words = "the walls do not face each other: along which way do the ties go?"
-        roster.refuse(Finding("out-of-bounds" if high > low else "tie-without-effect", words, *path, "every"))
+        if high > low:
+            words = f"must be <= {high - low:.6g}, the length along which the walls face each other"
+            roster.refuse(Finding("out-of-bounds", words, *path, "every"))
+        else:
+            words = "the walls do not face each other: give another way with `along`"
+            roster.refuse(Finding("tie-without-effect", words, *path))
         return
     count = len(section.z) * len(places) ** (1 if section.pairs == "opposite" else 2)
     if count > MOST_LINES:

@@ -116,6 +116,8 @@ def cheapest(strengthening: Strengthening) -> Cheapest:
         reason = f"the program was not solved: {solution.shortfall}"
         if solution.status is Status.NO_EQUILIBRIUM:
             reason = "no capacities of these candidates suffice: a mechanism does not stretch them enough"
+            if np.isfinite(strengthening.most).any():
+                reason += ", up to their greatest capacities"
         return Cheapest(solution.status, none, none, np.nan, np.nan, reason)
     capacities = unit * form.capacities(solution.z)
     capacities[capacities <= NEGLIGIBLE * capacities.max(initial=unit)] = 0.0

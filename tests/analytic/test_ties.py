@@ -7,7 +7,7 @@ import pytest
 
 from mbla.solution.solution import Status
 from tests.analytic.planar import GROUND, PlanarTie, Rectangle, load_factor, rectangles_in_contact, wall
-from tests.line import BLOCK, HEAD, case_of
+from tests.line import BLOCK, HEAD, case_of, line_of
 from tests.line import factor_of as mbla_load_factor
 
 DENSITY, GRAVITY, DEPTH = 2000.0, 9.81, 0.5
@@ -72,6 +72,49 @@ analysis: {flow_rule: associative}
 """
     )
     assert mbla_load_factor(deck) == pytest.approx((WEIGHT * 0.2 + 4000 * 0.4) / WEIGHT, rel=1e-6)
+
+
+def test_a_ring_whose_corners_are_on_joints_holds_both_blocks_there() -> None:
+    """Eight blocks in a circle, one pushed outward: the same for each, whichever way they are numbered."""
+    angles = np.radians(np.arange(9) * 45.0)
+    corners = np.array([1.3, 1.0])[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    blocks, cases = [], []
+    for number in range(8):
+        (a, b), (d, c) = corners[:, number : number + 2].tolist()
+        vertices = [[*each, z] for z in (0.0, 1.0) for each in (a, b, c, d)]
+        faces = "[[0,1,2,3],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]"
+        blocks.append(f"  - polyhedron: {{group: b{number}, material: stone, vertices: {vertices}, faces: {faces}}}")
+        out = (corners[0, number] + corners[0, number + 1]).tolist()
+        cases.append(f"  c{number}: {{live: [{{acceleration: {[*out, 0.0]}, on: b{number}}}]}}")
+    head = HEAD + "joints: {dry: {friction: 0.1}}\nsupports: [{ground: {z: 0}}]\nanalysis: {flow_rule: associative}\n"
+    ring = f"ties: [{{ring: {{around: [{', '.join(f'b{n}' for n in range(8))}], z: [0.5]}}, capacity: 1000}}]\n"
+    factors = [
+        mbla_load_factor(head + ring + "blocks:\n" + "\n".join(blocks) + f"\nload_cases:\n{case}\n") for case in cases
+    ]
+    assert factors == pytest.approx([factors[0]] * 8, rel=1e-6)
+    assert factors[0] > 1.2 * mbla_load_factor(head + "blocks:\n" + "\n".join(blocks) + f"\nload_cases:\n{cases[0]}\n")
+
+
+def test_a_strip_with_its_corners_on_joints_holds_them() -> None:
+    """Under an arch from corner to corner of its intrados: a joint at each corner but the ends, none missed."""
+    deck = (
+        HEAD
+        + """\
+joints: {dry: {friction: 2}}
+blocks:
+  - arch: {group: arch, material: stone, shape: semicircular, span: 4, thickness: 0.5, width: 1, voussoirs: 8}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+analysis: {flow_rule: associative}
+"""
+    )
+    angles = np.radians(np.linspace(180.0, 0.0, 9))
+    places = np.stack([2.0 + 2.0 * np.cos(angles), np.full(9, 0.5), 2.0 * np.sin(angles)], axis=1)
+    model = line_of(deck + f"ties: [{{strip: {places.tolist()}, capacity: 1}}]\n").model
+    held = model.ties.bodies.reshape(-1, 2)
+    assert [sorted(pair) for pair in held.tolist()] == [[n, n + 1] for n in range(7)]
+    middle = model.ties.start[3]
+    assert model.ties.pulls[middle] == pytest.approx([1.0, 0.0, 0.0], abs=1e-9)
 
 
 def test_a_rope_over_a_block_presses_it_down_and_has_one_force() -> None:

@@ -41,7 +41,6 @@ class JointPressure:
     posed   : the structure with its joints pressed together, whose live load takes that away
     status  : that of its load case, no better than its verification confirms
     pressed : by how much they are
-    unit    : of pressure, in the deck's
     solves  : of programs until one stood
     """
 
@@ -50,7 +49,6 @@ class JointPressure:
     checks: Checks
     status: Status
     pressed: float
-    unit: float
     solves: int
 
     @property
@@ -81,7 +79,7 @@ def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | N
         checks = verify(posed.model, posed.contacts, posed.load_case, solution)
         status, solves = verified_status(solution, checks), solves + 1
         if status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
-            return JointPressure(posed, solution, checks, status, pressed, unit, solves)
+            return JointPressure(posed, solution, checks, status, pressed, solves)
         pressed *= 10.0
 
 

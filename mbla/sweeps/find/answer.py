@@ -25,7 +25,7 @@ from mbla.results.outcome import least_and_greatest, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
-from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
+from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by, unit_of_pressure
 from mbla.solution.sensitivity.sensitivity import slope_by
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
@@ -158,7 +158,7 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: Structure) -> Structure:
-        return pressed_by(other, found.pressed, found.unit)
+        return pressed_by(other, found.pressed, unit_of_pressure(other))
 
     slope = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed)
     own = math.nan if slope is None else slope.slope

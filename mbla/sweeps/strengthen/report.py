@@ -129,6 +129,7 @@ def lines_of(answer: Strengthened) -> list[str]:
     lines += sentence(_bound_words(answer))
     for name, (required, factor) in answer.factors.items():
         says = "no load factor" if math.isnan(factor) else f"load factor {number(factor)}"
+        says = "any multiple of its live loads is carried" if factor == math.inf else says
         lines += sentence(f"{name}: {says} with these ties, required {number(required)}.")
     if not answer.suffices:
         lines += sentence("That is NOT enough: capacities were raised as far as is tried.")

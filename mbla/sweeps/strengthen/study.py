@@ -58,6 +58,8 @@ which a candidate is left out"""
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
 """analyses after the first one, share of a required load factor that is asked for beyond what was short, and what an
 analysis gains at least of what is asked for more"""
+MOST_CLOSER, CLOSE = 2, 0.02
+"""analyses after the first one that carries more than enough, and share of a required load factor that is close"""
 RAISE = 1.15
 """by which all capacities are raised where the program has no more to give"""
 
@@ -187,6 +189,26 @@ def refuse_unfit(deck: Deck) -> None:
             raise UsageError("strengthen-not-possible", words)
 
 
+@dataclass(frozen=True)
+class _Try:
+    """An analysis of the structure with capacities, (k,), found for load factors asked; factors by load case."""
+
+    asked: dict[str, float]
+    capacities: FloatArray
+    cost: float
+    results: Results
+    factors: dict[str, float]
+
+    def carries(self, required: dict[str, float]) -> bool:
+        """Whether all load cases have what is required."""
+        return all(_carried(factor, self.factors[name]) for name, factor in required.items())
+
+    def surplus(self, required: dict[str, float]) -> float:
+        """Least share by which load cases of which more was asked have more than is required."""
+        shares = [self.factors[name] / factor - 1.0 for name, factor in required.items() if self.asked[name] > factor]
+        return min(shares, default=0.0)
+
+
 def _analysed(
     deck: Deck,
     model: Model,
@@ -199,47 +221,64 @@ def _analysed(
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     section = deck.content.strengthen
     assert section is not None
-    required = dict(section.required)
-    asked, raised, found, tried = required, 1.0, first, list[tuple[dict[str, float], dict[str, float]]]()
-    capacities, wanted = np.full(len(question.costs), np.nan), None
-    for number in range(MOST_REPEATS + 1):
-        if wanted is None:
-            wanted = found.capacities
-            if section.catalogue is not None:
-                wanted = with_fewer(question.asking(asked), found, section.catalogue)
-        fitted = np.minimum(rounded_up(raised * wanted, section.catalogue), question.most)
-        if not np.array_equal(fitted, capacities):
-            capacities = fitted
+    required, catalogue, tries = dict(section.required), section.catalogue, list[_Try]()
+    asked, raised, found = required, 1.0, first
+    wanted = found.capacities if catalogue is None else with_fewer(question, found, catalogue)
+    for _ in range(MOST_REPEATS + 1):
+        capacities = np.minimum(rounded_up(raised * wanted, catalogue), question.most)
+        if not tries or not np.array_equal(capacities, tries[-1].capacities):
             results = _analysis(deck, model, candidates.ties, capacities, stem)
             factors = {name: _factor(results, name) for name in required}
-            tried.append((asked, factors))
-        if all(_carried(required[name], factors[name]) for name in required) or any(map(math.isnan, factors.values())):
+            tries.append(_Try(asked, capacities, float(capacities @ candidates.costs), results, factors))
+        more = _ask_for(required, tries)
+        if more is None or (raised > 1.0 and tries[-1].carries(required)):
             break
-        if number == MOST_REPEATS:
-            break
-        more = {name: _ask_for(name, required[name], tried) for name in required}
-        after = cheapest(question.asking(more)) if raised == 1.0 else None
-        if after is not None and after.status in WITH_VALUE:
-            asked, found, wanted = more, after, None
+        question = question.asking(more)
+        found = cheapest(question) if raised == 1.0 else found
+        if raised == 1.0 and found.status in WITH_VALUE:
+            asked, wanted = more, found.capacities if catalogue is None else with_fewer(question, found, catalogue)
         else:
             raised *= RAISE
-    verified = all(case.checks.verified for case in results.cases)
-    cost = float(capacities @ candidates.costs)
-    pairs = {name: (required[name], factors[name]) for name in required}
+    best = min((each for each in tries if each.carries(required)), key=lambda each: each.cost, default=tries[-1])
     answer = Strengthened(
-        deck, model, candidates, first, capacities, asked, raised, cost, pairs, verified, len(tried), ()
+        deck,
+        model,
+        candidates,
+        first,
+        best.capacities,
+        best.asked,
+        raised,
+        best.cost,
+        {name: (factor, best.factors[name]) for name, factor in required.items()},
+        all(case.checks.verified for case in best.results.cases),
+        len(tries),
+        (),
     )
-    return replace(answer, files=_files(answer, results, options.folder_for(deck.path), stem, options))
+    return replace(answer, files=_files(answer, best.results, options.folder_for(deck.path), stem, options))
 
 
-def _ask_for(name: str, required: float, tried: Sequence[tuple[dict[str, float], dict[str, float]]]) -> float:
+def _ask_for(required: dict[str, float], tries: Sequence[_Try]) -> dict[str, float] | None:
+    """Load factors to ask of the program next, by load case; None where that is of no use, or enough was found."""
+    last, enough = tries[-1], [each for each in tries if each.carries(required)]
+    if any(map(math.isnan, last.factors.values())):
+        return None
+    if not enough:
+        return {name: _beyond(name, factor, tries) for name, factor in required.items()}
+    best, before = min(enough, key=lambda each: each.cost), [each for each in tries if not each.carries(required)]
+    closer = len(tries) - 1 - tries.index(enough[0])
+    if not before or closer == MOST_CLOSER or best.surplus(required) <= CLOSE:
+        return None
+    return {name: (before[-1].asked[name] + best.asked[name]) / 2.0 for name in required}
+
+
+def _beyond(name: str, required: float, tries: Sequence[_Try]) -> float:
     """Load factor to ask of the program for a load case that fell short, from what was asked before and found."""
-    asked, found = tried[-1][0][name], tried[-1][1][name]
+    asked, found = tries[-1].asked[name], tries[-1].factors[name]
     if _carried(required, found):
         return asked
     slope = 1.0
-    if len(tried) > 1 and asked > tried[-2][0][name]:
-        slope = (found - tried[-2][1][name]) / (asked - tried[-2][0][name])
+    if len(tries) > 1 and asked > tries[-2].asked[name]:
+        slope = (found - tries[-2].factors[name]) / (asked - tries[-2].asked[name])
     return float(asked + (required - found) / min(max(slope, LEAST_SLOPE), 1.0) + MARGIN * required)
 
 

@@ -13,7 +13,7 @@ from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.verify import verify_file
-from mbla.sweeps.strengthen.study import rounded_up
+from mbla.sweeps.strengthen.study import greatest_there, rounded_up
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
 
@@ -110,6 +110,46 @@ def test_a_catalogue_leaves_out_what_is_hardly_used(tmp_path: Path, capsys: pyte
     assert sorted(each["capacity"] for each in candidates) == [0.0, 2000.0]
 
 
+def test_rounded_and_raised_capacities_stay_below_the_greatest_allowed() -> None:
+    most = np.array([np.inf, 1.0, 25.0, 50.0, 120.0])
+    assert greatest_there(most, None).tolist() == most.tolist()
+    assert greatest_there(most[[0, 2, 3, 4]], [10.0, 20.0, 50.0]).tolist() == [np.inf, 20.0, 50.0, 100.0]
+
+
+def test_where_nothing_has_to_be_added_it_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK.replace("push: 0.5}", "push: 0.1}"), encoding="utf-8")
+    assert main(["strengthen", str(path)]) == 0
+    assert "nothing has to be added" in capsys.readouterr().out
+    assert read_deck(tmp_path / "deck.out" / "deck_strengthened.yaml").content.ties == []
+
+
+def test_a_load_case_without_limit_is_carried(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "deck.yaml"
+    down = "  down: {live: [{force: [0, 0, -1], on: block, at: [0.2, 0.5, 2]}]}\n"
+    text = DECK.replace("push: 0.5}", "push: 0.5, down: 2}").replace("analysis:", f"{down}analysis:")
+    path.write_text(text, encoding="utf-8")
+    code, record = told(capsys, str(path))
+    assert code == 0
+    assert record["cases"]["down"] == {"required": 2.0, "load_factor": None}  # type: ignore[index]  # of JSON
+
+
+def test_bars_end_where_the_lowest_block_is_on_ground(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Over an upper block, down through the one below it; over air, none."""
+    upper = (
+        "blocks:\n  - box: {group: low, material: stone, min: [0, 0, 0], max: [1, 1, 2]}\n"
+        "  - box: {group: high, material: stone, min: [0, 0, 2], max: [2, 1, 3]}\n"
+    )
+    text = WALL[: WALL.index("blocks:")] + upper + WALL[WALL.index("contacts:") : WALL.index("    - {name: bars")]
+    path = tmp_path / "deck.yaml"
+    path.write_text(text.replace("0.35", "0.6") + "    - {vertical: {down: high, every: 1}}\n", encoding="utf-8")
+    _, record = told(capsys, str(path))
+    bars = record["candidates"]
+    assert isinstance(bars, list)
+    assert [each["to_body"] for each in bars] == ["ground"]
+    assert bars[0]["from_place"] + bars[0]["to_place"] == pytest.approx([0.5, 0.5, 3.0, 0.5, 0.5, 0.0])
+
+
 def test_where_no_ties_suffice_the_exit_status_is_5(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "deck.yaml"
     path.write_text(DECK.replace("[-3, 0.5", "[3, 0.5"), encoding="utf-8")
@@ -128,6 +168,13 @@ def test_where_no_ties_suffice_the_exit_status_is_5(tmp_path: Path, capsys: pyte
             "strengthen-not-possible",
         ),
         (DECK + "symmetry: [{y: 0}]\n", "strengthen-not-possible"),
+        (
+            DECK.replace(
+                "[{acceleration: [1, 0, 0]}]",
+                "[{acceleration: [1, 0, 0]}], at: 0.1, objective: {force: {on: block, direction: [0, 0, 1]}}",
+            ),
+            "strengthen-not-possible",
+        ),
     ],
 )
 def test_what_has_no_such_program_is_refused(
@@ -136,4 +183,21 @@ def test_what_has_no_such_program_is_refused(
     path = tmp_path / "deck.yaml"
     path.write_text(text, encoding="utf-8")
     assert main(["strengthen", str(path)]) == 2
+    assert f"[{identifier}]" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("candidate", "identifier"),
+    [
+        ("{vertical: {down: block, every: 1e-3}}", "too-many-candidates"),
+        ("{across: {between: [block, block], z: [1], every: 50}}", "out-of-bounds"),
+        (ROD.replace("on:", "most: 1, on:") + "], catalogue: [2", "out-of-bounds"),
+    ],
+)
+def test_candidates_that_cannot_be_laid_out_are_faults_of_the_deck(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], candidate: str, identifier: str
+) -> None:
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK.replace(ROD, candidate), encoding="utf-8")
+    assert main(["strengthen", str(path)]) == 3
     assert f"[{identifier}]" in capsys.readouterr().err

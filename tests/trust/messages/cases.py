@@ -230,6 +230,12 @@ def strengthening_against_a_tilting_table(folder: Path, patch: Patch) -> object:
     return command("strengthen", str(write(folder, deck + added)))
 
 
+@brings("too-many-candidates")
+def a_bar_at_every_millimetre(folder: Path, patch: Patch) -> object:
+    added = "strengthen: {required: {push: 0.5}, candidates: [{vertical: {down: block, every: 1e-3}}]}\n"
+    return command("strengthen", str(write(folder, BLOCK + added)))
+
+
 @brings("interact-load")
 def load_without_a_horizontal_part(folder: Path, patch: Patch) -> object:
     return command("interact", str(write(folder, changed("[1, 0, 0]", "[0, 0, 1]"))))
