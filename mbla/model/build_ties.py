@@ -57,7 +57,8 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
             roster.refuse(Finding("out-of-bounds", words, *path, "prestress"))
         idle = sum(not can_move(line.bodies, fixed) for line in lines)
         if idle and not roster.faults:
-            words = f"{idle} of {counted(len(lines), 'tie')} {'holds' if idle == 1 else 'hold'} nothing: no two blocks that can move apart"
+            hold = "holds" if idle == 1 else "hold"
+            words = f"{idle} of {counted(len(lines), 'tie')} {hold} nothing: no two blocks that can move apart"
             roster.refuse(Finding("tie-without-effect", words, *path))
         parts.append(_ties(section, lines, counts))
     return joined_ties(parts)

@@ -41,6 +41,7 @@ class JointPressure:
     posed   : the structure with its joints pressed together, whose live load takes that away
     status  : that of its load case, no better than its verification confirms
     pressed : by how much they are
+    unit    : of pressure, in the deck's
     solves  : of programs until one stood
     """
 
@@ -49,6 +50,7 @@ class JointPressure:
     checks: Checks
     status: Status
     pressed: float
+    unit: float
     solves: int
 
     @property
@@ -79,7 +81,7 @@ def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | N
         checks = verify(posed.model, posed.contacts, posed.load_case, solution)
         status, solves = verified_status(solution, checks), solves + 1
         if status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
-            return JointPressure(posed, solution, checks, status, pressed, solves)
+            return JointPressure(posed, solution, checks, status, pressed, unit, solves)
         pressed *= 10.0
 
 

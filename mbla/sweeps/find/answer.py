@@ -25,7 +25,7 @@ from mbla.results.outcome import least_and_greatest, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
-from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by, unit_of_pressure
+from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
 from mbla.solution.sensitivity.sensitivity import slope_by
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
@@ -51,7 +51,7 @@ class Answer:
     """The result for one value.
 
     x        : the value
-    result   : load factor or pressure; nan where there is none
+    result   : load factor, or pressure in units of stress of the deck; nan where there is none
     y        : result less target; infinite where only the side is known, nan where nothing is
     slope    : of the result by the value; nan where it is not known
     status   : of the load case; of ``stands`` whether it does, by proved bounds
@@ -158,11 +158,12 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: Structure) -> Structure:
-        return pressed_by(other, found.pressed, unit_of_pressure(other))
+        return pressed_by(other, found.pressed, found.unit)
 
     slope = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed)
-    own = math.nan if slope is None else slope.slope
-    return Answer(x, value, value, own, stands, verified, "", found.solves, (least, most))
+    own, unit = math.nan if slope is None else slope.slope, found.unit
+    value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
+    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most))
 
 
 def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:

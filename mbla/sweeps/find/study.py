@@ -131,7 +131,7 @@ class Finding:
 
 
 PRESSURE = (
-    "Pressure in all joints that is carried with the dead load, over the weight per area of joints; where it is "
+    "Pressure in all joints, as of water, that is carried with the dead load, in the units of the deck; where it is "
     "negative, the dead load alone is not carried."
 )
 NO_CHANGE = (
