@@ -368,14 +368,25 @@ def _files(answer: Strengthened, results: Results, folder: Path, stem: str, opti
 
     deck = answer.deck
     text = strengthened_deck(deck, answer.model, answer.candidates.ties, answer.capacities, folder)
-    draws = bool(find_spec("matplotlib") and find_spec("pyvista"))
+    output = deck.content.output
     with OutputFolder(folder, stem, options.force, secondary=True) as out:
         out.write_text(f"{stem}.yaml", text)
         out.write_text(f"{stem}.csv", table_csv(answer))
+        if find_spec("matplotlib") and find_spec("pyvista") and not output.plots:
+            _draw(results, out)
     if deck.side_files or len(results.cases) < len(results.model.load_cases):
-        drawn = ("output.plots=true",) if draws else ()
-        run(folder / f"{stem}.yaml", replace(options, folder=folder, overrides=drawn, force=True))
+        run(folder / f"{stem}.yaml", replace(options, folder=folder, overrides=(), force=True))
     else:
         with OutputFolder(folder, stem, force=True) as out:
-            write_results(results, out, deck.content.output.model_copy(update={"plots": draws}))
+            write_results(results, out, output)
     return tuple(folder / f"{stem}.{kind}" for kind in ("yaml", "csv", "h5"))
+
+
+def _draw(results: Results, out: OutputFolder) -> None:
+    """The structure with its ties, and how it collapses then."""
+    from mbla.results.pictures.options import PictureOptions
+    from mbla.results.pictures.plot import pictures_of
+
+    for picture in pictures_of(results, results.cases, PictureOptions(kinds=("model", "mechanism"))):
+        with out.writing(f"{out.stem}{picture.name}.png") as path:
+            picture.write(path)
