@@ -52,8 +52,13 @@ SELECTORS = (
     "strengthen.candidates.#.on.#",
 )
 """Where blocks are chosen."""
-WITH_GROUND = ("contacts.overrides.#.between.#", "ties.#.on.#", "strengthen.candidates.#.on.#")
-"""Where ground may be meant."""
+WITH_GROUND = (
+    "contacts.overrides.#.between.#",
+    "contacts.overrides.#.between.#.#",
+    "ties.#.on.#",
+    "strengthen.candidates.#.on.#",
+)
+"""Where ground may be meant; of points of ties alone, not among blocks."""
 REFERENCES = (
     Reference("blocks.#.*.material", "material"),
     Reference("blocks.#.*.joint", "joint law", BUILT_IN),
@@ -67,7 +72,7 @@ REFERENCES = (
     Reference("supports.#.joint", "joint law", BUILT_IN),
     Reference("fill.*.material", "material"),
     *(
-        Reference(f"{place}{form}", "group", (GROUND,) if place in WITH_GROUND and "group" not in form else ())
+        Reference(f"{place}{form}", "group", (GROUND,) if f"{place}{form}" in WITH_GROUND else ())
         for place in (*SELECTORS, "groups.*")
         for form in ("", ".group", ".#", ".#.group")
     ),

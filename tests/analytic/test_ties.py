@@ -41,6 +41,14 @@ def test_the_load_factor_rises_with_the_capacity_less_and_less_up_to_that_of_a_s
     assert factors[-1] == pytest.approx((5 * 1.6 + 0.2) / (1.6 - 1.0), rel=1e-6)
 
 
+def test_a_point_may_be_on_any_of_several_blocks() -> None:
+    """A choice of blocks for one point, by the name of the choice too, is one entry of `on`."""
+    two = "groups: {all: [block, {group: block, index: 0}]}\n"
+    assert mbla_load_factor(two + SLENDER.replace("on: [block", "on: [all")) == pytest.approx(
+        mbla_load_factor(SLENDER), rel=1e-9
+    )
+
+
 def test_prestress_changes_no_load_factor() -> None:
     """It is a force that balances itself: what a tie may have in all is the same."""
     found = mbla_load_factor(SLENDER.replace('capacity: "=T"', 'capacity: "=T", prestress: 2000'))
