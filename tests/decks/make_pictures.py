@@ -63,12 +63,14 @@ class DeckPicture:
     deck : below decks/, or ``README``
     case : load case; of a travelling load its name in the deck, the worst position is drawn
     plot : options of ``mbla plot``, of pictures in space their size
+    strengthened : it is of what ``mbla strengthen`` finds
     """
 
     name: str
     deck: str
     case: str
     plot: tuple[str, ...] = ()
+    strengthened: bool = False
 
     @property
     def path(self) -> Path:
@@ -90,6 +92,9 @@ TABLE = (
     DeckPicture("crossvault_along_x", "tutorials/crossvault.yaml", "along_x", SMALLER),
     DeckPicture("house_push_x", "structures/house.yaml", "push_x", SMALLER),
     DeckPicture("house_push_y", "structures/house.yaml", "push_y", SMALLER),
+    DeckPicture(
+        "facade_strengthened", "structures/facade_to_strengthen.yaml", "out_of_plane", SMALLER, strengthened=True
+    ),
     DeckPicture("room_push_y", "structures/room.yaml", "push_y", SMALLER),
     DeckPicture("colonnade_across", "structures/colonnade.yaml", "across", SMALLER),
     DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle", SMALLER),
@@ -126,9 +131,10 @@ def make_picture(picture: DeckPicture, folder: Path) -> Path:
     """Solve the deck, once for all of its pictures in that folder, and draw one; the path written."""
     deck = deck_path(picture, folder)
     out = folder / f"{deck.stem}.out"
-    result = out / f"{deck.stem}.h5"
+    result = out / f"{deck.stem}{'_strengthened' if picture.strengthened else ''}.h5"
     if not result.exists():
-        status = main(["run", str(deck), "-o", str(out), "--set", "output.vtu=false", "-q"])
+        command = "strengthen" if picture.strengthened else "run"
+        status = main([command, str(deck), "-o", str(out), "--set", "output.vtu=false", "-q"])
         assert status in (0, 4, 5), f"{deck}: mbla run ended with {status}"
     case = picture.case
     for series in series_of(read_results_hdf5(result).cases):
