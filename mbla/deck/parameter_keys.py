@@ -93,6 +93,10 @@ def dimensions_at(path: KeyPath) -> set[str]:
     return {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
 
 
+ASKED = ("analysis", "expected", "find", "output", "strengthen")
+"""sections that say what is asked, not what the structure and its loads are"""
+
+
 def parameter_faults(tree: Tree, content: DeckContent | None) -> Iterator[Fault]:
     """What is wrong with the key paths that a deck itself has for parameters.
 
@@ -104,7 +108,7 @@ def parameter_faults(tree: Tree, content: DeckContent | None) -> Iterator[Fault]
         except RefusedError as refusal:
             yield tree.fault(place, Message("parameter-key", refusal.message.words))
             continue
-        if content is not None and (path[0] in ("analysis", "find") or number_at(content, path) is None):
+        if content is not None and (path[0] in ASKED or number_at(content, path) is None):
             words = f"{key_text(path)} is no real number of the structure or its loads that the deck gives"
             yield tree.fault(place, Message("parameter-key", words))
 

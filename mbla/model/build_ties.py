@@ -24,6 +24,8 @@ from mbla.model.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
 from mbla.model.transform import AffineMap, repetitions
 from mbla.model.wording import counted, named, vector
 
+FARTHEST = 1e6
+"""distance of a point from the origin, over that of the farthest block, that is no point of a building"""
 CLOSES = 1e-9
 """distance of the last point from the first, over the length of a line, at which it is closed"""
 BESIDE = 0.1
@@ -147,6 +149,11 @@ def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, 
     assert points is not None  # a rule of the deck: one of the forms
     places = copy.points(np.array(points))
     key = "through" if section.through else "strip"
+    far = np.abs(places).max(axis=1) > FARTHEST * np.abs(roster.blocks.vertices).max(initial=1e-300)
+    if far.any() and len(roster.blocks):
+        words = f"lies more than {FARTHEST:g} times as far away as the blocks"
+        roster.refuse(Finding("coordinate-out-of-range", words, *path, key, int(np.argmax(far))))
+        return
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     if not (lengths > ALIKE * lengths.sum()).all():
         row = int(np.flatnonzero(lengths <= ALIKE * lengths.sum())[0]) + 1

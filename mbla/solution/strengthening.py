@@ -17,7 +17,7 @@ from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.model.moved_ties import elongations
 from mbla.program.strengthening import StrengtheningForm, strengthened_case, strengthening_form
-from mbla.solution.cone_solvers.choice import cone_solver
+from mbla.solution.cone_solvers.choice import cone_solver, interior_point_method, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, Status
@@ -110,7 +110,7 @@ def cheapest(strengthening: Strengthening) -> Cheapest:
     ]
     costs, most = strengthening.costs / scale, strengthening.most / unit
     form = strengthening_form(cases, costs, most)
-    solution = cone_solver(form.cone_program, strengthening.settings, strengthening.log).solve(1, -1.0)
+    solution = _solved(form, strengthening)
     none = np.zeros(count)
     if solution.status not in WITH_VALUE:
         reason = f"the program was not solved: {solution.shortfall}"
@@ -124,6 +124,17 @@ def cheapest(strengthening: Strengthening) -> Cheapest:
     cost = float(capacities @ strengthening.costs)
     least = proved_least_cost(strengthening, form, solution)
     return Cheapest(solution.status, capacities, form.use(solution.x), cost, least)
+
+
+def _solved(form: StrengtheningForm, strengthening: Strengthening) -> ConeSolution:
+    """By the method that takes such a program, or the other one where that breaks down."""
+    program, settings, log = form.cone_program, strengthening.settings, strengthening.log
+    solution = cone_solver(program, settings, log).solve(1, -1.0)
+    if solution.status is Status.NUMERICAL_ERROR:
+        other = replace(settings, solver=other_method(interior_point_method(program, settings.solver)))
+        again = cone_solver(program, other, log).solve(1, -1.0)
+        solution = solution if again.status is Status.NUMERICAL_ERROR else again
+    return solution
 
 
 def proved_least_cost(strengthening: Strengthening, form: StrengtheningForm, solution: ConeSolution) -> float:
