@@ -20,7 +20,7 @@ from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.contacts.glue import Solids
 from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.model.model import Ground, Joint, Model
-from mbla.model.ties import OUTSIDE, Ties
+from mbla.model.ties.ties import OUTSIDE, Ties
 
 IN_LINE = 1e-12
 """Moment and force, over the size of a tie, that is rounding of one in line between two bodies."""

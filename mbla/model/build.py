@@ -21,7 +21,6 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.build_ties import build_ties
 from mbla.model.fill import Fill, build_fill, with_fill
 from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
@@ -37,7 +36,8 @@ from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry import with_images
-from mbla.model.ties import Ties, joined_ties
+from mbla.model.ties.build import build_ties
+from mbla.model.ties.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
 from mbla.process.sharing import once
 

@@ -25,7 +25,7 @@ from mbla.errors import Notice
 from mbla.model.fill import FillBody, columns
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
-from mbla.model.ties import FILL, NO_TIES, OUTSIDE, Ties
+from mbla.model.ties.ties import FILL, NO_TIES, OUTSIDE, Ties
 from mbla.model.wording import counted
 
 LEVEL = 1e-6

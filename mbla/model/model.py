@@ -15,7 +15,7 @@ from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
-from mbla.model.ties import NO_TIES, Ties
+from mbla.model.ties.ties import NO_TIES, Ties
 
 
 @dataclass(frozen=True)

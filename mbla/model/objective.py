@@ -32,7 +32,7 @@ from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase, Objective, Settlement
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
-from mbla.model.ties import OUTSIDE, Ties
+from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
 
 ENDS = {"least": 1.0, "greatest": -1.0}

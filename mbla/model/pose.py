@@ -17,7 +17,7 @@ from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
-from mbla.model.ties import NO_TIES
+from mbla.model.ties.ties import NO_TIES
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ def moved_model(model: Model, pose: Pose) -> Model:
         blocks=pose.moved(model.blocks),
         interfaces=None,
         guides=replace(guides, motions=motions),
-        ties=NO_TIES,  # those that are left are found with their history (:mod:`mbla.model.moved_ties`)
+        ties=NO_TIES,  # those that are left are found with their history (:mod:`mbla.model.ties.moved`)
     )
 
 

@@ -34,7 +34,7 @@ from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.supports import plane_of
-from mbla.model.ties import OUTSIDE, Ties, joined_ties
+from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 

@@ -15,7 +15,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
-from mbla.model.moved_ties import elongations
+from mbla.model.ties.moved import elongations
 from mbla.program.strengthening import StrengtheningForm, strengthened_case, strengthening_form
 from mbla.solution.cone_solvers.choice import cone_solver, interior_point_method, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log

@@ -16,8 +16,8 @@ from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.build import structure_of
-from mbla.model.candidates import build_candidates
-from mbla.model.ties import joined_ties
+from mbla.model.ties.candidates import build_candidates
+from mbla.model.ties.ties import joined_ties
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest

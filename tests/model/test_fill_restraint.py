@@ -9,9 +9,9 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.moved_ties import TieHistory, moved_ties
 from mbla.model.pose import Pose
-from mbla.model.ties import OUTSIDE
+from mbla.model.ties.moved import TieHistory, moved_ties
+from mbla.model.ties.ties import OUTSIDE
 from mbla.solution.solution import Status
 from tests.line import case_of
 

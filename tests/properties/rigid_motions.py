@@ -12,7 +12,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra, turn_faces
-from mbla.model.ties import OUTSIDE
+from mbla.model.ties.ties import OUTSIDE
 from tests.properties.scenes import Scene, with_section
 
 

@@ -18,7 +18,7 @@ from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks, labels_of
-from mbla.model.ties import Ties
+from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.solution import (

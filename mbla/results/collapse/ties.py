@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
 from mbla.model.model import Model
-from mbla.model.ties import OUTSIDE
+from mbla.model.ties.ties import OUTSIDE
 from mbla.solution.mechanics import AT_REST
 from mbla.solution.solution import Mechanics, Solution
 

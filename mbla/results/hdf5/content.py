@@ -14,7 +14,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
 from mbla.model.model import Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
 from mbla.model.solids.blocks import Blocks
-from mbla.model.ties import Ties
+from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize
 from mbla.results.assessment.assessment import Figure, assessment_of
 from mbla.results.collapse.collapse import collapse_of

@@ -26,7 +26,7 @@ from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
-from mbla.model.ties import NO_TIES, OUTSIDE, Ties
+from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties
 from mbla.results.hdf5.case_restore import case_from, held
 from mbla.results.hdf5.content import RECORD_NAMES
 from mbla.results.hdf5.layout import Content

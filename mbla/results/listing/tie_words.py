@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.model.model import Model
-from mbla.model.ties import FILL
+from mbla.model.ties.ties import FILL
 from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, vector
 from mbla.solution.solution import Mechanics

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.ties import OUTSIDE, Ties
+from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import number
 from mbla.results.pictures.marks import Mark, segments

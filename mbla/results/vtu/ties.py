@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.model.ties import OUTSIDE
+from mbla.model.ties.ties import OUTSIDE
 from mbla.results.collapse.motion import moved_points
 from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.results.record.scene import FIGURES, Scene

@@ -26,8 +26,8 @@ from mbla.contacts.tied import tied
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.model.moved_ties import TieHistory
 from mbla.model.pose import Pose, turns_and_slides
+from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control

@@ -19,9 +19,9 @@ from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.moved import MovedContacts
 from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
-from mbla.model.moved_ties import TieHistory, moved_ties
 from mbla.model.pose import Pose, moved_case, moved_model
-from mbla.model.ties import Ties
+from mbla.model.ties.moved import TieHistory, moved_ties
+from mbla.model.ties.ties import Ties
 from mbla.program.assemble import assemble
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program

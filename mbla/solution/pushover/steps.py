@@ -28,10 +28,10 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids
 from mbla.contacts.moved import MovedContacts, MovedSearch
 from mbla.model.model import LoadCase, Model
-from mbla.model.moved_ties import TieHistory, moved_ties
 from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
-from mbla.model.ties import Ties
+from mbla.model.ties.moved import TieHistory, moved_ties
+from mbla.model.ties.ties import Ties
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.step_program import Normals, StepProgram, moved_solids, ties_left
 from mbla.solution.solution import Mechanics

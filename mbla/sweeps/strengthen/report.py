@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mbla import __version__
-from mbla.model.ties import OUTSIDE
+from mbla.model.ties.ties import OUTSIDE
 from mbla.results.listing.text import counted, full_sentence, number, sentence, table
 from mbla.results.record.json_values import as_json
 from mbla.solution.solution import WITH_VALUE

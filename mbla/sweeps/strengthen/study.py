@@ -34,8 +34,8 @@ from mbla.deck.text.writer import deck_text
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.build import structure_of
-from mbla.model.candidates import Candidates, build_candidates
-from mbla.model.ties import OUTSIDE, Ties, joined_ties
+from mbla.model.ties.candidates import Candidates, build_candidates
+from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.process.run_options import RunOptions
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import least_and_greatest, result_of

@@ -20,7 +20,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import is_within, touched_blocks
-from mbla.model.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
+from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
 from mbla.model.transform import AffineMap, repetitions
 from mbla.model.wording import counted, named, vector
 

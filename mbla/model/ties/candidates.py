@@ -14,13 +14,13 @@ from mbla.deck.sections.strengthen import PATTERNS, Across, Candidate, Vertical
 from mbla.deck.sections.ties import TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.build_ties import Line, build_lines, can_move, cuts_of, ties_of
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import touched_blocks
-from mbla.model.ties import OUTSIDE, Ties, joined_ties, pulls_along
+from mbla.model.ties.build import Line, build_lines, can_move, cuts_of, ties_of
+from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties, pulls_along
 
 MOST_LINES = 5000
 """candidates that one pattern lays out at most"""

@@ -18,7 +18,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.model.pose import Pose
 from mbla.model.solids.blocks import Blocks
-from mbla.model.ties import OUTSIDE, Ties, pulls_along
+from mbla.model.ties.ties import OUTSIDE, Ties, pulls_along
 
 NO_YIELD = 1e-6
 """Elongation over length that is none."""
