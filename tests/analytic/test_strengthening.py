@@ -12,15 +12,10 @@ import pytest
 import scipy.sparse as sp
 from scipy.optimize import linprog
 
-from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck
-from mbla.model import build_model
-from mbla.model.build import structure_of
-from mbla.model.ties.candidates import build_candidates
-from mbla.model.ties.ties import joined_ties
-from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Status
-from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
+from mbla.solution.strengthening import Cheapest, cheapest
+from mbla.sweeps.strengthen.question import question_of
 from tests.analytic.planar import (
     Array,
     PlanarJoint,
@@ -44,26 +39,7 @@ def cheapest_of(text: str) -> Cheapest:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"
         path.write_text(text, encoding="utf-8")
-        deck = read_deck(path)
-        model = build_model(deck)
-        contacts, structure, section = contacts_of(deck, model), structure_of(deck), deck.content.strengthen
-        assert section is not None
-        found = build_candidates(
-            section.candidates, structure.roster, model.fixed, model.grounds, deck.contacts.tolerance
-        )
-        assert not structure.roster.faults
-        cases = {case.name: case for case in model.load_cases}
-        question = Strengthening(
-            model=replace(model, ties=joined_ties([model.ties, found.ties])),
-            contacts=contacts,
-            first=len(model.ties),
-            costs=found.costs,
-            most=found.most,
-            requirements=tuple(Requirement(cases[name], factor) for name, factor in section.required.items()),
-            settings=solver_settings(deck.analysis),
-            log=lambda record: None,
-        )
-        return cheapest(question)
+        return cheapest(question_of(read_deck(path), lambda record: None)[2])
 
 
 def test_a_wall_that_overturns_needs_so_much_of_a_rod() -> None:

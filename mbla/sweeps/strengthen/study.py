@@ -1,6 +1,6 @@
 """``mbla strengthen``: the cheapest ties with which a structure carries what it has to, as a deck that is analysed.
 
-The capacities of the program are rounded up to a catalogue where there is one, and candidates that it hardly uses are
+Capacities of the program are rounded up to a catalogue where there is one, and candidates that it hardly uses are
 left out as long as that makes the rest cheaper. Then the strengthened structure is analysed by the deck's own flow
 rule, whose least load factors decide: while one falls short the program is asked for as much more in that load case, by
 the secant, and where it has no more to give all capacities are raised together.
@@ -25,17 +25,13 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.deck.content import DeckContent
 from mbla.deck.references import GROUND
 from mbla.deck.text.writer import deck_text
-from mbla.errors import DeckError, UsageError
-from mbla.model import Model, build_model
-from mbla.model.build import structure_of
-from mbla.model.ties.candidates import Candidates, build_candidates
-from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
+from mbla.model import Model
+from mbla.model.ties.candidates import Candidates
+from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.process.run_options import RunOptions
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import least_and_greatest, result_of
@@ -44,17 +40,10 @@ from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Status
-from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
+from mbla.solution.strengthening import Cheapest, Strengthening, cheapest
+from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, rounded_up, with_fewer
 
-SHORT = 1e-6
-"""share of a required load factor that may be missing: its rounding"""
-ACCURACY = 1e-4
-"""share by which capacities are larger than the program says: its accuracy on large structures"""
-MOST_ROUNDS, LITTLE = 10, 0.3
-"""programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
-which a candidate is left out"""
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
 """analyses after the first one, share of a required load factor that is asked for beyond what was short, and what an
 analysis gains at least of what is asked for more"""
@@ -122,71 +111,15 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
         As a run does.
     """
     refuse_unfit(deck)
-    section = deck.content.strengthen
-    assert section is not None
     stem = f"{deck.path.stem}_strengthened"
     with OutputFolder(options.folder_for(deck.path), stem, options.force, secondary=True) as out:
         out.refuse(f"{stem}.yaml", f"{stem}.csv")
-    model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
-    structure = structure_of(deck)
-    tolerance = deck.contacts.tolerance
-    candidates = build_candidates(section.candidates, structure.roster, model.fixed, model.grounds, tolerance)
-    if structure.roster.faults:
-        raise DeckError(structure.roster.faults)
-    cases = {case.name: case for case in model.load_cases}
-    question = Strengthening(
-        model=replace(model, ties=joined_ties([model.ties, candidates.ties])),
-        contacts=contacts,
-        first=len(model.ties),
-        costs=candidates.costs,
-        most=greatest_there(candidates.most, section.catalogue),
-        requirements=tuple(Requirement(cases[name], factor) for name, factor in section.required.items()),
-        settings=solver_settings(deck.analysis),
-        log=log,
-    )
+    model, candidates, question = question_of(deck, log)
     found = cheapest(question)
     if found.status not in WITH_VALUE:
         none = np.zeros(len(candidates.costs))
-        return Strengthened(deck, model, candidates, found, none, section.required, 1.0, math.nan, {}, False, 0, ())
+        return Strengthened(deck, model, candidates, found, none, required_of(deck), 1.0, math.nan, {}, False, 0, ())
     return _analysed(deck, model, candidates, found, question, options, stem)
-
-
-def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[float]) -> FloatArray:
-    """Capacities, (k,), that cost less once they are rounded up: of candidates without those that are hardly used."""
-    best = found.capacities
-    rows = np.flatnonzero(best)
-    for _ in range(MOST_ROUNDS):
-        rounded = rounded_up(best, catalogue)
-        kept = rows[best[rows] >= LITTLE * rounded[rows]]
-        if len(kept) == len(rows):
-            kept = np.delete(rows, np.argmin(best[rows] / rounded[rows]))
-        if not len(kept):
-            break
-        fewer = cheapest(question.take(kept))
-        capacities = np.zeros_like(best)
-        capacities[kept] = fewer.capacities
-        cost = float(rounded_up(capacities, catalogue) @ question.costs)
-        if fewer.status not in WITH_VALUE or cost >= float(rounded @ question.costs):
-            break
-        best, rows = capacities, np.flatnonzero(capacities)
-    return best
-
-
-def refuse_unfit(deck: Deck) -> None:
-    """UsageError where a deck asks for nothing, or for what has no such program."""
-    content = deck.content
-    if content.strengthen is None:
-        raise UsageError("no-strengthening", f"{deck.path}: has no section strengthen, which says what may be added")
-    if content.symmetry:
-        raise UsageError("strengthen-not-possible", "a deck with symmetry: give the whole structure")
-    for name in content.strengthen.required:
-        case = content.load_cases[name]  # the deck was checked for that
-        special = case.settlement is not None or case.objective is not None
-        if special or any(load.travel is not None or load.tilt is not None for load in case.live or []):
-            words = f"load case {name}: a load that travels or tilts, a settlement, an objective has no required factor"
-            raise UsageError("strengthen-not-possible", words)
 
 
 @dataclass(frozen=True)
@@ -219,11 +152,9 @@ def _analysed(
     stem: str,
 ) -> Strengthened:
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
-    section = deck.content.strengthen
-    assert section is not None
-    required, catalogue, tries = dict(section.required), section.catalogue, list[_Try]()
-    asked, raised, found = required, 1.0, first
-    wanted = found.capacities if catalogue is None else with_fewer(question, found, catalogue)
+    assert deck.content.strengthen is not None  # who calls knows
+    required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Try]()
+    asked, raised, wanted = required, 1.0, with_fewer(question, first, catalogue)
     for _ in range(MOST_REPEATS + 1):
         capacities = np.minimum(rounded_up(raised * wanted, catalogue), question.most)
         if not tries or not np.array_equal(capacities, tries[-1].capacities):
@@ -233,10 +164,9 @@ def _analysed(
         more = _ask_for(required, tries)
         if more is None or (raised > 1.0 and tries[-1].carries(required)):
             break
-        question = question.asking(more)
-        found = cheapest(question) if raised == 1.0 else found
-        if raised == 1.0 and found.status in WITH_VALUE:
-            asked, wanted = more, found.capacities if catalogue is None else with_fewer(question, found, catalogue)
+        after = cheapest(question.asking(more)) if raised == 1.0 else None
+        if after is not None and after.status in WITH_VALUE:
+            asked, wanted = more, with_fewer(question.asking(more), after, catalogue)
         else:
             raised *= RAISE
     best = min((each for each in tries if each.carries(required)), key=lambda each: each.cost, default=tries[-1])
@@ -284,11 +214,10 @@ def _beyond(name: str, required: float, tries: Sequence[_Try]) -> float:
 
 def _analysis(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, stem: str) -> Results:
     """Of the structure with ties of given capacities, (k,) N, in the load cases that have to carry something."""
-    assert deck.content.strengthen is not None  # who calls knows
     with TemporaryDirectory() as place:
         path = Path(place) / f"{stem}.yaml"
         path.write_text(strengthened_deck(deck, model, ties, capacities, path.parent), encoding="utf-8")
-        asked = RunOptions(cases=tuple(deck.content.strengthen.required))
+        asked = RunOptions(cases=tuple(required_of(deck)))
         return solve_deck(read_deck(path), asked, StatusFile(StringIO(), ""), None, perf_counter())
 
 
@@ -303,27 +232,6 @@ def _factor(results: Results, name: str) -> float:
             assert mechanics is not None
             return mechanics.load_factor if math.isnan(least) else least
     return math.nan
-
-
-def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
-    """Capacities, (k,), as there are: the next in the catalogue, or as many of the greatest as it takes."""
-    if catalogue is None:
-        return capacities * (1.0 + ACCURACY)
-    values = np.array(catalogue)
-    row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
-    several = np.ceil(capacities / values[-1] * (1.0 - SHORT))  # ties beside each other
-    found = np.where(capacities > values[-1] * (1.0 + SHORT), several * values[-1], values[row])
-    return np.where(capacities > 0.0, found, 0.0)
-
-
-def greatest_there(most: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
-    """Greatest capacities, (k,), of those that there are, up to given ones, of which none is below the least."""
-    if catalogue is None:
-        return most
-    values, limited = np.array(catalogue), np.isfinite(most)
-    row = np.searchsorted(values, most * (1.0 + SHORT), side="right") - 1
-    several = np.floor(np.where(limited, most, 0.0) / values[-1] * (1.0 + SHORT)) * values[-1]
-    return np.where(limited, np.maximum(values[np.maximum(row, 0)], several), np.inf)
 
 
 def strengthened_deck(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, folder: Path) -> str:

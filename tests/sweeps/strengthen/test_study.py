@@ -13,7 +13,7 @@ from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.verify import verify_file
-from mbla.sweeps.strengthen.study import greatest_there, rounded_up
+from mbla.sweeps.strengthen.question import greatest_there, rounded_up
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
 

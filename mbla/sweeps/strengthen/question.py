@@ -1,0 +1,124 @@
+"""What ``mbla strengthen`` asks: the program of a deck, and its capacities as there are, up to a catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.findings import contacts_of
+from mbla.contacts.glue import held_model
+from mbla.deck import Deck
+from mbla.errors import DeckError, UsageError
+from mbla.model import Model, build_model
+from mbla.model.build import structure_of
+from mbla.model.ties.candidates import Candidates, build_candidates
+from mbla.model.ties.ties import joined_ties
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.settings import solver_settings
+from mbla.solution.solution import WITH_VALUE
+from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
+
+SHORT = 1e-6
+"""share of a required load factor that may be missing: its rounding"""
+ACCURACY = 1e-4
+"""share by which capacities are larger than the program says: its accuracy on large structures"""
+MOST_ROUNDS, LITTLE = 10, 0.3
+"""programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
+which a candidate is left out"""
+
+
+def refuse_unfit(deck: Deck) -> None:
+    """UsageError where a deck asks for nothing, or for what has no such program."""
+    content = deck.content
+    if content.strengthen is None:
+        raise UsageError("no-strengthening", f"{deck.path}: has no section strengthen, which says what may be added")
+    if content.symmetry:
+        raise UsageError("strengthen-not-possible", "a deck with symmetry: give the whole structure")
+    for name in content.strengthen.required:
+        case = content.load_cases[name]  # the deck was checked for that
+        special = case.settlement is not None or case.objective is not None
+        if special or any(load.travel is not None or load.tilt is not None for load in case.live or []):
+            words = f"load case {name}: a load that travels or tilts, a settlement, an objective has no required factor"
+            raise UsageError("strengthen-not-possible", words)
+
+
+def question_of(deck: Deck, log: Log) -> tuple[Model, Candidates, Strengthening]:
+    """Model, candidates and program of a deck; raises DeckError with the faults of candidates."""
+    section = deck.content.strengthen
+    assert section is not None  # refused before
+    model = build_model(deck)
+    contacts = contacts_of(deck, model)
+    model = held_model(model, contacts)
+    structure = structure_of(deck)
+    tolerance = deck.contacts.tolerance
+    candidates = build_candidates(section.candidates, structure.roster, model.fixed, model.grounds, tolerance)
+    if structure.roster.faults:
+        raise DeckError(structure.roster.faults)
+    cases = {case.name: case for case in model.load_cases}
+    return (
+        model,
+        candidates,
+        Strengthening(
+            model=replace(model, ties=joined_ties([model.ties, candidates.ties])),
+            contacts=contacts,
+            first=len(model.ties),
+            costs=candidates.costs,
+            most=greatest_there(candidates.most, section.catalogue),
+            requirements=tuple(Requirement(cases[name], factor) for name, factor in required_of(deck).items()),
+            settings=solver_settings(deck.analysis),
+            log=log,
+        ),
+    )
+
+
+def required_of(deck: Deck) -> dict[str, float]:
+    """Load factors that are required, by load case; of a deck that asks for some."""
+    assert deck.content.strengthen is not None
+    return dict(deck.content.strengthen.required)
+
+
+def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[float] | None) -> FloatArray:
+    """Capacities, (k,), that cost less once they are rounded up: of candidates without those that are hardly used."""
+    best = found.capacities
+    if catalogue is None:
+        return best
+    rows = np.flatnonzero(best)
+    for _ in range(MOST_ROUNDS):
+        rounded = rounded_up(best, catalogue)
+        kept = rows[best[rows] >= LITTLE * rounded[rows]]
+        if len(kept) == len(rows):
+            kept = np.delete(rows, np.argmin(best[rows] / rounded[rows]))
+        if not len(kept):
+            break
+        fewer = cheapest(question.take(kept))
+        capacities = np.zeros_like(best)
+        capacities[kept] = fewer.capacities
+        cost = float(rounded_up(capacities, catalogue) @ question.costs)
+        if fewer.status not in WITH_VALUE or cost >= float(rounded @ question.costs):
+            break
+        best, rows = capacities, np.flatnonzero(capacities)
+    return best
+
+
+def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
+    """Capacities, (k,), as there are: the next in the catalogue, or as many of the greatest as it takes."""
+    if catalogue is None:
+        return capacities * (1.0 + ACCURACY)
+    values = np.array(catalogue)
+    row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
+    several = np.ceil(capacities / values[-1] * (1.0 - SHORT))  # ties beside each other
+    found = np.where(capacities > values[-1] * (1.0 + SHORT), several * values[-1], values[row])
+    return np.where(capacities > 0.0, found, 0.0)
+
+
+def greatest_there(most: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
+    """Greatest capacities, (k,), of those that there are, up to given ones, of which none is below the least."""
+    if catalogue is None:
+        return most
+    values, limited = np.array(catalogue), np.isfinite(most)
+    row = np.searchsorted(values, most * (1.0 + SHORT), side="right") - 1
+    several = np.floor(np.where(limited, most, 0.0) / values[-1] * (1.0 + SHORT)) * values[-1]
+    return np.where(limited, np.maximum(values[np.maximum(row, 0)], several), np.inf)
