@@ -17,7 +17,7 @@ from mbla.results.verify import verify_file
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
-from tests.results.changed_files import change, changing, with_case, written
+from tests.results.changed_files import change, changing, image_of_run, with_case, written
 from tests.solution.convex_structures import TWIST
 from tests.trust.corrupted.files import SEVERAL, write_decks
 
@@ -28,10 +28,7 @@ CUBE = SEVERAL["parts/block.obj"]
 
 @pytest.fixture(scope="module")
 def image(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    deck = tmp_path_factory.mktemp("verify") / "deck.yaml"
-    deck.write_text(NON_ASSOCIATIVE, encoding="utf-8")
-    run(deck, RunOptions(overrides=("parameters.mu=0.4",)))
-    return (deck.parent / "deck.out" / "deck.h5").read_bytes()
+    return image_of_run(tmp_path_factory.mktemp("verify"), NON_ASSOCIATIVE, "parameters.mu=0.4")
 
 
 @pytest.fixture

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError
-from mbla.process.run_options import RunOptions
 from mbla.results.verify import verify_file
-from mbla.run import run
 from tests.analytic.test_ties import SLENDER
-from tests.results.changed_files import changing
+from tests.results.changed_files import changing, image_of_run
 
 DECK = SLENDER.replace("flow_rule: associative", "flow_rule: non_associative, standing: true").replace(
     'capacity: "=T"', 'capacity: "=T", prestress: 500'
@@ -21,10 +19,7 @@ DECK = SLENDER.replace("flow_rule: associative", "flow_rule: non_associative, st
 
 @pytest.fixture(scope="module")
 def image(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    deck = tmp_path_factory.mktemp("ties") / "deck.yaml"
-    deck.write_text(DECK, encoding="utf-8")
-    run(deck, RunOptions())
-    return (deck.parent / "deck.out" / "deck.h5").read_bytes()
+    return image_of_run(tmp_path_factory.mktemp("ties"), DECK)
 
 
 @pytest.fixture

@@ -114,14 +114,11 @@ def ties_among_contacts(solution: Solution, solids: Solids) -> Solution:
     def among(mechanics: Mechanics) -> Mechanics:
         return with_tie_contacts(mechanics, solids)
 
-    def padded(values: FloatArray) -> FloatArray:
-        return np.concatenate([values, np.zeros((n, *values.shape[1:]))])
-
     motions, ranges = solution.certificate_motions, solution.force_ranges
     return replace(
         _with_mechanics(solution, among),
-        certificate_motions=None if motions is None else padded(motions),
-        force_ranges=None if ranges is None else padded(ranges),
+        certificate_motions=None if motions is None else _padded(motions, n),
+        force_ranges=None if ranges is None else _padded(ranges, n),
     )
 
 
@@ -139,12 +136,17 @@ def with_tie_contacts(mechanics: Mechanics, solids: Solids) -> Mechanics:
     resultants[:, 0] = forces[:, 0]
     own = mechanics.resultants
     return replace(
-        _of_interfaces(mechanics, lambda values: np.concatenate([values, np.zeros((n, *values.shape[1:]))])),
+        _of_interfaces(mechanics, lambda values: _padded(values, n)),
         resultants=None if own is None else np.vstack([own, resultants]),
         contact_forces=np.vstack([mechanics.contact_forces, forces]),
         contact_velocities=np.vstack([mechanics.contact_velocities, speeds]),
         modes=np.append(mechanics.modes, np.zeros(n, dtype=np.int64)),
     )
+
+
+def _padded(values: FloatArray, n: int) -> FloatArray:
+    """With n rows of nothing behind."""
+    return np.concatenate([values, np.zeros((n, *values.shape[1:]))])
 
 
 def _of_interfaces(mechanics: Mechanics, changed: Callable[[FloatArray], FloatArray]) -> Mechanics:

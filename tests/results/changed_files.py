@@ -10,8 +10,10 @@ from typing import Any
 
 import h5py
 
+from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
+from mbla.run import run
 
 
 @contextlib.contextmanager
@@ -35,6 +37,14 @@ def replace_dataset(path: Path, name: str, array: Any) -> None:
     with changing(path) as file:
         del file[name]
         file[name] = array
+
+
+def image_of_run(folder: Path, text: str, *overrides: str) -> bytes:
+    """The result file of a deck that was run in a folder."""
+    deck = folder / "deck.yaml"
+    deck.write_text(text, encoding="utf-8")
+    run(deck, RunOptions(overrides=overrides))
+    return (folder / "deck.out" / "deck.h5").read_bytes()
 
 
 def written(tmp_path: Path, results: Results) -> Path:

@@ -20,6 +20,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Joint
+from mbla.model.ties.moved import elongations
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.solution import Mechanics, Solution
@@ -73,7 +74,7 @@ def state_of(structure: Structure, solution: Solution, associative: Mechanics) -
         opening=np.where(crushable, np.maximum(surplus, 0.0), surplus),
         crushing=np.where(crushable, np.maximum(-surplus, 0.0), 0.0),
         tie_forces=np.zeros(len(structure.model.ties)) if known is None else np.nan_to_num(known),
-        elongation=structure.elongation_rates(associative.mechanism),
+        elongation=elongations(structure.model.blocks, structure.model.ties, associative.mechanism),
         motions=motions,
         contact_model=solution.contact_model,
     )
@@ -90,7 +91,8 @@ def lagrangian(structure: Structure, state: State) -> float:
     motion = structure.moved_along(state.mechanism, state.centroids)
     dead, live = case.powers(motion)
     v = case.velocities(motion) - case.interface_velocities(state.motions)[0]
-    of_ties = float((state.tie_forces * (structure.elongation_rates(motion) - state.elongation)).sum())
+    longer = elongations(structure.model.blocks, structure.model.ties, motion)
+    of_ties = float((state.tie_forces * (longer - state.elongation)).sum())
     given = state.load_factor * (1.0 - live) - dead
     return given - float((state.forces * v).sum()) + of_ties + resistance(structure, state)
 

@@ -50,15 +50,6 @@ class Structure:
         arms = self.model.blocks.centroids - centroids
         return np.hstack([motion[:, :3] + np.cross(motion[:, 3:], arms), motion[:, 3:]])
 
-    def elongation_rates(self, motion: FloatArray) -> FloatArray:
-        """Of ties, (n_ties,), in a motion of the blocks, (n_blocks, 6); what is outside of the model is at rest."""
-        ties, blocks = self.model.ties, self.model.blocks
-        moving = ties.bodies >= 0
-        of_block, on = motion[ties.bodies[moving]], ties.bodies[moving]
-        velocity = of_block[:, :3] + np.cross(of_block[:, 3:], ties.places[moving] - blocks.centroids[on])
-        speeds = (velocity * ties.pulls[moving]).sum(axis=1)
-        return -np.bincount(ties.tie_of_point[moving], speeds, len(ties)).astype(np.float64)
-
 
 def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Structure | str:
     """The structure with an override ``key.path=value``, its contact points in the order of the one that it is like.
