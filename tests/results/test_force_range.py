@@ -14,7 +14,7 @@ from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import range_words
 from mbla.results.listing.listing import listing
 from mbla.results.pictures.loads import live_marks
-from mbla.results.pictures.marks import thrust_lines
+from mbla.results.pictures.marks import force_texts, thrust_lines
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.record.json_record import results_json
@@ -160,7 +160,7 @@ def test_of_a_force_that_statics_alone_gives_no_joint_moves(tmp_path: Path, glue
 def test_a_picture_of_forces_has_both_lines_of_thrust(solved: tuple[Results, Path]) -> None:
     results = solved[0]
     scene = scene_of(results, results.case("all@least"), PictureOptions(), "forces")
-    assert [mark.name for mark in thrust_lines(scene)] == [
+    assert [mark.name for mark in thrust_lines(scene, force_texts(scene))] == [
         "line of thrust, least force",
         "line of thrust, greatest force",
     ]

@@ -73,9 +73,10 @@ def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:
     on = ties.bodies != OUTSIDE
     places, pulls = ties.places.copy(), ties.pulls.copy()
     places[on] += pose.displacements(blocks, ties.bodies[on], ties.places[on])
+    lines = ties.lengths_known
     for row in range(len(ties)):
         own = slice(int(ties.start[row]), int(ties.start[row + 1]))
-        if ties.lengths_known[row]:
+        if lines[row]:
             pulls[own] = pulls_along(places[own], closed=bool(ties.closed[row]))
         elif on[own][0]:
             pulls[own] = pulls[own] @ pose.rotation[ties.bodies[own][0]].T

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mbla.arrays import evenly
 from mbla.model.model import Model
 from mbla.results.listing.answers import (
     LEAST_AND_GREATEST,
@@ -222,8 +223,7 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
         says += f": its peak, {highest} at step {peak.step}, is a limit point; it ended below, at {ended}."
     else:
         says += f": it rose to {ended}, the last at which the structure was seen to stand."
-    evenly = np.linspace(0, len(path) - 1, min(MOST_ROWS - 1, len(path))).astype(int).tolist()
-    shown = [path[row] for row in sorted({*evenly, top})]
+    shown = [path[row] for row in sorted({*evenly(len(path), MOST_ROWS - 1), top})]
     rows = [
         [str(point.step), number(point.load_factor), str(point.open), str(point.slide), small(point.residual)]
         for point in shown

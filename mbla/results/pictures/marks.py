@@ -262,7 +262,7 @@ def force_marks(scene: Scene, *, proportional: bool = False) -> list[Mark]:
     labels, widths = [texts[row] for row in rows.tolist()], THICKEST * np.sqrt(sizes[rows] / sizes[rows].max())
     name = f"{largest} {scene.model.units.force}"
     rods = segments(name, RESULTANT, ends, contacts.bodies[rows], labels, widths)
-    found = [replace(rods, inside=True), *thrust_lines(scene)]
+    found = [replace(rods, inside=True), *thrust_lines(scene, texts)]
     off = thrust.eccentricity
     for label, colour, chosen in (
         ("outside the middle third", ORANGE, (off > MIDDLE_THIRD) & (off < EDGE)),
@@ -283,15 +283,15 @@ def drawn_resultants(scene: Scene) -> IntArray:
     return np.sort(order[sizes[order] > LEAST * sizes.max(initial=0.0)])
 
 
-def thrust_lines(scene: Scene) -> list[Mark]:
+def thrust_lines(scene: Scene, texts: Sequence[str]) -> list[Mark]:
     """Lines of thrust; of a force that is sought those of its other end as well, between which all others lie."""
     objective, other = scene.case.load_case.objective, scene.other_end
     if objective is None:
-        return [thrust_line(scene, "line of thrust", THRUST)]
-    found = [thrust_line(scene, f"line of thrust, {objective.end} force", THRUST)]
+        return [thrust_line(scene, texts, "line of thrust", THRUST)]
+    found = [thrust_line(scene, texts, f"line of thrust, {objective.end} force", THRUST)]
     if other is not None and other.case.load_case.objective is not None and other.thrust is not None:
         name = f"line of thrust, {other.case.load_case.objective.end} force"
-        found.append(thrust_line(other, name, OTHER_END, OTHER_LINE))
+        found.append(thrust_line(other, force_texts(other), name, OTHER_END, OTHER_LINE))
     return found
 
 
@@ -299,9 +299,8 @@ LINE, OTHER_LINE = 0.4, 1.0
 """thickness of lines of thrust that run inside resultants, and of those beside them"""
 
 
-def thrust_line(scene: Scene, name: str, colour: str, width: float = LINE) -> Mark:
+def thrust_line(scene: Scene, texts: Sequence[str], name: str, colour: str, width: float = LINE) -> Mark:
     """Lines of thrust along chains of blocks."""
-    texts = force_texts(scene)
     none = np.zeros((0, 2), dtype=np.int64)
     steps = np.concatenate([none, *(np.column_stack([line[:-1], line[1:]]) for line in scene.lines)])
     used, row = np.unique(steps, return_inverse=True)

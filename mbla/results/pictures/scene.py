@@ -115,10 +115,10 @@ class Scene(RecordScene):
         solution = self.case.solution
         if solution.mechanics is not None:
             return solution.mechanics.contact_forces
-        standing = (
-            solution.standing.forces if solution.lock is None and solution.standing is not None else solution.lock
-        )
-        return None if standing is None else standing[: len(self.contacts.points)]
+        found = solution.lock
+        if found is None and solution.standing is not None:
+            found = solution.standing.forces
+        return None if found is None else found[: len(self.contacts.points)]
 
     @property
     def force_words(self) -> str:

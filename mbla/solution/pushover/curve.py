@@ -31,7 +31,7 @@ from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
-from mbla.solution.pushover.step_program import StepProgram, moved_solids
+from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
 from mbla.solution.pushover.steps import Pushover, Step, history_after
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
@@ -268,7 +268,8 @@ def curve_of(
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
             history = history_after(model, history, last, steps.work[number] * steps.mechanisms[number - 1], pose)
-            solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, history)
+            ties = ties_left(model, pose, fallen, history)
+            solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, *ties)
             gaps = found.gaps / steps.scale[number]
         else:
             solids, gaps = built, np.zeros(len(first.contact_forces))

@@ -165,10 +165,10 @@ def _states(alternation: Alternation, normal: FloatArray) -> Iterator[LawState]:
 
 
 def moved_solids(
-    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray, history: TieHistory
+    model: Model, found: MovedContacts, case: LoadCase, pose: Pose, fallen: BoolArray, ties: Ties, slack: FloatArray
 ) -> tuple[Solids, LoadCase, MovedContacts]:
     """The model that the solver sees there, debris fixed, the loads on it, and its contacts, ties with their slack."""
-    there, ties, slack = moved_model(model, pose), *ties_left(model, pose, fallen, history)
+    there = moved_model(model, pose)
     solids = solids_of(replace(there, fixed=there.fixed | fallen, load_cases=(), ties=ties), found.contacts)
     solids = tied(solids)
     if solids.contacts.ties is not None:

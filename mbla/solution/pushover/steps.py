@@ -163,12 +163,12 @@ class Pushover:
             self.deep = found.overlap > DEEP
             if self.deep:
                 return None
-            left, _ = ties_left(self.model, pose, fallen, history)
+            left, slack = ties_left(self.model, pose, fallen, history)
             hanging = _hanging(self.model, found.contacts, left) & ~fallen
             if hanging.any() and not self._ends_it(fallen | hanging):
                 fallen = fallen | hanging
                 continue
-            solids, case, found = moved_solids(self.model, found, self.case, pose, fallen, history)
+            solids, case, found = moved_solids(self.model, found, self.case, pose, fallen, left, slack)
             reached = self._reached(pose, fallen, led, solids, case, found, normals, history)
             carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
             falling = fallen if carried else fallen | self.program.falling(solids, case)
