@@ -82,19 +82,22 @@ def _takes_plain_values(path: KeyPath) -> bool:
     )
 
 
+ASKED = ("analysis", "strengthen")
+"""sections that say what is asked, not what the structure and its loads are"""
+
+
 def number_at(content: DeckContent, path: KeyPath) -> float | None:
-    """Real number at a path, in the deck's units; None for what is none, such as a count, a choice or a section."""
-    value = value_at(content, path) if dimensions_at(path) else None
+    """Real number of the structure or its loads at a path, in the deck's units; None for what is none.
+
+    Such as a count, a choice or a section, and what only says what is asked.
+    """
+    value = value_at(content, path) if path[0] not in ASKED and dimensions_at(path) else None
     return None if isinstance(value, bool) or not isinstance(value, (int, float)) else float(value)
 
 
 def dimensions_at(path: KeyPath) -> set[str]:
     """Dimensions that a value at a path may have; none where no real number stands."""
     return {each.dimension for annotation in annotations_at(DeckContent, path) for each in _quantities(annotation)}
-
-
-ASKED = ("analysis", "expected", "find", "output", "strengthen")
-"""sections that say what is asked, not what the structure and its loads are"""
 
 
 def parameter_faults(tree: Tree, content: DeckContent | None) -> Iterator[Fault]:
@@ -108,7 +111,7 @@ def parameter_faults(tree: Tree, content: DeckContent | None) -> Iterator[Fault]
         except RefusedError as refusal:
             yield tree.fault(place, Message("parameter-key", refusal.message.words))
             continue
-        if content is not None and (path[0] in ASKED or number_at(content, path) is None):
+        if content is not None and number_at(content, path) is None:
             words = f"{key_text(path)} is no real number of the structure or its loads that the deck gives"
             yield tree.fault(place, Message("parameter-key", words))
 

@@ -81,7 +81,7 @@ def _compare_force(force: ForceRange, expected: Expectation) -> list[str]:
     for end, case in force.ends.items():
         value, wanted = end_value(case), getattr(expected, end)
         if wanted is not None:
-            found += _compare(f"{force.name}: {end}", value, wanted, _least("reaction", case), expected)
+            found += _compare(force.name, end, value, wanted, _least("reaction", case), expected)
     return found
 
 
@@ -91,13 +91,12 @@ def _compare_status(name: str, status: Status, expected: Expectation) -> list[st
     return [f"{name}: status {status.value}, expected {expected.status} ({expected.source})"]
 
 
-def _compare(what: str, value: float | None, wanted: float, least: float, expected: Expectation) -> list[str]:
+def _compare(name: str, key: str, value: float | None, wanted: float, least: float, expected: Expectation) -> list[str]:
     """A figure against what is wanted of it, relative to that, but to no less than ``least``."""
     if value is None or math.isnan(value):
-        name, key = what.split(": ")
         return [f"{name}: no {key}, expected {wanted:g} ({expected.source})"]
     if abs(value - wanted) > expected.tolerance * max(abs(wanted), least):
-        return [f"{what} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"]
+        return [f"{name}: {key} {value:.10g}, expected {wanted:.10g} within {expected.tolerance:g} ({expected.source})"]
     return []
 
 
@@ -115,7 +114,7 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     for key, value in found.items():
         wanted = getattr(expected, key)
         if wanted is not None:
-            differences += _compare(f"{name}: {key}", value, wanted, _least(key, case), expected)
+            differences += _compare(name, key, value, wanted, _least(key, case), expected)
     return differences
 
 

@@ -19,7 +19,7 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import Section, exactly_one_of, rule
 from mbla.deck.sections.selectors import Selector
-from mbla.deck.sections.ties import Ring
+from mbla.deck.sections.ties import Ring, blocks_of_points
 from mbla.errors import Finding
 
 PATTERNS = ("across", "ring", "vertical", "through")
@@ -77,14 +77,7 @@ class StrengthenSection(Section):
     )
 
 
-@rule(Candidate)
-def candidate(item: Candidate) -> Iterator[Finding]:
-    """Blocks by points go with points."""
-    if item.on is not None and item.through is None:
-        yield Finding("key-of-another-choice", "applies to through only", "on")
-    elif item.on is not None and item.through is not None and len(item.on) != len(item.through):
-        words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
-        yield Finding("tie-misfit", words, "on")
+rule(Candidate)(blocks_of_points)
 
 
 @rule(StrengthenSection)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -88,6 +88,17 @@ class TieSection(Section):
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 
 
+def blocks_of_points(item: Any) -> Iterator[Finding]:
+    """Blocks by points go with points, one for each."""
+    if item.on is None:
+        return
+    if item.through is None:
+        yield Finding("key-of-another-choice", "applies to through only", "on")
+    elif len(item.on) != len(item.through):
+        words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
+        yield Finding("tie-misfit", words, "on")
+
+
 @rule(TieSection)
 def tie(item: TieSection) -> Iterator[Finding]:
     """A capacity, one cross-section, and keys that apply."""
@@ -104,11 +115,7 @@ def tie(item: TieSection) -> Iterator[Finding]:
         yield Finding("missing-key", "needs area or diameter in addition to strength")
     if sections and item.strength is None:
         yield Finding("key-of-another-choice", "applies with strength only", sections[0])
-    if item.on is not None and item.through is None:
-        yield Finding("key-of-another-choice", "applies to through only", "on")
-    elif item.on is not None and item.through is not None and len(item.on) != len(item.through):
-        words = f"must name a block for each of the {len(item.through)} points, it names {len(item.on)}"
-        yield Finding("tie-misfit", words, "on")
+    yield from blocks_of_points(item)
     if item.strip is not None and item.breaks_at:
         words = "must be 0, or left out, for a strip, which has no length across a joint"
         yield Finding("tie-misfit", words, "breaks_at")

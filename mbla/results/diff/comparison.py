@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import unified_diff
 from typing import Any
@@ -202,25 +202,29 @@ def _totals(first: Results, second: Results, factors: Factors) -> tuple[Figure, 
 
 def _joints(first: Results, second: Results, factors: Factors) -> tuple[str, ...]:
     """Joint laws that one result has alone, or that differ."""
-    a, b = first.model.joints, second.model.joints
-    words = [f"{name}: in {'A' if name in a else 'B'} only" for name in a | b if (name in a) != (name in b)]
-    for name in (name for name in a if name in b):
-        for key in LAW:
-            factor = factors.of(STORED_BY_PATH[f"model/{key}"].unit)
-            old, new = getattr(a[name], key), getattr(b[name], key) * factor
-            if old != new and not abs(new - old) <= SAME_TOTAL * max(abs(old), abs(new)):
-                words.append(f"{name}: {key.replace('_', ' ')} {old:.6g} in A, {new:.6g} in B")
-    return tuple(words)
+    figures = [(key, key.replace("_", " "), factors.of(STORED_BY_PATH[f"model/{key}"].unit)) for key in LAW]
+    return _other_figures(first.model.joints, second.model.joints, figures)
 
 
 def _ties(first: Results, second: Results, factors: Factors) -> tuple[str, ...]:
     """Ties that one result has alone, or that have other forces or places."""
     a, b = ({row.name: row for row in tie_rows(results.model, None)} for results in (first, second))
-    words = [f"{name}: in {'A' if name in a else 'B'} only" for name in a | b if (name in a) != (name in b)]
+    figures = [
+        ("least", "least force", factors.force),
+        ("greatest", "greatest force", factors.force),
+        ("length", "length", factors.length),
+    ]
+    return _other_figures(a, b, figures)
+
+
+def _other_figures(
+    a: Mapping[str, Any], b: Mapping[str, Any], figures: Sequence[tuple[str, str, float]]
+) -> tuple[str, ...]:
+    """What one result has alone, or with other figures: of these field, name in words and unit of B in that of A."""
+    words = [f"{name}: in {'A' if name in a else 'B'} only" for name in {**a, **b} if (name in a) != (name in b)]
     for name in (name for name in a if name in b):
-        for key, factor in (("least", factors.force), ("greatest", factors.force), ("length", factors.length)):
+        for key, what, factor in figures:
             old, new = getattr(a[name], key), getattr(b[name], key) * factor
             if old != new and not abs(new - old) <= SAME_TOTAL * max(abs(old), abs(new)):
-                what = "length" if key == "length" else f"{key} force"
                 words.append(f"{name}: {what} {old:.6g} in A, {new:.6g} in B")
     return tuple(words)

@@ -94,7 +94,7 @@ def find_zero(one: S, other: S, at: Callable[[float], S], tolerance: float) -> Z
         sample = at(middle if slow >= PATIENCE else _next(below, above, seen, tolerance))
         if math.isnan(sample.y):
             return Zero(best, (below, above), error, complete=False)
-        replaced, width = (below, abs(above.x - below.x)) if sample.y < 0.0 else (above, abs(above.x - below.x))
+        replaced, width = below if sample.y < 0.0 else above, abs(above.x - below.x)
         below, above = (sample, above) if sample.y < 0.0 else (below, sample)
         progress = abs(sample.y) < 0.5 * abs(replaced.y) or abs(above.x - below.x) < 0.5 * width
         slow = 0 if progress or slow >= PATIENCE else slow + 1

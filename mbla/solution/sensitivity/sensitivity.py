@@ -77,15 +77,15 @@ def with_sensitivity(
 
 def slope_by(
     deck: Deck, structure: Structure, solution: Solution, checks: Checks, path: KeyPath, posed: Posed = _as_it_is
-) -> Slope | None:
-    """The slope by the number at one key path, whatever the deck asks for; None where there is none.
+) -> float:
+    """The slope by the number at one key path, whatever the deck asks for; nan where there is none.
 
     posed : puts the loads of another problem on a structure in the place of those of its load case
     """
     if solution.associative is None or _against(structure.load_case, solution, checks):
-        return None
+        return math.nan
     state = state_of(structure, solution, solution.associative)
-    return _of_path(deck, structure, state, path, posed)
+    return _of_path(deck, structure, state, path, posed).slope
 
 
 def _against(load_case: LoadCase, solution: Solution, checks: Checks) -> str:

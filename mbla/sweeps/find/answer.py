@@ -122,10 +122,9 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
     if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
         return Answer(x, math.nan, side, math.nan, status, verified, case.solution.reason)
-    if result_of(case) is None:
-        return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
     own = result_of(case)
-    assert own is not None
+    if own is None:
+        return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
     result = least_and_greatest(model, case)[0] if question.kind == "least_load_factor" else own.load_factor
     slope, bounds, associative = math.nan, (math.nan, math.nan), case.solution.associative
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
@@ -140,8 +139,7 @@ def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResul
     It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
     that two smooth functions of the parameter touch there.
     """
-    found = slope_by(deck, structure, case.solution, case.checks, question.path)
-    return math.nan if found is None else found.slope
+    return slope_by(deck, structure, case.solution, case.checks, question.path)
 
 
 # --- standing -------------------------------------------------------------------------------------------------------
@@ -160,8 +158,7 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     def posed(other: Structure) -> Structure:
         return pressed_by(other, found.pressed, found.unit)
 
-    slope = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed)
-    own, unit = math.nan if slope is None else slope.slope, found.unit
+    own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
     return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most))
 

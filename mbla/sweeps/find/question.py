@@ -100,7 +100,7 @@ def _parameter(deck: Deck, key: str) -> KeyPath | str:
         path = path_of_key(deck.data, key)
     except RefusedError as refusal:
         return f"--parameter {key}: {refusal.message.words}"
-    if path[0] in ("analysis", "find") or number_at(deck.content, path) is None:
+    if number_at(deck.content, path) is None:
         return f"--parameter {key}: {key_text(path)} is no real number that the deck gives"
     return path
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -157,11 +156,12 @@ def _answer_json(answer: Answer) -> dict[str, Any]:
 def _found_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
     """Value, error, which way the result goes, and how sure it is."""
     below, above = zero.bracket
+    first, last = sorted(zero.bracket, key=lambda each: each.x)
     unit = f" {question.unit}" if question.unit else ""
     name, rises, stands = question.parameter, below.x < above.x, question.kind == "stands"
-    says = f"{name} between {min(below.x, above.x):.9g} and {max(below.x, above.x):.9g}{unit}"
+    says = f"{name} between {first.x:.9g} and {last.x:.9g}{unit}"
     if zero.jumps and not stands:
-        ends = f"{_side(min(zero.bracket, key=_place))} to {_side(max(zero.bracket, key=_place))}"
+        ends = f"{_side(first)} to {_side(last)}"
         says += f": there the result jumps over the target, from {ends}; no value gives {number(question.target)}"
     elif zero.complete and not zero.jumps:
         says = f"{name} = {zero.best.x:.9g}{unit}, within {small(zero.error)} by "
@@ -179,19 +179,13 @@ def _found_words(question: Question, zero: Zero[Answer], standing: StandingResul
     return f"{says}; mbla run --set {name}={zero.best.x!r} shows it."
 
 
-def _place(answer: Answer) -> float:
-    return answer.x
-
-
 def _side(answer: Answer) -> str:
     """A result in words."""
     return answer.status if math.isnan(answer.result) else number(answer.result)
 
 
-def find(deck: Deck, options: Any, report: Callable[[Answer], None] | None = None) -> Finding:
+def find(deck: Deck, options: Any) -> Finding:
     """Look for the values that the deck or the options ask for.
-
-    report : called with every answer
 
     Raises
     ------
@@ -207,8 +201,6 @@ def find(deck: Deck, options: Any, report: Callable[[Answer], None] | None = Non
 
     def at(x: float) -> Answer:
         answers.append(answer_at(deck, question, x))
-        if report is not None:
-            report(answers[-1])
         return answers[-1]
 
     with sharing(Memory()):
