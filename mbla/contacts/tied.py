@@ -20,6 +20,7 @@ from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.contacts.glue import Solids
 from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.model.model import Ground, Joint, Model
+from mbla.model.solids.ragged import row_means
 from mbla.model.ties.ties import OUTSIDE, Ties
 
 IN_LINE = 1e-12
@@ -100,8 +101,7 @@ def _lines(ties: Ties, bodies: IntArray, n_blocks: int) -> tuple[IntArray, Float
     one, other = bodies[first], bodies[last]
     turned = (other >= n_blocks) | ((one < n_blocks) & (other < one))
     pairs = np.where(turned[:, None], np.column_stack([other, one]), np.column_stack([one, other]))
-    counts = np.diff(ties.start)[:, None]
-    points = np.add.reduceat(ties.places, first, axis=0) / counts
+    points = row_means(ties.places, ties.start)
     towards = np.where(turned, -1.0, 1.0) * _senses(ties)
     return pairs, points, -towards[:, None] * along
 

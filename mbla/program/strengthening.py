@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.contacts.glue import Solids
 from mbla.model.model import LoadCase
 from mbla.program.assemble import assemble
@@ -93,20 +93,18 @@ class StrengtheningForm:
     """The cone program of several cases, and how its solution is read.
 
     forms   : of the joints of each case
-    columns : first unknown of each case, then of e, of t and the end of these
     costs   : (k,) w in the unit of the program
     """
 
     cases: tuple[StrengthenedCase, ...]
     forms: tuple[KinematicForm, ...]
-    columns: IntArray
     costs: FloatArray
     cone_program: ConeProgram
 
     def velocities(self, x: FloatArray) -> list[FloatArray]:
         """Of each case, (n_rows,)."""
-        both = zip(self.columns, self.cases, strict=False)
-        return [x[first : first + len(case.program.dead_load)] for first, case in both]
+        ends = np.cumsum([len(case.program.dead_load) for case in self.cases])
+        return np.split(x[: ends[-1]], ends[:-1])
 
     def capacities(self, z: FloatArray) -> FloatArray:
         """T, (k,), in the unit of force of the program."""
@@ -145,7 +143,6 @@ def strengthening_form(cases: Sequence[StrengthenedCase], costs: FloatArray, mos
     limited = np.flatnonzero(np.isfinite(most))
     sizes = [len(case.program.dead_load) for case in cases]
     local = [form.cone_program.matrix.shape[1] - size for form, size in zip(forms, sizes, strict=True)]
-    columns = np.concatenate([[0], np.cumsum([*sizes, n * k, len(limited)])])
     halves = [sp.csr_array(form.cone_program.matrix)[1 : 1 + form.cone_program.n_half_lines] for form in forms]
     cones = [sp.csr_array(form.cone_program.matrix)[1 + form.cone_program.n_half_lines :] for form in forms]
     rows: list[list[sp.csr_array]] = []
@@ -187,4 +184,4 @@ def strengthening_form(cases: Sequence[StrengthenedCase], costs: FloatArray, mos
         n_equations=0,
         n_local=sum(local),
     )
-    return StrengtheningForm(tuple(cases), forms, columns, costs, program)
+    return StrengtheningForm(tuple(cases), forms, costs, program)

@@ -130,7 +130,12 @@ def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
     Raises ItemRefused where haunches do not fit.
     """
     section = vault_section(item, item.span)
-    rows = [_ends(item, item.bond == "running" and course % 2 == 1) for course in range(item.courses)]
+
+    def across(course: int) -> FloatArray:
+        """Both ends of each unit of a course."""
+        return _ends(item, item.bond == "running" and course % 2 == 1)
+
+    rows = [across(course) for course in range(item.courses)]
     course = np.repeat(np.arange(item.courses), [len(row) for row in rows])
     polygons = voussoir_polygons(section)[0]
     units = prisms([polygons[number] for number in course.tolist()], np.concatenate(rows))
@@ -138,9 +143,7 @@ def generate_barrel_vault(item: BarrelVaultItem, site: Site) -> Generated:
     member = "barrel" if item.backing else ""
     parts, grounds = [Part(units, member=member, labels=labels)], tuple[GroundPart, ...]()
     if item.backing is not None:
-        made = haunches(
-            item.backing, section, None, lambda course: _ends(item, item.bond == "running" and course % 2 == 1)
-        )
+        made = haunches(item.backing, section, None, across)
         parts.append(made[0])
         if item.springers != "none":
             grounds = haunch_grounds(*made[1:], len(units), item.joint)

@@ -67,12 +67,19 @@ class Below:
         rings = shapely.linearrings(self.flat(self.blocks.vertices[corners]), indices=ring)
         return np.atleast_1d(shapely.polygons(rings))
 
+    @cached_property
+    def tree(self) -> Any:
+        """To search these outlines."""
+        import shapely
+
+        return shapely.STRtree(self.outlines)
+
     def under(self, points: FloatArray) -> IntArray:
         """The block under each point (n, 3), -1 where there is none."""
         import shapely
 
         places, near_by = shapely.points(self.flat(points)), {"predicate": "dwithin", "distance": self.hair / 2}
-        row, hit = shapely.STRtree(self.outlines).query(places, **near_by)
+        row, hit = self.tree.query(places, **near_by)
         face = self.faces[hit]
         owner, normals = self.blocks.block_of_face[face], self.blocks.face_normals[face]
         leads = normals @ self.down
@@ -103,7 +110,7 @@ class Below:
         ends = [np.array([0.0, 1.0])]
         for each in map(self.flat, sides):
             line, along = shapely.LineString(each), each[1] - each[0]
-            crossed = self.outlines[shapely.STRtree(self.outlines).query(line, predicate="intersects")]
+            crossed = self.outlines[self.tree.query(line, predicate="intersects")]
             places = shapely.get_coordinates(shapely.intersection(shapely.boundary(crossed), line))
             ends.append(np.clip((places - each[0]) @ along / (along @ along), 0.0, 1.0))
         cuts = np.unique(np.concatenate(ends))

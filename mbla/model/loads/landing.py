@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -16,13 +17,21 @@ from mbla.errors import Finding, Notice
 from mbla.model.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread, beside, emerging, spread
-from mbla.model.loads.load_kind import LoadSite
+from mbla.model.loads.load_kind import LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.wording import named, vector
 
 UPRIGHT = 1e-9
 """horizontal component relative to a force, a line or a path, up to which it is none"""
 NEAR = 1e-3
 """share of the size of a block that a load may stand beside the fill, or a block rise out of it under the load"""
+
+
+def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> tuple[IntArray, FloatArray]:
+    """Blocks, each once, ascending, and the wrenches on them, (n, 15), of forces (m, 3) by where each lands, (m,)."""
+    under = np.concatenate([each.blocks for each in landed])
+    shared = np.concatenate([each.shares[:, None] * force for each, force in zip(landed, forces, strict=True)])
+    points = np.concatenate([each.points for each in landed])
+    return sum_on_blocks(under, wrenches_of(shared, points, site.blocks.centroids[under]))
 
 
 @dataclass(frozen=True)
@@ -114,8 +123,13 @@ class Landing:
     def _straight_down(self, body: FillBody, place: FloatArray) -> int:
         """The block straight under a place on the top of a fill, -1 for none."""
         on_top = np.append(place[:2], body.tops(place))
+        return int(self._all_below.at(on_top[None])[0])
+
+    @cached_property
+    def _all_below(self) -> Below:
+        """All blocks, seen from straight above."""
         blocks = self.site.blocks
-        return int(Below(blocks, np.array([0.0, 0.0, -1.0]), np.arange(len(blocks))).at(on_top[None])[0])
+        return Below(blocks, np.array([0.0, 0.0, -1.0]), np.arange(len(blocks)))
 
     def sound(self, forces: FloatArray, way: FloatArray, width: float) -> bool:
         """Whether forces (n, 3) that come along a way, (3,), can be spread so; a fault where not.

@@ -19,8 +19,8 @@ from mbla.deck.sections.vehicles import Travel
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
-from mbla.model.loads.landing import Landing, level, share_of
-from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.loads.landing import Landing, level, on_blocks, share_of
+from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
 from mbla.model.loads.vehicle import axles_of
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
@@ -122,10 +122,7 @@ def _applied(position: TravelPosition, landed: Landed, landing: Landing) -> Appl
     """The forces on the path, on the blocks they land on, which may be the same for some."""
     site, units = landing.site, landing.site.units
     there = [(axle, each) for axle, each in enumerate(landed) if each is not None and len(each.blocks)]
-    under = np.concatenate([each.blocks for _, each in there])
-    forces = np.concatenate([each.shares[:, None] * position.forces[axle] for axle, each in there])
-    points = np.concatenate([each.points for _, each in there])
-    blocks, wrenches = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
+    blocks, wrenches = on_blocks([each for _, each in there], position.forces[[axle for axle, _ in there]], site)
     through = f" through fill {landing.through.name}" if landing.through is not None else ""
     each_on = [
         f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"

@@ -12,8 +12,8 @@ from mbla.deck.sections.vehicles import Travel, Vehicle
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.landing import Landing, level
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.loads.landing import Landing, level, on_blocks
+from mbla.model.loads.load_kind import AppliedLoad, LoadSite
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
@@ -70,10 +70,7 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
             site.refuse(Finding("load-beside-structure", message, *here))
         return None
     landed = [each for each in found if each is not None]
-    under = np.concatenate([each.blocks for each in landed])
-    forces = np.concatenate([each.shares[:, None] * force for each, force in zip(landed, axles.forces, strict=True)])
-    points = np.concatenate([each.points for each in landed])
-    unique, total = sum_on_blocks(under, wrenches_of(forces, points, site.blocks.centroids[under]))
+    unique, total = on_blocks(landed, axles.forces, site)
     landing.remark_beyond(words, axles.forces, landed)
     landing.remark_met(words, axles.forces, landed)
     spread = "" if through is None else f" through fill {through.name}"
