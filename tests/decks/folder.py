@@ -62,6 +62,7 @@ LONG = (
     "structures/arch_bridge",
     "structures/colonnade",
     "structures/dome_on_drum",
+    "structures/facade_to_strengthen",
     "structures/house",
     "structures/retaining_wall",
     "structures/room",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.verify import verify_file
+from mbla.sweeps.strengthen import study
 from mbla.sweeps.strengthen.question import greatest_there, rounded_up
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
@@ -48,6 +50,12 @@ def path(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture(autouse=True)
+def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where the extra is not installed: drawing takes most of the time; one test has them."""
+    monkeypatch.setattr(study, "find_spec", lambda name: None)
+
+
 def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, dict[str, object]]:
     code = main(["strengthen", *arguments, "--json"])
     return code, json.loads(capsys.readouterr().out)
@@ -69,6 +77,13 @@ def test_the_strengthened_deck_carries_what_it_has_to(path: Path, capsys: pytest
     table = (folder / "deck_strengthened.csv").read_text(encoding="utf-8").splitlines()
     rows = list(csv.DictReader(table))
     assert [row["name"] for row in rows] == ["through[0]"]
+
+
+def test_the_structure_and_its_mechanism_are_drawn(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(study, "find_spec", find_spec)
+    assert main(["strengthen", str(path), "-q"]) == 0
+    pictures = sorted(each.name for each in (path.parent / "deck.out").glob("*.png"))
+    assert pictures == ["deck_strengthened_model.png", "deck_strengthened_push.png"]
 
 
 def test_an_earlier_result_is_kept_without_force(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
