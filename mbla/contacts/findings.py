@@ -69,6 +69,23 @@ def objective_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
             yield path, Message("objective-without-effect", words)
 
 
+def settlement_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
+    """Supports that give way and hold nothing: no joint and no tie lies between them and a block that can move."""
+    still = np.append(held_model(model, contacts).fixed, np.ones(len(model.grounds) + 1, dtype=bool))
+    ties, glued = model.ties, contacts.report.glued
+    for case in model.load_cases:
+        if case.settlement is None or case.objective is not None:
+            continue
+        if (np.isin(glued, case.settlement.blocks).sum(axis=1) == 1).any():
+            continue  # refused for that
+        on_it = np.isin(contacts.bodies, case.settlement.blocks).any(axis=1)
+        tied = np.unique(ties.tie_of_point[np.isin(ties.bodies, case.settlement.blocks)])
+        beside = [contacts.bodies[on_it].ravel(), ties.bodies[np.isin(ties.tie_of_point, tied)]]
+        if still[np.concatenate(beside)].all():  # the last entry stands for what is outside of the model
+            words = "nothing that can move touches the support that gives way: no reaction is lost; see `mbla check`"
+            yield ("load_cases", case.deck_name, "settlement", "on"), Message("settlement-without-effect", words)
+
+
 def _held_otherwise(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
     """Guided blocks that glue holds to a support, or to a block that may move in another way."""
     stuck = np.intersect1d(model.guides.blocks, contacts.report.held)
@@ -187,6 +204,7 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
     faults += bent_faults(deck, model, contacts)
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
     faults += [deck.fault_at(path, message) for path, message in objective_findings(model, contacts)]
+    faults += [deck.fault_at(path, message) for path, message in settlement_findings(model, contacts)]
     if faults:
         raise DeckError(first_faults(faults))
     return contacts

@@ -75,7 +75,7 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
         else replace(ground, blocks=np.append(ground.blocks, n))
         for ground in larger.grounds
     )
-    cases = tuple(_with_loads_moved(case, block, arm) for case in larger.load_cases)
+    cases = tuple(_on_side_of(block, n, _with_loads_moved(case, block, arm)) for case in larger.load_cases)
     position = int(np.sum([name == group for name in blocks.groups[:block]]))
     first, second = (SelectorTerm.model_construct(group=group, index=number) for number in (position, index))
     glue = ContactOverride(joint=GLUED, between=(first, second))
@@ -106,6 +106,14 @@ def _with_blocks(model: Model, blocks: Blocks, count: int, fixed: tuple[bool, ..
             tilt = replace(tilt, fixed=longer(tilt.fixed), turning=longer(tilt.turning), across=longer(tilt.across))
         cases.append(replace(case, dead_load=longer(case.dead_load), live_load=longer(case.live_load), tilt=tilt))
     return replace(model, blocks=blocks, fixed=np.append(model.fixed, fixed), load_cases=tuple(cases))
+
+
+def _on_side_of(block: int, new: int, case: LoadCase) -> LoadCase:
+    """The load case with a new block on the same side of the cut as another one; grounds follow the blocks."""
+    if case.objective is None:
+        return case
+    sides = np.insert(case.objective.sides, new, case.objective.sides[block])
+    return replace(case, objective=replace(case.objective, sides=sides))
 
 
 def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:

@@ -71,13 +71,15 @@ def _wrenches(values: FloatArray, matrix: FloatArray, side: float) -> FloatArray
 
 def _moved_case(case: LoadCase, matrix: FloatArray, side: float) -> LoadCase:
     dead, live = (_wrenches(loads, matrix, side) for loads in (case.dead_load, case.live_load))
-    settlement, tilt = case.settlement, case.tilt
+    settlement, objective, tilt = case.settlement, case.objective, case.tilt
     if settlement is not None:
         settlement = replace(settlement, motions=_wrenches(settlement.motions, matrix, side))
+    if objective is not None:
+        objective = replace(objective, direction=matrix @ objective.direction)
     if tilt is not None:
         fixed, turning, across = (_wrenches(loads, matrix, side) for loads in (tilt.fixed, tilt.turning, tilt.across))
         tilt = replace(tilt, axis=side * (matrix @ tilt.axis), fixed=fixed, turning=turning, across=across)
-    return replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt)
+    return replace(case, dead_load=dead, live_load=live, settlement=settlement, objective=objective, tilt=tilt)
 
 
 def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
@@ -112,7 +114,10 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
     new[order] = np.arange(len(order))
     cases = []
     for case in model.load_cases:
-        settlement, tilt, travel = case.settlement, case.tilt, case.travel
+        settlement, objective, tilt, travel = case.settlement, case.objective, case.tilt, case.travel
+        if objective is not None:
+            of_blocks, of_grounds = np.split(objective.sides, [len(order)])
+            objective = replace(objective, sides=np.append(of_blocks[order], of_grounds))
         if settlement is not None:
             settlement = replace(settlement, blocks=new[settlement.blocks])
         if tilt is not None:
@@ -121,7 +126,8 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
         if travel is not None:
             travel = replace(travel, blocks=np.where(travel.blocks < 0, -1, new[travel.blocks]))
         dead, live = case.dead_load[order], case.live_load[order]
-        cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt, travel=travel))
+        case = replace(case, dead_load=dead, live_load=live, settlement=settlement, objective=objective)
+        cases.append(replace(case, tilt=tilt, travel=travel))
     grounds = tuple(
         ground if ground.blocks is None else replace(ground, blocks=np.sort(new[ground.blocks]))
         for ground in model.grounds
