@@ -12,8 +12,8 @@ import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.overlay import frames_from_normals, unit
-from mbla.contacts.outlines.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.ragged import next_item, row_means, row_sums
 
 # Snapping grid, relative to block size, for uniting outlines whose edges may differ by rounding: an order of magnitude

@@ -19,15 +19,15 @@ from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.joints import Laws
 from mbla.contacts.narrow_phase import Patches, common_parts
-from mbla.contacts.outlines.polygons import (
+from mbla.errors import Notice
+from mbla.model.model import Model
+from mbla.model.solids.polygons import (
     GRID,
     Polygons,
     connected_parts,
     union_by_row,
     widths,
 )
-from mbla.errors import Notice
-from mbla.model.model import Model
 from mbla.model.solids.ragged import rows_and_items
 
 _ONE_FACE = 0.99

@@ -25,12 +25,12 @@ from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
 from mbla.contacts.outlines.points import interface_points
-from mbla.contacts.outlines.polygons import Polygons, connected_parts, intersect, map_polygons, widths
 from mbla.contacts.report import both_fixed
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import Model
 from mbla.model.pose import Pose, moved_model
 from mbla.model.solids.plane import meeting_boxes
+from mbla.model.solids.polygons import Polygons, connected_parts, intersect, map_polygons, widths
 
 FACING, HINGED = (float(np.cos(np.radians(angle))) for angle in (50.0, 85.0))
 """Cosine of the angle from opposite up to which facets of moved blocks are in contact: corners that come together at a

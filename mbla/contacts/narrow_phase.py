@@ -25,9 +25,9 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.broad_phase import NEAR_MISS, find_facet_pairs, opposite
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
-from mbla.contacts.outlines.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
 
 _EDGE = 1e-3
 _NARROW_FACET = 0.5

@@ -19,13 +19,13 @@ from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
 from mbla.contacts.outlines.points import in_pieces, interface_points
-from mbla.contacts.outlines.polygons import polygons_from_loops, widths
 from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.contacts.overlaps import find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import Joint, Model, PrescribedInterfaces
+from mbla.model.solids.polygons import polygons_from_loops, widths
 from mbla.process.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that

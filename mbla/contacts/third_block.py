@@ -18,9 +18,9 @@ import shapely
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.narrow_phase import Patches, Verdicts, common_parts
 from mbla.contacts.outlines.overlay import concatenate
-from mbla.contacts.outlines.polygons import widths
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes
+from mbla.model.solids.polygons import widths
 from mbla.model.solids.ragged import rows_and_items
 
 # Difference of two gaps, relative to block size, below which they are one: some last digits of a coordinate.

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,8 @@ from mbla.deck.sections.fill import Fill as FillSection
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks, carried_masses
-from mbla.model.solids.plane import cut, signed_areas, unit
+from mbla.model.solids.plane import cut, unit
+from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import items_of_rows, row_maxima
 from mbla.model.wording import counted, named
 
@@ -185,14 +185,10 @@ def _body(
     return replace(body, triangles=triangles, blocks=blocks.block_of_face[faces[row]], faces=faces[row])
 
 
-def _plans(faces: IntArray, blocks: Blocks) -> Any:
+def _plans(faces: IntArray, blocks: Blocks) -> Polygons:
     """Faces as polygons seen from above, (n,)."""
-    import shapely
-
-    ring = np.repeat(np.arange(len(faces)), np.diff(blocks.loop_start)[faces])
-    points = blocks.vertices[blocks.loops[items_of_rows(blocks.loop_start, faces)]][:, :2]
-    found = np.atleast_1d(shapely.polygons(shapely.linearrings(points, indices=ring)))
-    return np.where(shapely.is_valid(found), found, shapely.make_valid(found))
+    corners, start = blocks.corners_of(faces)
+    return polygons_from_loops(corners[:, :2], start)
 
 
 def _heights(faces: IntArray, points: FloatArray, blocks: Blocks) -> FloatArray:
@@ -234,10 +230,8 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
     for row, against in zip(covered.tolist(), np.split(shadows[other], first[1:]), strict=False):
         plans[row] = shapely.difference(plans[row], shapely.union_all(against))
     plans[shapely.area(plans) <= 2.0 * tolerance * areas] = shapely.Polygon()  # rounding of outlines
-    parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(plans), return_index=True)
-    flat = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
-    flat = np.where((signed_areas(flat) < 0)[:, None, None], flat[:, ::-1], flat)
-    return np.concatenate([flat, _heights(faces[row], flat, blocks)[..., None]], axis=2), row.astype(np.int64)
+    flat, row = triangles(plans)
+    return np.concatenate([flat, _heights(faces[row], flat, blocks)[..., None]], axis=2), row
 
 
 def columns(body: FillBody, blocks: Blocks) -> Columns:

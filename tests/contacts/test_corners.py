@@ -11,7 +11,7 @@ import shapely
 from mbla.arrays import IntArray
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.polygons import Polygons, union_by_row
+from mbla.model.solids.polygons import Polygons, union_by_row
 from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
 from tests.contacts.structures import any_rotation, blocks_of, moved
 

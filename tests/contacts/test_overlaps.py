@@ -15,8 +15,8 @@ from mbla.arrays import FloatArray, starts
 from mbla.contacts import find_contacts
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.facets import build_facets
-from mbla.contacts.outlines.convex import clip_convex, convex_loops
 from mbla.contacts.overlaps import Overlaps, find_overlaps
+from mbla.model.solids.convex import clip_convex, convex_loops
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists
 from tests.contacts.structures import (
     any_rotation,

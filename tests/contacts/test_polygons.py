@@ -18,7 +18,8 @@ from mbla.contacts.outlines.overlay import (
     local_maps,
     unit,
 )
-from mbla.contacts.outlines.polygons import (
+from mbla.model.solids.plane import CrowdedError, meeting_boxes
+from mbla.model.solids.polygons import (
     Polygons,
     connected_parts,
     intersect,
@@ -26,7 +27,6 @@ from mbla.contacts.outlines.polygons import (
     union_by_row,
     widths,
 )
-from mbla.model.solids.plane import CrowdedError, meeting_boxes
 
 
 def array(*polygons: shapely.Geometry) -> Polygons:

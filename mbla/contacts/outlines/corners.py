@@ -15,7 +15,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.outlines.polygons import Polygons, polygons_from_rings, rings, widths
+from mbla.model.solids.polygons import Polygons, polygons_from_rings, rings, widths
 from mbla.model.solids.ragged import next_item
 
 _SHARE_OF_WIDTH = 0.1

@@ -24,12 +24,12 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.contacts import ContactsRefused
-from mbla.contacts.outlines.convex import convex_loops
 from mbla.contacts.outlines.corners import Corners, areas_and_centroids, parallelograms
-from mbla.contacts.outlines.polygons import polygons_from_rings, triangles
 from mbla.contacts.outlines.refine import InterfacePoints, divided
 from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
+from mbla.model.solids.convex import convex_loops
+from mbla.model.solids.polygons import polygons_from_rings, triangles
 from mbla.model.solids.ragged import next_item
 
 _SEEN = 1e-9

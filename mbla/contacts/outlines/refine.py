@@ -51,9 +51,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.outlines.convex import convex_loops
 from mbla.contacts.outlines.corners import Corners, parallelograms
-from mbla.contacts.outlines.polygons import polygons_from_rings, triangles
+from mbla.model.solids.convex import convex_loops
+from mbla.model.solids.polygons import polygons_from_rings, triangles
 from mbla.model.solids.ragged import next_item
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes, unit
+from mbla.model.solids.polygons import Polygons, polygons_from_loops
 from mbla.model.solids.ragged import items_of_rows
 
 GRAZING = 1e-9
@@ -58,14 +59,10 @@ class Below:
         return faces[np.abs(self.blocks.face_normals[faces] @ self.down) > GRAZING]
 
     @cached_property
-    def outlines(self) -> Any:
+    def outlines(self) -> Polygons:
         """Of these faces, (n_faces,)."""
-        import shapely
-
-        ring = np.repeat(np.arange(len(self.faces)), np.diff(self.blocks.loop_start)[self.faces])
-        corners = self.blocks.loops[items_of_rows(self.blocks.loop_start, self.faces)]
-        rings = shapely.linearrings(self.flat(self.blocks.vertices[corners]), indices=ring)
-        return np.atleast_1d(shapely.polygons(rings))
+        corners, start = self.blocks.corners_of(self.faces)
+        return polygons_from_loops(self.flat(corners), start)
 
     @cached_property
     def tree(self) -> Any:

@@ -23,7 +23,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from mbla.deck.sections.fill import Dispersal
 from mbla.model.fill import FillBody
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, signed_areas
+from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import row_maxima
 
 HAIR = 1e-9
@@ -172,7 +172,7 @@ def _reached(local: FloatArray, most: float, width: float) -> tuple[_Pieces, Int
     return _Pieces(loops, np.column_stack([at_load, slopes])), left
 
 
-def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
+def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Polygons]:
     """Pieces that the load sees, (m,), and their images less what lies behind other pieces, (m,); ``size`` is an area
     of images, to which others are relative.
     """
@@ -187,8 +187,7 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Any]:
         )
     flat = _flat(loops, line)
     rows = np.flatnonzero(signed_areas(flat) > NOTHING * size)
-    images = np.atleast_1d(shapely.polygons(flat[rows]))
-    images = np.where(shapely.is_valid(images), images, shapely.make_valid(images))
+    images = polygons_from_loops(flat[rows].reshape(-1, 2), np.arange(len(rows) + 1) * flat.shape[1])
     one, other = shapely.STRtree(images).query(images, predicate="intersects")
     one, other = one[one < other], other[one < other]
     common = shapely.intersection(images[one], images[other])
@@ -206,7 +205,7 @@ def _flat(loops: FloatArray, line: bool) -> FloatArray:
     return np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=2)
 
 
-def _bounds(images: Any) -> tuple[float, float]:
+def _bounds(images: Polygons) -> tuple[float, float]:
     """Least and greatest slope along of images (n,); the wrong way round without any."""
     import shapely
 
@@ -217,19 +216,17 @@ def _bounds(images: Any) -> tuple[float, float]:
 
 
 def _integrals(
-    pieces: _Pieces, rows: IntArray, images: Any, law: Dispersal, width: float
+    pieces: _Pieces, rows: IntArray, images: Polygons, law: Dispersal, width: float
 ) -> tuple[FloatArray, FloatArray]:
     """Share of the load in each image, (m,), and the mean place where it lands: along, across, depth, (m, 3)."""
-    import shapely
-
-    parts, image = shapely.get_parts(shapely.constrained_delaunay_triangles(images), return_index=True)
-    a, b, c = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3].transpose(1, 0, 2)
+    corners, image = triangles(images)
+    a, b, c = corners.transpose(1, 0, 2)
     places, weights = (GAUSS[0] + 1.0) / 2, GAUSS[1] / 2
     r, s = (each.ravel() for each in np.meshgrid(places, places, indexing="ij"))
     weight = np.outer(weights * places, weights).ravel()  # r from the corner a, s along the edge from b to c
     edge = b[:, None] + s[:, None] * (c - b)[:, None]
     slopes = a[:, None] + r[:, None] * (edge - a[:, None])
-    double_area = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    double_area = 2.0 * signed_areas(corners)
     line = width > 0.0
     density = _density(law, slopes[..., 0]) * (1.0 / width if line else _density(law, slopes[..., 1]))
     own = density * weight * double_area[:, None]

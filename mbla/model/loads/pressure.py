@@ -15,18 +15,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.deck.sections.loads import Load, PressureLoad
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import cut, meeting_boxes, plane_axes, signed_areas, unit
+from mbla.model.solids.plane import cut, meeting_boxes, plane_axes, unit
+from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import items_of_rows, row_maxima, row_means
 from mbla.model.wording import counted
 
@@ -141,24 +141,16 @@ class _Frames:
     origins: FloatArray
     axes: FloatArray
 
-    def polygons(self, rows: IntArray, faces: IntArray, blocks: Blocks) -> Any:
+    def polygons(self, rows: IntArray, faces: IntArray, blocks: Blocks) -> Polygons:
         """Faces (n,) as polygons, (n,), each in the plane of one of the frames."""
-        import shapely
+        corners, start = blocks.corners_of(faces)
+        frame = rows[row_of_item(start)]
+        return polygons_from_loops(np.einsum("nj,nij->ni", corners - self.origins[frame], self.axes[frame]), start)
 
-        ring = np.repeat(np.arange(len(faces)), np.diff(blocks.loop_start)[faces])
-        points = blocks.vertices[blocks.loops[items_of_rows(blocks.loop_start, faces)]]
-        flat = np.einsum("nj,nij->ni", points - self.origins[rows][ring], self.axes[rows][ring])
-        found = np.atleast_1d(shapely.polygons(shapely.linearrings(flat, indices=ring)))
-        return np.where(shapely.is_valid(found), found, shapely.make_valid(found))
-
-    def triangles(self, polygons: Any) -> tuple[FloatArray, IntArray]:
+    def triangles(self, polygons: Polygons) -> tuple[FloatArray, IntArray]:
         """Triangles of polygons (n,), one for each frame: corners (m, 3, 3), outwards, and their polygons (m,)."""
-        import shapely
-
-        parts, rows = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
-        flat = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
-        flat = np.where((signed_areas(flat) > 0)[:, None, None], flat, flat[:, ::-1])
-        return np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None], rows.astype(np.int64)
+        flat, rows = triangles(polygons)
+        return np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None], rows
 
 
 def face_parts(
@@ -185,10 +177,9 @@ def _on_ground(faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tol
     """Faces that lie on a ground plane that carries their block."""
     found = np.zeros(len(faces), dtype=bool)
     owner = blocks.block_of_face[faces]
-    corners = items_of_rows(blocks.loop_start, faces)
-    start = starts(np.diff(blocks.loop_start)[faces])
+    corners, start = blocks.corners_of(faces)
     for ground in grounds:
-        heights = np.abs((blocks.vertices[blocks.loops[corners]] - ground.point) @ ground.normal)
+        heights = np.abs((corners - ground.point) @ ground.normal)
         on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
         on &= blocks.face_normals[faces] @ ground.normal <= -FACING
         found |= on if ground.blocks is None else on & np.isin(owner, ground.blocks)

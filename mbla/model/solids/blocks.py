@@ -13,9 +13,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, summed
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.solids.ragged import items_of_rows
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,11 @@ class Blocks(Polyhedra):
     def sizes(self) -> FloatArray:
         """Block size to which tolerances are relative: cube root of the volume, (n_blocks,) m."""
         return np.cbrt(self.volumes)
+
+    def corners_of(self, faces: IntArray) -> tuple[FloatArray, IntArray]:
+        """Corners of faces (n,), one after the other, (m, 3), and where those of each start, (n + 1,)."""
+        rows = items_of_rows(self.loop_start, faces)
+        return self.vertices[self.loops[rows]], starts(np.diff(self.loop_start)[faces])
 
     @cached_property
     def masses(self) -> FloatArray:

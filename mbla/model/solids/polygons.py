@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.outlines.convex import clip_convex, convex_loops, signed_areas
+from mbla.model.solids.convex import clip_convex, convex_loops, signed_areas
 
 Polygons: TypeAlias = NDArray[np.object_]
 
@@ -206,12 +206,13 @@ def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:
 
     Returns
     -------
-    points : (n_triangles, 3, 2)
+    points : (n_triangles, 3, 2) counter-clockwise
     row    : (n_triangles,)  polygon that each triangle belongs to
     """
     parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
     points = shapely.get_coordinates(parts).reshape(len(parts), 4, 2)[:, :3]
-    return points, row.astype(np.int64)
+    (a, b), (c, d) = (points[:, 1] - points[:, 0]).T, (points[:, 2] - points[:, 0]).T
+    return np.where((a * d < b * c)[:, None, None], points[:, ::-1], points), row.astype(np.int64)
 
 
 def _polygonal(shapes: Polygons) -> Polygons:
