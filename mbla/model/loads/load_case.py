@@ -24,7 +24,7 @@ from mbla.model.solids.plane import unit
 from mbla.model.wording import named, vector
 
 CANCELLED = 1e-12
-"""sum of live loads, relative to the loads themselves, at which nothing is left of them"""
+"""sum of loads, relative to the loads themselves, at which nothing is left of them but rounding"""
 SAME_GRAVITY = 0.01
 """difference of gravity from the standard one, relative, that changes no stress of soil, as of 9.8 and 9.81"""
 COMPUTABLE = (1e-100, 1e100)
@@ -47,6 +47,12 @@ class _Sum:
     following: FloatArray
     words: tuple[str, ...] = ()
     complete: bool = True
+
+    @property
+    def net(self) -> FloatArray:
+        """Forces and moments, (n_blocks, 6); of what cancels no rounding is left, which nothing might carry."""
+        cancels = np.isfinite(self.gross) & (np.abs(self.total) <= CANCELLED * self.gross)
+        return np.where(cancels, 0.0, self.total)[:, :6]
 
     def plus(self, *loads: AppliedLoad | None) -> _Sum:
         """The same with more loads; None for those that left a fault."""
@@ -75,7 +81,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
-        tilt = tilt_loads(table, dead_loads, dead.total[:, :6], path, site)
+        tilt = tilt_loads(table, dead_loads, dead.net, path, site)
         words = f"tilt about {vector(table.axis)}"
         live = live.plus(AppliedLoad(np.arange(len(site.blocks)), without_levers(tilt.across), words))
     _judge_soil(name, gravity_of(dead_loads), tilt is not None, site)
@@ -89,8 +95,9 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
         pushed = _pushing(name, section, dead, own, site)
-        loads = dead.total[:, :6], own.total[:, :6]
-        case = LoadCase(name, *loads, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment)
+        case = LoadCase(
+            name, dead.net, own.net, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment
+        )
         if position is not None:
             case = replace(case, name=case_name(position), travel=position)
         cases.append(case)
@@ -141,7 +148,7 @@ def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site:
     free = ~site.fixed
     if not free.any() or site.roster.partial or _judge_size((*path, "live"), live, site):
         return
-    if np.abs(live.total[free, :6]).max() > CANCELLED * live.gross[free, :6].max():
+    if np.abs(live.net[free]).max() > CANCELLED * live.gross[free, :6].max():
         return
     words = "the live loads cancel each other: they have no effect"
     if travelling is not None and site.fixed[travelling.blocks].all():

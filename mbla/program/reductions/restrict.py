@@ -95,6 +95,9 @@ def tidy(matrix: sp.sparray) -> sp.csr_array:
 DEPENDENT = 1e-10
 """Singular value, over the largest, below which a way of a body to move is the sum of others."""
 
+ACROSS = 1e-12
+"""load along a way to move, over the loads whose components add up to it, that is rounding: they act across it"""
+
 ALLOWED = 0.5
 """Eigenvalue of a projector: 1 for motions that are allowed, 0 for the others."""
 
@@ -129,7 +132,12 @@ def guided_program(program: Program, projector: sp.csr_array | None) -> Program:
         return program
     basis = _basis(projector)
     forces = sp.eye_array(program.components * program.n_points, format="csr")
-    return replace(restricted(program, basis, sp.csr_array(forces), program.limits), guided=True)
+    found = restricted(program, basis, sp.csr_array(forces), program.limits)
+    dead, live = (
+        np.where(np.abs(along) > ACROSS * (abs(basis).T @ np.abs(loads)), along, 0.0)
+        for along, loads in ((found.dead_load, program.dead_load), (found.live_load, program.live_load))
+    )
+    return replace(found, dead_load=dead, live_load=live, guided=True)
 
 
 def _projector(ways: FloatArray) -> FloatArray:

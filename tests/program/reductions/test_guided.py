@@ -16,7 +16,7 @@ from mbla.program.reductions import StepState, reduce_program, unreduced
 from mbla.program.reductions.restrict import _projector
 from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, glued_step, size_of
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Status
+from mbla.solution.solution import Standing, Status
 from mbla.solution.solve import solve_parts
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
@@ -114,6 +114,32 @@ def test_ways_of_a_body_are_told_from_rounding_whatever_the_unit_of_length() -> 
     ways = np.array([[1.0, 0, 1], [0, 1, 1], [0, 0, 0]])
     for unit in (1e-13, 1.0, 1e13):
         assert _projector(unit * ways) == pytest.approx(np.diag([1.0, 1, 0]), abs=1e-12)
+
+
+CARRIAGE = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.4}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: carriage, material: stone, min: [5, 0, 0], max: [6, 1, 1]}
+supports: [{ground: {z: 0}, blocks: block}, {blocks: carriage, slide: WAY}]
+load_cases:
+  push: {dead: [DEAD], live: [{acceleration: [1, 0, 0], on: block}]}
+"""
+)
+BALANCED = ", ".join(
+    f"{{force: [{x}, 0, 0], on: carriage, at: [5.5, 0.5, 0.5]}}" for x in (100000.1, 200000.2, -300000.3)
+)
+
+
+@pytest.mark.parametrize(("way", "dead"), [("[1, 0, 0]", BALANCED), ("[1, 2, 0]", "{gravity: [2, -1, -9.81]}")])
+def test_rounding_of_loads_moves_nothing_on_its_way(way: str, dead: str) -> None:
+    """Loads on it that cancel but for 6e-11 N, or that act across its way but for their last digits, are carried."""
+    case = case_of(CARRIAGE.replace("WAY", way).replace("DEAD", dead))[1]
+    assert case.status is Status.SOLVED
+    assert case.solution.standing is not None
+    assert case.solution.standing.verdict is Standing.YES
 
 
 # What glue saves, and that a glued joint is one whose strength is never reached.
