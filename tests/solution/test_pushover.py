@@ -83,7 +83,8 @@ def test_a_load_that_follows_turns_with_its_block() -> None:
     assert 100 * factors == pytest.approx(weight * (0.1 * np.cos(turned) - 0.5 * np.sin(turned)), abs=1e-5 * weight)
 
 
-@pytest.mark.parametrize("units", ["{length: mm}", pytest.param("{length: m, force: kN}", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("units", ["{length: mm}", "{length: m, force: kN}"])
 def test_the_curve_does_not_know_units(units: str, tmp_path: Path) -> None:
     text, factor = ROCKING.read_text(encoding="utf-8"), 1000.0 if "mm" in units else 1.0
     text = text.replace("mbla: 1\n", f"mbla: 1\nunits: {units}\n")
@@ -110,9 +111,8 @@ def test_a_sliding_block_keeps_its_load_factor_and_does_not_lift() -> None:
     assert last.friction == pytest.approx(last.live_work, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("rounding", "ordinates", "slope"), [(0.02, 0.14, 0.06), pytest.param(0.0, 0.05, 0.16, marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("rounding", "ordinates", "slope"), [(0.02, 0.14, 0.06), (0.0, 0.05, 0.16)])
 def test_the_published_curve_of_a_wall(rounding: float, ordinates: float, slope: float) -> None:
     """Two distinct-element codes of 2025 (LMGC90, UDEC), of which contact points 0.02 m inside the ends are known.
 

@@ -160,7 +160,7 @@ def test_what_has_no_slope_says_so(change: tuple[str, str], words: str) -> None:
     assert bool(case.solution.sensitivity) != bool(words)
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3, 7])
+@pytest.mark.parametrize("seed", [0, 1])
 def test_random_decks(seed: int) -> None:
     compare(seed)
 

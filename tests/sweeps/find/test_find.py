@@ -49,6 +49,7 @@ def asked(text: str, parameter: str, kind: str, target: float, bounds: tuple[flo
     return find(read_deck_text(text, Path("deck.yaml")), SimpleNamespace(**question))
 
 
+@pytest.mark.long
 def test_every_section_of_a_deck_finds_its_value() -> None:
     sections = {name_of(path): path for path in PATHS if deck_of(path).content.find is not None}
     assert sections.keys() == OF_DECKS.keys()
