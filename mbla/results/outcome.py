@@ -16,7 +16,8 @@ from mbla.errors import Notice
 from mbla.model.model import Model, Tilt
 from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import PROVED_STANDING, Checks, CurveEnd, Mechanics, Standing, Status
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 from mbla.solution.tilt_circle import angle_above, line_of
 

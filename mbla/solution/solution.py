@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
-from mbla.model.pose import Pose
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.sensitivity.slopes import Slope
 
 
 class Status(StrEnum):
@@ -115,124 +115,6 @@ class PathPoint:
     open: int
     slide: int
     residual: float
-
-
-class CurveEnd(StrEnum):
-    """Why a pushover ends."""
-
-    NONE = ""
-    NOTHING_LEFT = "the load factor is nothing"
-    FALLS = "it goes on by itself at that load"
-    NOT_CARRIED = "nothing carries it any more"
-    REACHED = "the displacement asked for is reached"
-    STEPS_DONE = "the steps asked for are done"
-    BLOCKED = "something blocks its way"
-    DEEP = "blocks overlap, however short the step"
-    STUCK = "no forces or no motion were found for the next step"
-    LATE = "the time limit was reached"
-
-
-@dataclass(frozen=True)
-class CurveRow:
-    """One step of a pushover, as code that did not solve it finds it from its forces and mechanism.
-
-    step         : from 0, limit analysis of the structure as built
-    displacement : of the control point, m
-    load_factor  : that holds the structure there
-    reaction     : of a support that gives way, N; nan without one
-    error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
-    residual     : of the joint law, the greatest measure of the verification
-    overlap      : m, the greatest of blocks
-    live_work, friction, tie_work, potential : J since the first step: work of the live load, dissipated in sliding and
-                   by ties, gained by the dead load
-    new_mechanism : whether it moves in another way than the step before
-    debris       : blocks that have fallen without the rest
-    broken       : ties that have broken, or went with debris
-    """
-
-    step: int
-    displacement: float
-    load_factor: float
-    reaction: float
-    error: float
-    residual: float
-    overlap: float
-    live_work: float
-    friction: float
-    tie_work: float
-    potential: float
-    new_mechanism: bool
-    debris: int
-    broken: int
-
-
-@dataclass(frozen=True)
-class PushedSteps:
-    """What the rows of a pushover follow from: its loads, mechanisms and forces, step by step, limit analysis first.
-
-    work         : (n_steps,) live work of the step that led there
-    scale        : (n_steps,) live work for which it was solved: the gaps there close by no more in it; inf at first
-    load_factors : (n_steps,)
-    mechanisms   : (n_steps, n_blocks, 6) for a live power of 1
-    fallen       : (n_steps, n_blocks) blocks that are debris
-    point_start  : (n_steps + 1,) contact points of step k are rows point_start[k]:point_start[k + 1] of
-    forces       : (n, 3) N, T1, T2 [N] at the contact points of the moved blocks
-    errors       : (n_steps,) estimated error of the load factor, nan where it is not known
-    """
-
-    work: FloatArray
-    scale: FloatArray
-    load_factors: FloatArray
-    mechanisms: FloatArray
-    fallen: BoolArray
-    point_start: IntArray
-    forces: FloatArray
-    errors: FloatArray
-
-    def __len__(self) -> int:
-        return len(self.work)
-
-    @property
-    def poses(self) -> Iterator[Pose]:
-        """Where the blocks are at every step, from its mechanisms."""
-        pose = Pose.at_rest(self.mechanisms.shape[1])
-        yield pose
-        for work, mechanism in zip(self.work[1:], self.mechanisms[:-1], strict=True):
-            pose = pose.after(work * mechanism)
-            yield pose
-
-
-class Side(StrEnum):
-    """To which side of the value of a parameter a slope holds; of a kink it is the one above."""
-
-    BOTH = "both"
-    ABOVE = "above"
-    BELOW = "below"
-    KINK = "kink"
-    NONE = "not known"
-
-
-@dataclass(frozen=True)
-class Slope:
-    """How the associative load factor changes with a parameter.
-
-    parameter  : key path in the deck; ``dead load`` or ``live load``: a factor on all of it; ``tie`` and a name:
-                 the force at which that yields
-    value      : in the deck's unit
-    unit       : empty for plain numbers, and for parameters of expressions
-    slope      : derivative of the load factor by it, nan where it is not known
-    elasticity : relative change of the load factor over that of the parameter; nan where the load factor is 0
-    side       : see ``Side``
-    remark     : in words; empty for nothing
-    """
-
-    parameter: str
-    value: float
-    unit: str
-    slope: float
-    elasticity: float
-    side: Side
-    remark: str
 
 
 @dataclass(frozen=True)

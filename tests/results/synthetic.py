@@ -21,19 +21,16 @@ from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import (
     Checks,
-    CurveEnd,
-    CurveRow,
     GeometricSafety,
     IterationRecord,
     Mechanics,
     ModelSize,
     PathPoint,
     ProgramRecord,
-    PushedSteps,
-    Side,
-    Slope,
     Solution,
     Standing,
     StandingResult,

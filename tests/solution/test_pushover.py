@@ -15,8 +15,9 @@ from mbla.model import build_model
 from mbla.program.build import build_program
 from mbla.results.listing.pushover import energy_missing
 from mbla.solution.pushover.curve import pushed
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import CurveEnd, CurveRow, Solution
+from mbla.solution.solution import Solution
 from mbla.solution.solve import solve
 from tests.line import BLOCK
 

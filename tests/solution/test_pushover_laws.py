@@ -11,7 +11,8 @@ import pytest
 from mbla.results.listing.pushover import energy_missing
 from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.solution import CurveEnd, Status
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.solution import Status
 from tests.line import case_of
 from tests.solution.test_pushover import DECKS, columns
 

@@ -15,17 +15,14 @@ from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import (
     Checks,
     ContactMode,
-    CurveEnd,
-    CurveRow,
     GeometricSafety,
     Mechanics,
     ModelSize,
-    PushedSteps,
-    Side,
-    Slope,
     Solution,
     Standing,
     StandingResult,

@@ -23,18 +23,17 @@ from mbla.results.outcome import least_and_greatest
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
+from mbla.solution.pushover.pushed import CurveRow, PushedSteps
+from mbla.solution.sensitivity.slopes import Slope
 from mbla.solution.solution import (
     Checks,
-    CurveRow,
     GeometricSafety,
     IterationRecord,
     Mechanics,
     ModelSize,
     PathPoint,
     ProgramRecord,
-    PushedSteps,
     ReductionStep,
-    Slope,
     Solution,
     StandingResult,
 )

@@ -12,7 +12,7 @@ from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, se
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.solution import CurveRow
+from mbla.solution.pushover.pushed import CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NOTABLE_MISS = 0.02

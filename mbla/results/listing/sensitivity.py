@@ -7,7 +7,7 @@ import math
 from mbla.results.listing.text import number, sentence, table
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Side, Slope
+from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"

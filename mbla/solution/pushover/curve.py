@@ -31,10 +31,11 @@ from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
 from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
 from mbla.solution.pushover.steps import Pushover, Step, history_after
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import CurveEnd, CurveRow, Mechanics, PushedSteps, Solution
+from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.case import Case, InterfaceTerms
 from mbla.solution.verification.residuals import residuals_of

@@ -24,8 +24,9 @@ from mbla.errors import Message
 from mbla.model import Model
 from mbla.model.model import Joint, LoadCase
 from mbla.solution.sensitivity.lagrangian import State, lagrangian, load_power, pressure_on, resistance, state_of
+from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.sensitivity.structures import Structure, guides_allow, structure_with
-from mbla.solution.solution import Checks, Side, Slope, Solution
+from mbla.solution.solution import Checks, Solution
 from mbla.solution.thresholds import GAP_TOLERANCE
 
 STEP = 1e-5

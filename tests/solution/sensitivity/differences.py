@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from random import Random
 
-from mbla.solution.solution import Slope, Status
+from mbla.solution.sensitivity.slopes import Slope
+from mbla.solution.solution import Status
 from tests.line import case_of
 
 STEP = 1e-3

@@ -7,7 +7,8 @@ from random import Random
 
 import pytest
 
-from mbla.solution.solution import Side, Slope, Status
+from mbla.solution.sensitivity.slopes import Side, Slope
+from mbla.solution.solution import Status
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, WALL, case_of
 from tests.solution.sensitivity.differences import differences, random_text
