@@ -79,3 +79,36 @@ def test_a_tie_that_goes_slack_carries_nothing_until_it_is_as_long_again() -> No
     assert case.solution.mechanics.load_factor == pytest.approx(0.2, rel=1e-6)
     assert case.solution.curve[-1].tie_work == pytest.approx(0.0, abs=1e-3)
     assert case.solution.curve[-1].displacement == pytest.approx(0.2, rel=1e-3)
+
+
+SLIDING = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+supports: [{ground: {z: 0}}]
+ties:
+  - {through: [[0.5, 0.5, 1], [0.9, 0.5, 5]], on: [block, ground], capacity: 4000, breaks_at: 0.002}
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.04, until: 1}}}
+"""
+)
+
+
+def test_a_slack_tie_does_not_break_as_it_gets_as_long_again() -> None:
+    """Under its tie a block slides by 0.8 m until that is as long as at first, and by 0.874 m until it breaks."""
+    _, case = case_of(SLIDING)
+    moved, broken = np.array([[row.displacement, row.broken] for row in case.solution.curve]).T
+    length = np.sqrt(16 + (moved - 0.4) ** 2)
+    assert list(broken) == list((moved > 0.4) & (length > 1.002 * np.hypot(4, 0.4)))
+
+
+@pytest.mark.parametrize(("acts", "ends"), [("compression", (0.4, 3)), ("both", (0.4, 3)), ("both", (0, -3))])
+def test_what_is_brittle_breaks_in_either_sense(acts: str, ends: tuple[float, float]) -> None:
+    """A strut before the wall, a bar before or behind it: from the first step on the wall is alone."""
+    deck = DECK.replace("[[0, 0.5", f"[[{ends[0]}, 0.5").replace("[-3, 0.5", f"[{ends[1]}, 0.5")
+    deck = deck.replace("capacity:", f"acts: {acts}, breaks_at: 0, capacity:").replace("0.01}", "0.02, steps: 3}")
+    _, case = case_of(deck)
+    first, *others = case.solution.curve
+    assert first.load_factor > 0.25
+    assert [row.broken for row in others] == [1] * len(others)

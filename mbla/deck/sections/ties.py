@@ -82,8 +82,8 @@ class TieSection(Section):
     )
     breaks_at: NonNegativeNumber | None = Field(
         None,
-        description="in a pushover: elongation over length at which it breaks; 0: brittle, as soon as it yields. It "
-        "yields without end unless given",
+        description="in a pushover: elongation over length, or shortening of what is pushed, at which it breaks; 0: "
+        "brittle, as soon as it yields. It yields without end unless given",
     )
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 

@@ -5,8 +5,9 @@ the greatest length so far less the present one; a strut's the present one less 
 none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks; the push of fill
 turns with the block too, and is never slack.
 
-A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps in which it got longer,
-each by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates.
+A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps, beyond its slack, each
+by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates. What is pushed
+breaks by getting shorter, what takes both senses by either.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class TieHistory:
     """What has become of ties, (n,) m each.
 
     longest, shortest : lengths so far
-    yielded           : sum of elongations
+    yielded           : sum of what they got longer, or shorter, beyond their slack
     """
 
     longest: FloatArray
@@ -44,17 +45,19 @@ class TieHistory:
 
     def after(self, blocks: Blocks, ties: Ties, motion: FloatArray, there: Ties) -> TieHistory:
         """After a step from where blocks and ties are by a motion, (n_blocks, 6) about centroids, to ties ``there``."""
-        lengths = _lengths(there)
+        lengths, longer = _lengths(there), elongations(blocks, ties, motion)
+        pulled, pushed = _senses(ties)
+        by = np.where(pulled, longer, np.where(pushed, -longer, np.abs(longer)))
         return TieHistory(
             np.maximum(self.longest, lengths),
             np.minimum(self.shortest, lengths),
-            self.yielded + np.maximum(elongations(blocks, ties, motion), 0.0),
+            self.yielded + np.maximum(by - self.slack(ties), 0.0),
         )
 
     def slack(self, ties: Ties) -> FloatArray:
         """Of ties where they are, (n,) m."""
         lengths = _lengths(ties)
-        pulled, pushed = ties.least == 0.0, ties.greatest == 0.0
+        pulled, pushed = _senses(ties)
         slack = np.where(pulled, self.longest - lengths, np.where(pushed, lengths - self.shortest, 0.0))
         return np.asarray(np.maximum(slack, 0.0))
 
@@ -64,6 +67,11 @@ class TieHistory:
         breaks_at = np.where(np.isfinite(ties.breaks_at), ties.breaks_at, 0.0)
         beyond = self.yielded > breaks_at * size + NO_YIELD * np.maximum(size, self.longest)
         return np.asarray(np.isfinite(ties.breaks_at) & beyond)
+
+
+def _senses(ties: Ties) -> tuple[BoolArray, BoolArray]:
+    """Which ties can only pull, and which only push, (n,) each."""
+    return np.equal(ties.least, 0.0), np.equal(ties.greatest, 0.0)
 
 
 def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:
