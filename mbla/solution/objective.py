@@ -25,6 +25,10 @@ MARGIN = 1e-9
 """Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to
 carry the loads."""
 
+NO_REACTION = 1e-11
+"""Reaction at rest over its unit that is rounding: it starts from nothing, for what hardly holds anything might not
+carry the margin."""
+
 HIGH = 10.0
 """Reaction over its unit, more than any structure is likely to need."""
 
@@ -40,6 +44,14 @@ NO_LIMIT = (
     "no mechanism exists in which the cut opens that way: forces of any size in it balance each other within the "
     "friction of the joints"
 )
+
+
+def started(load_case: LoadCase, at_rest: float) -> LoadCase:
+    """The load case of a settlement or objective with the reaction from which it starts, from one at rest."""
+    settlement = load_case.settlement
+    assert settlement is not None  # that is what has a reaction
+    nothing = abs(at_rest) <= NO_REACTION * settlement.unit
+    return with_reference(load_case, 0.0 if nothing else at_rest + MARGIN * settlement.unit)
 
 
 def force_felt(gauged: Solids, load_case: LoadCase, contact_forces: FloatArray) -> float:
@@ -60,7 +72,7 @@ def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
     settlement = load_case.settlement
     assert settlement is not None  # that of the gauge
     if at_rest is not None:
-        answer = yield with_reference(load_case, at_rest + MARGIN * settlement.unit)
+        answer = yield started(load_case, at_rest)
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
             return _in_words(answer)
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)

@@ -1,9 +1,9 @@
 """The load cases that are solved for one of the deck: itself, or a tilting table at one angle after the other.
 
 A settlement starts from the reaction of a structure at rest on a support that has not given way yet. Any reaction R0
-with which the structure is in equilibrium would do, since the answer R = R0 − λ U does not depend on it
-(:mod:`mbla.model.settlement`). It is taken from the least contact forces, in the sense of ½ ‖x‖², that carry the dead
-load while the support is held.
+with which the structure is in equilibrium would do for bounds, since the answer R = R0 − λ U does not depend on it
+(:mod:`mbla.model.settlement`). But where the structure is to stand with it, it must be one that arises by itself: from
+the stress-free assembly while the support is held, else from the least contact forces, in the sense of ½ ‖x‖².
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import forces_of
-from mbla.solution.objective import HIGH, MARGIN, ends_of_force, force_felt
-from mbla.solution.parts import at_rest
+from mbla.solution.objective import HIGH, ends_of_force, force_felt, started
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
+from mbla.solution.standing.standing import gravity_forces, least_forces
 from mbla.solution.tilt import Angles, Answer, tilt_angles
 from mbla.solution.verification.statics import contact_resultants
 from mbla.solution.verification.verify import verify
@@ -98,12 +98,12 @@ def posed(
     if settlement is None:
         return load_case
     held = solids_at_rest(model, contacts)
-    total = forces_at_rest(held, load_case, settings, log)
+    total = forces_at_rest(held, load_case, settings, log, stress_free=settings.standing)
     if total is None:
         return with_reference(load_case, HIGH * settlement.unit)
     on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[settlement.blocks]]
     reaction = float((settlement.motions * on_blocks).sum())
-    return with_reference(load_case, reaction + MARGIN * settlement.unit)
+    return started(load_case, reaction)
 
 
 def force_at_rest(model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings) -> float | None:
@@ -118,16 +118,22 @@ def solids_at_rest(model: Model, contacts: Contacts) -> Solids:
     return tied(solids_of(replace(model, mirrors=()), contacts))
 
 
-def forces_at_rest(solids: Solids, load_case: LoadCase, settings: SolverSettings, log: Log) -> FloatArray | None:
-    """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without."""
+def forces_at_rest(
+    solids: Solids, load_case: LoadCase, settings: SolverSettings, log: Log, *, stress_free: bool = False
+) -> FloatArray | None:
+    """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without.
+
+    stress_free : those that arise from the stress-free assembly, where they carry it
+    """
     held = replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
     program = assemble(solids.model, solids.contacts, solids.load_case(held))
     parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
     total = np.zeros((len(solids.contacts.points), 3))
     for part in parts:
-        state = at_rest(part, 0.0, settings, log)
-        if state is None:
+        part = part.without_live_load()
+        forces = gravity_forces(part, settings, log, []) if stress_free else least_forces(part, settings, log)
+        if isinstance(forces, ConeSolution):
             return None
-        repaired = repaired_forces(replace(part, live_load=np.zeros_like(part.live_load)), state.forces, 0.0)
-        total += forces_of(part, state.forces if repaired is None else repaired[0])
+        repaired = repaired_forces(part, forces, 0.0)
+        total += forces_of(part, forces if repaired is None else repaired[0])
     return total

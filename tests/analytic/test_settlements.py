@@ -20,7 +20,9 @@ from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.outcome import reaction_of
 from mbla.results.results import CaseResult, Results
 from mbla.run import RunOptions, run
+from mbla.solution.solution import Standing, Status
 from tests.decks.folder import BENCHMARKS
+from tests.line import HEAD, case_of
 
 
 def springer_thrusts(span: float, t: float, width: float, n: int, mu: float, weight: float) -> dict[str, float]:
@@ -218,3 +220,52 @@ def test_supports_and_guides_balance_the_loads(tmp_path: Path) -> None:
             total = np.sum([each.wrench for each in found], axis=0)
             np.testing.assert_allclose(total, -load, atol=1e-6 * np.abs(load).max())
             assert any(each.support.startswith("guide of") for each in found) == (deck == "guided_blocks")
+
+
+BESIDE = (
+    HEAD.replace("contacts: {joint: dry}\n", "")
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: buttress, material: stone, min: [GAP, 0, 0], max: [9, 1, 1]}
+  - box: {group: wall, material: stone, min: [0, 0, 0], max: [1, 1, 2]}
+contacts: {joint: dry, isolated: allow, overrides: OVERRIDES}
+supports: [{blocks: buttress}, {ground: {z: 0}, blocks: wall}]
+TIES
+load_cases: {settles: {settlement: {on: buttress, direction: DIRECTION}}}
+"""
+)
+
+
+def reaction_beside(direction: str, gap: float = 1, overrides: str = "[]", ties: str = "") -> float:
+    """Of a buttress that gives way beside a wall that stands by itself."""
+    text = BESIDE
+    words = {"GAP": str(gap), "OVERRIDES": overrides, "TIES": ties, "DIRECTION": direction}
+    for word, value in words.items():
+        text = text.replace(word, value)
+    case = case_of(text)[1]
+    assert case.status is Status.SOLVED
+    standing, reaction = case.solution.standing, reaction_of(case)
+    assert standing is not None
+    assert standing.verdict is Standing.YES
+    assert reaction is not None
+    return reaction
+
+
+@pytest.mark.parametrize("direction", ["[0, 0, -1]", "[0, 0, 1]", "[1, 0, 0]"])
+def test_a_buttress_without_friction_beside_a_wall_holds_nothing(direction: str) -> None:
+    """Nothing moves against a force: the motion alone does not say so but for rounding."""
+    smooth = "[{joint: frictionless, between: [buttress, wall]}]"
+    assert reaction_beside(direction, overrides=smooth) == pytest.approx(0.0, abs=1e-4)
+
+
+def test_a_buttress_beside_a_wall_starts_from_no_thrust() -> None:
+    """Least forces would press them together; without that the wall stands, and holds the buttress up by no more."""
+    assert -19620.0 < reaction_beside("[0, 0, -1]") <= 1e-4
+
+
+@pytest.mark.parametrize(("direction", "reaction"), [("[0, 0, -1]", 0.0), ("[1, 0, 0]", -100.0)])
+def test_a_support_that_a_tie_alone_reaches(direction: str, reaction: float) -> None:
+    """The tie is level and slack at first; it is stretched as the support goes away."""
+    tie = "ties: [{through: [[5, 0.5, 0.5], [1, 0.5, 0.5]], on: [buttress, wall], capacity: 100}]"
+    assert reaction_beside(direction, 5, ties=tie) == pytest.approx(reaction, abs=1e-4)

@@ -53,6 +53,9 @@ WITHIN = 1e-7
 SEEDS = 4
 """Starts from normal forces under the dead load that are made uneven, where the others leave work."""
 
+NOTHING = 1e-9
+"""Associative load factor, non-dimensional, of a motion that may need no live load and change no force."""
+
 STEPS, STEP_WORK = 3, 30
 """Steps of the exact law where the programs found nothing, and factorisations of each."""
 
@@ -67,8 +70,10 @@ def solve_by_default(
         return broken_off(gravity, records)
     start = associative.state
     scheme = _Scheme(program, slope, settings, log, records, np.inf if start is None else start.load_factor)
+    if start is not None and abs(start.load_factor) <= NOTHING:
+        scheme.keep(law_state(program, slope, gravity, start.velocities, 0.0))
     others = [gravity] if start is None else [start.forces, gravity]
-    normals = [forces[:, 0] for forces in (*scheme.interior_run(gravity), *others)]
+    normals = [forces[:, 0] for forces in (*scheme.interior_run(gravity), *others) if np.isfinite(forces).all()]
     for normal in normals:
         if scheme.least_residual <= scheme.wanted or scheme.late:
             break

@@ -21,6 +21,9 @@ NEAR_ZERO = 1e-5
 share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
 
 
+STILL = 1e-12
+"""Velocity over the largest of the motion that is rounding: where no contact point moves more, no joint does."""
+
 SPREAD_STEPS = 10
 """Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
 
@@ -158,13 +161,17 @@ def _unexplained(
     """
     limits = program.limits
     v = program.contact_velocities(velocities)
+    still = STILL * float(np.abs(velocities).max(initial=0.0))
+    if np.abs(v).max(initial=0.0) <= still:
+        v = np.zeros_like(v)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     strength = limits.friction * forces[:, 0] + limits.cohesion
     surplus = v[:, 0] - slope * sliding
     unexplained = np.abs(strength * sliding + (forces[:, 1:] * v[:, 1:]).sum(axis=1))
     unexplained += np.abs((forces[:, 0] + limits.tension) * np.maximum(surplus, 0.0))
     frictional, dead_power = float(np.abs(strength) @ sliding), abs(float(program.dead_load @ velocities))
-    least = NEAR_ZERO * program.moved_over_live(velocities)
+    rounding = still * float(np.abs(program.dead_load).max(initial=0.0))
+    least = max(NEAR_ZERO * program.moved_over_live(velocities), rounding)
     return v, surplus, unexplained, max(abs(load_factor), frictional, dead_power, least, 1e-300)
 
 
