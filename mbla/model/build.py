@@ -21,7 +21,7 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.fill import Fill, build_fill, with_fill
+from mbla.model.fill import Fill, build_fill
 from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import collect_items, defects_in_words, density_of
@@ -30,7 +30,7 @@ from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterface
 from mbla.model.objective import build_objective
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
-from mbla.model.solids.blocks import Blocks, carried_masses, distance_outside
+from mbla.model.solids.blocks import PointMasses, distance_outside, joined_masses
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
@@ -63,6 +63,7 @@ def build_model(deck: Deck) -> Model:
         tolerance=deck.contacts.tolerance,
         fill=structure.fill.bodies if structure.fill else {},
         vehicles=deck.content.vehicles,
+        masses=structure.masses,
     )
     ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
     if structure.fill is not None:
@@ -123,6 +124,7 @@ class Structure:
 
     bent          : faces that were split
     fill          : soil on the blocks, None for none
+    masses        : of it and of the deck, each by itself
     first_notices : before those on joint laws
     """
 
@@ -131,6 +133,7 @@ class Structure:
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
     fill: Fill | None
+    masses: PointMasses
     first_notices: tuple[Notice, ...]
 
 
@@ -179,15 +182,17 @@ def _build(deck: Deck) -> Structure:
     if not deck.content.symmetry:  # else images count among what they choose
         check_overrides(deck.contacts.overrides, roster)
     interfaces = read_interfaces(deck, roster, supports.grounds)
-    if deck.content.masses:
-        roster = replace(roster, blocks=with_added_masses(deck.content.masses, roster, supports.fixed))
+    masses = [point_masses(deck.content.masses, roster, supports.fixed)]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
     fill = build_fill(deck, densities, roster, supports.fixed)
     if fill is not None:
-        roster = replace(roster, blocks=with_fill(roster.blocks, fill))
+        masses.append(fill.parts)
+    carried = joined_masses(masses)
+    roster = replace(roster, blocks=carried.added_to(roster.blocks))
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []))
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return Structure(roster.of_deck(unplaced), supports, interfaces, bent, fill, first)  # places are those of one deck
+    placeless = roster.of_deck(unplaced)  # places are those of one deck
+    return Structure(placeless, supports, interfaces, bent, fill, carried, first)
 
 
 UNLIMITED = 1e6
@@ -222,8 +227,8 @@ def build_joint(name: str, law: JointLaw) -> Joint:
     )
 
 
-def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) -> Blocks:
-    """The blocks with the masses of the deck, shared in proportion to the volumes of the blocks selected.
+def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) -> PointMasses:
+    """The masses of the deck, shared in proportion to the volumes of the blocks selected.
 
     Each share is at the centroid of its block; that of a mass on one block is where the deck says. Refuses points
     for several blocks, and remarks on masses that do nothing or lie far off.
@@ -231,7 +236,7 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
     fixed : (n_blocks,) blocks that do not move
     """
     blocks = roster.blocks
-    rows, shares, points = [np.empty(0, dtype=np.int64)], [np.empty(0)], [np.empty((0, 3))]
+    found = []
     for number, added in enumerate(masses):
         path: KeyPath = ("masses", number)
         chosen = select_blocks(added.on, (*path, "on"), roster)
@@ -241,9 +246,9 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
             message = f"applies to a mass on one block, {len(chosen)} are selected: give an index, or one mass for each"
             roster.refuse(Finding("one-block-only", message, *path, "at"))
             continue
-        rows.append(chosen)
-        shares.append(added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0))
-        points.append(blocks.centroids[chosen] if added.at is None else np.array([added.at]))
+        shares = added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0)
+        points = blocks.centroids[chosen] if added.at is None else np.array([added.at])
+        found.append(PointMasses(chosen, shares, points))
         if added.at is not None:
             off = distance_outside(np.array(added.at), int(chosen[0]), blocks)
             name = blocks.name(int(chosen[0]))
@@ -253,7 +258,4 @@ def with_added_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolAr
         if fixed[chosen].all() and not fixed.all():
             words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
             roster.remark(Notice("warning", "mass-on-support", words))
-    total, centres = carried_masses(
-        blocks.centroids, np.concatenate(rows), np.concatenate(shares), np.concatenate(points)
-    )
-    return replace(blocks, added_masses=total, added_mass_points=centres)
+    return joined_masses(found)

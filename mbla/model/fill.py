@@ -11,6 +11,7 @@ fill. The mass of each column moves with the block under it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -22,7 +23,7 @@ from mbla.deck.sections.fill import Dispersal, Passive
 from mbla.deck.sections.fill import Fill as FillSection
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
-from mbla.model.solids.blocks import Blocks, carried_masses
+from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, carried_masses, joined_masses
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import items_of_rows, row_maxima
@@ -84,6 +85,13 @@ class Columns:
     areas: FloatArray
     middles: FloatArray
 
+    def parts(self, density: float) -> PointMasses:
+        """Half the mass of each a little above its centroid and half below: as heavy as it all over its mean height."""
+        off = np.zeros((2, len(self.rows), 3))
+        off[:, :, 2] = np.array([[1.0], [-1.0]]) * self.volumes / self.areas / math.sqrt(12.0)
+        halves = np.tile(density * self.volumes / 2, 2)
+        return PointMasses(np.tile(self.blocks, 2), halves, (self.centroids + off).reshape(-1, 3))
+
 
 @dataclass(frozen=True)
 class Fill:
@@ -93,12 +101,14 @@ class Fill:
     points : (n_blocks, 3) its centroid; that of the block where there is none
     words  : one of each fill, for the listing
     bodies : by name; none in models from result files
+    parts  : of it; none in models from result files
     """
 
     masses: FloatArray
     points: FloatArray
     words: tuple[str, ...]
     bodies: Mapping[str, FillBody] = field(default_factory=dict)
+    parts: PointMasses = NO_MASSES
 
 
 def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed: BoolArray) -> Fill | None:
@@ -129,15 +139,11 @@ def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed
             roster.remark(
                 Notice("warning", "mass-on-support", f"the fill {name} on {where} has no effect: nothing of it moves")
             )
-    masses = [densities[deck.content.fill[name].material] * own.volumes for name, (_, own) in found.items()]
-    total, centres = carried_masses(
-        blocks.centroids,
-        np.concatenate([np.empty(0, np.int64), *(own.blocks for _, own in found.values())]),
-        np.concatenate([np.empty(0), *masses]),
-        np.concatenate([np.empty((0, 3)), *(own.centroids for _, own in found.values())]),
-    )
+    materials = {name: deck.content.fill[name].material for name in found}
+    parts = joined_masses(own.parts(densities[materials[name]]) for name, (_, own) in found.items())
+    total, centres = carried_masses(blocks.centroids, parts.blocks, parts.masses, parts.points)
     words = tuple(_in_words(deck.content.fill[name], *each, deck, blocks) for name, each in found.items())
-    return Fill(total, centres, words, {name: body for name, (body, _) in found.items()})
+    return Fill(total, centres, words, {name: body for name, (body, _) in found.items()}, parts)
 
 
 def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], roster: Roster) -> None:
@@ -148,14 +154,6 @@ def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillB
             where = named(np.unique(roster.blocks.block_of_face[both]), roster.blocks.name)
             words = f"lies where {name} does, on {where}: give layers as one fill of their mean density"
             roster.refuse(Finding("fill-on-fill", words, "fill", body.name))
-
-
-def with_fill(blocks: Blocks, fill: Fill) -> Blocks:
-    """The blocks with the mass of the fill besides what they carry."""
-    rows = np.tile(np.arange(len(blocks)), 2)
-    points = np.concatenate([blocks.added_mass_points, fill.points])
-    masses, centres = carried_masses(blocks.centroids, rows, np.concatenate([blocks.added_masses, fill.masses]), points)
-    return replace(blocks, added_masses=masses, added_mass_points=centres)
 
 
 def _in_words(section: FillSection, body: FillBody, own: Columns, deck: Deck, blocks: Blocks) -> str:

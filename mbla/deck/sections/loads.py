@@ -49,7 +49,7 @@ class HeightPattern(Section):
     """How an acceleration grows along a direction: linearly from 0 at base to 1 at top, or through points.
 
     Every part of a block has the factor of its own height, so that it does not matter how a structure is divided into
-    blocks; an added mass that of the place where it is.
+    blocks; an added mass that of the place where it is, and fill that of its own heights.
     """
 
     along: Direction = Field((0.0, 0.0, 1.0), description="direction along which heights are measured, from the origin")

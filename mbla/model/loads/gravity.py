@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, summed
 from mbla.deck.sections.loads import HeightPattern, Load
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
@@ -76,13 +76,12 @@ def mass_forces(
     """
     bodies, unit = site.blocks, site.units.force_per_mass_acceleration
     own = (bodies.volumes * bodies.densities)[blocks]
-    added = bodies.added_masses[blocks]
-    arms = bodies.added_mass_points[blocks] - bodies.centroids[blocks]
     if pattern is None:
+        added = bodies.added_masses[blocks]
+        arms = bodies.added_mass_points[blocks] - bodies.centroids[blocks]
         mass, first_moments = own + added, added[:, None] * arms
     else:
-        carried = added * pattern.at_mass
-        mass, first_moments = own * pattern.means + carried, own[:, None] * pattern.levers + carried[:, None] * arms
+        mass, first_moments = own * pattern.means + pattern.carried, own[:, None] * pattern.levers + pattern.moments
     force = acceleration * unit
     levers = (first_moments[:, :, None] * force).reshape(-1, 9)
     return np.hstack([mass[:, None] * force, np.cross(first_moments, force), levers])
@@ -111,12 +110,14 @@ class PatternFactors:
 
     means   : (n,) mean factor over the volume of each block
     levers  : (n, 3) mean of factor times distance from the centroid of the block, in units of length
-    at_mass : (n,) factor at the added mass
+    carried : (n,) sum of masses on each block, times the factor where each is
+    moments : (n, 3) sum of that times their distances from the centroid of the block
     """
 
     means: FloatArray
     levers: FloatArray
-    at_mass: FloatArray
+    carried: FloatArray
+    moments: FloatArray
 
 
 def pattern_factors(pattern: HeightPattern, blocks: IntArray, path: KeyPath, site: LoadSite) -> PatternFactors | None:
@@ -136,8 +137,11 @@ def pattern_factors(pattern: HeightPattern, blocks: IntArray, path: KeyPath, sit
             return None
         heights, factors = np.array([base, top]), np.array([0.0, 1.0])
     means, levers = _over_volumes(heights, factors, along, heights_of_vertices, blocks, site)
-    at_mass = np.interp(site.blocks.added_mass_points[blocks] @ along, heights, factors)
-    return PatternFactors(means, levers, at_mass)
+    masses, n_blocks = site.masses, len(site.blocks)
+    shares = masses.masses * np.interp(masses.points @ along, heights, factors)
+    arms = masses.points - site.blocks.centroids[masses.blocks]
+    carried = summed(masses.blocks, shares, n_blocks)[blocks]
+    return PatternFactors(means, levers, carried, summed(masses.blocks, shares[:, None] * arms, n_blocks)[blocks])
 
 
 def _over_volumes(

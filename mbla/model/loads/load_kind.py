@@ -23,7 +23,7 @@ from mbla.errors import Finding, Notice
 from mbla.model.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
-from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,7 @@ class LoadSite:
     tolerance : of contacts, relative to block size
     fill    : fills by name, through which loads spread
     vehicles : of the deck by name
+    masses  : that blocks carry, each by itself
     """
 
     roster: Roster
@@ -48,6 +49,7 @@ class LoadSite:
     tolerance: float = 1e-3
     fill: Mapping[str, FillBody] = field(default_factory=dict)
     vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
+    masses: PointMasses = NO_MASSES
 
     @property
     def blocks(self) -> Blocks:

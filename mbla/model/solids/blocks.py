@@ -6,8 +6,8 @@ A generator knows them, selectors ask for them (``{group: facade, course: 3}``),
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -129,6 +129,36 @@ def carried_masses(
     total = summed(rows, masses, len(centroids))
     moments = summed(rows, masses[:, None] * (points - centroids[rows]), len(centroids))
     return total, centroids + moments / np.where(total > 0.0, total, 1.0)[:, None]
+
+
+@dataclass(frozen=True)
+class PointMasses:
+    """Masses that blocks carry, each by itself.
+
+    blocks : (m,); masses : (m,) kg; points : (m, 3) m
+    """
+
+    blocks: IntArray
+    masses: FloatArray
+    points: FloatArray
+
+    def added_to(self, blocks: Blocks) -> Blocks:
+        """The blocks with them as all that they carry."""
+        total, centres = carried_masses(blocks.centroids, self.blocks, self.masses, self.points)
+        return replace(blocks, added_masses=total, added_mass_points=centres)
+
+
+NO_MASSES = PointMasses(np.empty(0, dtype=np.int64), np.empty(0), np.empty((0, 3)))
+
+
+def joined_masses(parts: Iterable[PointMasses]) -> PointMasses:
+    """All of them."""
+    every = [NO_MASSES, *parts]
+    return PointMasses(
+        np.concatenate([part.blocks for part in every]),
+        np.concatenate([part.masses for part in every]),
+        np.concatenate([part.points for part in every]),
+    )
 
 
 OUTSIDE = 0.01

@@ -51,11 +51,23 @@ def test_how_a_column_is_divided_does_not_matter(tmp_path: Path, pattern: str) -
 
 
 def test_an_added_mass_has_the_factor_of_its_place(tmp_path: Path) -> None:
+    """Each of several on one block; at the middle of these it would be 3/2."""
     block = ["box: {group: pier, material: stone, min: [0, 0, 0], max: [1, 1, 4]}"]
-    mass = "masses: [{mass: 500, on: pier, at: [0.5, 0.5, 3]}]\n"
-    alone, loaded = live(tmp_path, block, "{}"), live(tmp_path, block, "{}", mass)
-    share = 500 * G * 3 / 4
-    assert (loaded - alone)[0] == pytest.approx([share, 0, 0, 0, share * 1, 0], rel=1e-12, abs=1e-9)
+    masses = "masses: [{mass: 500, on: pier, at: [0.5, 0.5, 3]}, {mass: 500, on: pier, at: [0.5, 0.5, 1]}]\n"
+    pattern = "{points: [[1, 0], [2, 2], [3, 1]]}"
+    alone, loaded = live(tmp_path, block, pattern), live(tmp_path, block, pattern, masses)
+    assert (loaded - alone)[0] == pytest.approx([500 * G, 0, 0, 0, 500 * G * 1, 0], rel=1e-12, abs=1e-9)
+
+
+def test_fill_has_the_factors_of_its_heights(tmp_path: Path) -> None:
+    """A column from 4 to 6 m under factors z/4: its mean is 5/4, and what is above its middle has more."""
+    block = ["box: {group: pier, material: stone, min: [0, 0, 0], max: [1, 1, 4]}"]
+    fill = "fill: {soil: {on: pier, level: 6, material: stone}}\n"
+    pattern = "{points: [[0, 0], [8, 2]]}"
+    alone, loaded = live(tmp_path, block, pattern), live(tmp_path, block, pattern, fill)
+    weight = 2 * DENSITY * G
+    moment = weight * (5 / 4 * 3 + 2**2 / 12 / 4)
+    assert (loaded - alone)[0] == pytest.approx([weight * 5 / 4, 0, 0, 0, moment, 0], rel=1e-12, abs=1e-9)
 
 
 @pytest.mark.long
