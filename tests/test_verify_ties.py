@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from mbla.errors import FileError
+from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.verify import verify_file
 from tests.analytic.test_ties import SLENDER
+from tests.line import HEAD
 from tests.results.changed_files import changing, image_of_run
 
 DECK = SLENDER.replace("flow_rule: associative", "flow_rule: non_associative, standing: true").replace(
@@ -82,3 +84,31 @@ def test_forces_of_another_number_of_ties_are_refused_or_told(path: Path) -> Non
                 made.attrs[key] = attributes[key]
     with pytest.raises(FileError):
         verify_file(path)
+
+
+GUIDED = (
+    HEAD.replace("{joint: dry}", "{joint: dry, isolated: allow}")
+    + """\
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: sledge, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: load, material: stone, min: [0, 0, 1], max: [1, 1, 2]}
+supports: [{blocks: sledge, slide: [1, 0, 0]}]
+ties: [{name: rope, through: [[0, 0.5, 0.5], [-3, 0.5, 0.5]], on: [sledge, ground], capacity: 2000}]
+load_cases:
+  pulled: {live: [{force: [1000, 0, 0], on: sledge}]}
+  held: {live: [{force: [1000, 0, 0], on: sledge}], at: 1.5, objective: {tie: rope}}
+analysis: {flow_rule: associative}
+"""
+)
+
+
+def test_what_moves_together_does_so_whatever_rounding_says(tmp_path: Path) -> None:
+    """The rope alone gets longer; in the load cases for its force nothing moves but what feels that."""
+    (tmp_path / "deck.h5").write_bytes(image_of_run(tmp_path, GUIDED))
+    results, disagreements = verify_file(tmp_path / "deck.h5")
+    assert disagreements == ()
+    pulled = results.case("pulled")
+    assert pulled.solution.mechanics is not None
+    parts = rigid_parts(results.model, results.contacts, pulled.solution.mechanics.mechanism)
+    assert parts.tolist() == [1, 1]

@@ -23,6 +23,9 @@ from mbla.solution.mechanics import AT_REST, contact_modes
 from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.verification.statics import contact_velocities
 
+STILL = 1e-12
+"""Velocity over the largest of the motion that is rounding."""
+
 MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
 """parts of a solution that hold a mechanism"""
 
@@ -41,7 +44,8 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
 
     The block that falls is the first of its solid.
     """
-    solution = ties_apart(solution, solids)
+    lengths = solids.model.blocks.sizes
+    solution = ties_apart(_with_mechanics(solution, lambda part: _without_rounding(part, solids, lengths)), solids)
     if solids.solid_of_block is None:
         return solution
     standing, size = solution.standing, solution.size
@@ -49,7 +53,6 @@ def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
         standing = replace(standing, block=int(solids.first_blocks[standing.block]))
     if solids.gauge is not None:
         size = None if size is None else replace(size, free_blocks=size.free_blocks - 1)
-        solution = _with_mechanics(solution, lambda part: _without_rounding(part, solids))
     return _with_motions(replace(solution, standing=standing, size=size), solids.block_motions)
 
 
@@ -218,18 +221,30 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
             mechanics = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
-            found[id(getattr(solution, part))] = _without_rounding(mechanics, solids)
+            found[id(getattr(solution, part))] = _without_rounding(mechanics, solids, model.blocks.sizes)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
 
 
-def _without_rounding(mechanics: Mechanics, solids: Solids) -> Mechanics:
-    """The same, with joints at rest where all that moves moves with the gauge of an objective, but for rounding."""
-    largest = float(np.abs(mechanics.contact_velocities).max(initial=0.0))
-    if solids.gauge is None or largest > AT_REST * np.abs(solids.gauge).max():
-        return mechanics
-    still = np.zeros_like(mechanics.contact_velocities)
-    return replace(mechanics, contact_velocities=still, modes=np.full_like(mechanics.modes, ContactMode.STICK))
+def _without_rounding(mechanics: Mechanics, solids: Solids, lengths: FloatArray) -> Mechanics:
+    """The same, with joints at rest where blocks move without them, or with the gauge of an objective, but for
+    rounding; and with blocks at rest beside what that moves.
+
+    lengths : (n,) sizes of the blocks, or solids, whose motions are given
+    """
+    motion, velocities, modes = mechanics.mechanism, mechanics.contact_velocities, mechanics.modes
+    speeds = np.abs(motion[:, :3]).max(axis=1) + np.abs(motion[:, 3:]).max(axis=1) * lengths
+    gauge = 0.0 if solids.gauge is None else float(np.abs(solids.gauge).max())
+    moved = np.abs(velocities).max(axis=1)
+    rest = moved <= STILL * max(gauge, float(speeds.max(initial=0.0)))
+    if rest.all() or moved.max(initial=0.0) <= AT_REST * gauge:
+        rest, modes = np.ones_like(rest), np.full_like(modes, ContactMode.STICK)
+    return replace(
+        mechanics,
+        mechanism=np.where((speeds <= STILL * gauge)[:, None], 0.0, motion),
+        contact_velocities=np.where(rest[:, None], 0.0, velocities),
+        modes=modes,
+    )
 
 
 def _near(one: FloatArray, other: FloatArray) -> bool:

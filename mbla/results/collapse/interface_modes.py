@@ -28,8 +28,8 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.model.ties.moved import elongations
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.verification.statics import contact_velocities
 
 
 def sum_by_interface(contacts: Contacts, values: FloatArray | BoolArray) -> FloatArray:
@@ -140,7 +140,7 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     sliding = np.hypot(mechanics.contact_velocities[:, 1], mechanics.contact_velocities[:, 2])
     is_open = mechanics.modes == ContactMode.OPEN
     n_open = sum_by_interface(contacts, is_open)
-    moving = ~moves_together(contacts, mechanics.contact_velocities)
+    moving = ~moves_together(contacts, mechanics.contact_velocities, TOGETHER, fastest_tie(model, mechanics.mechanism))
     slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
     is_crushing = mechanics.modes == ContactMode.CRUSH
     crushes = moving & (sum_by_interface(contacts, is_crushing) > 0)
@@ -181,15 +181,19 @@ def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tup
     return translation, rotation
 
 
-def moves_together(contacts: Contacts, velocities: FloatArray, together: float = TOGETHER) -> BoolArray:
-    """Interfaces whose bodies move as one, (n_interfaces,), from velocities at the contact points, (n_points, 3)."""
+def fastest_tie(model: Model, motion: FloatArray) -> float:
+    """Greatest rate at which a tie gets longer or shorter in a motion of the blocks, (n_blocks, 6); 0 without ties."""
+    return float(np.abs(elongations(model.blocks, model.ties, motion)).max(initial=0.0))
+
+
+def moves_together(contacts: Contacts, velocities: FloatArray, together: float, fastest: float) -> BoolArray:
+    """Interfaces whose bodies move as one, (n_interfaces,), from velocities at the contact points, (n_points, 3).
+
+    together : share of the fastest contact, or tie, up to which they do
+    fastest  : speed of the fastest tie
+    """
     speeds = np.linalg.norm(velocities, axis=1)
-    return np.asarray(largest_by_interface(contacts, speeds) <= together * speeds.max(initial=0.0))
-
-
-def stuck_interfaces(model: Model, contacts: Contacts, motion: FloatArray, together: float = TOGETHER) -> BoolArray:
-    """The same for any motion of the blocks, (n_blocks, 6), as that which shows a lack of equilibrium."""
-    return moves_together(contacts, contact_velocities(model, contacts, motion), together)
+    return np.asarray(largest_by_interface(contacts, speeds) <= together * speeds.max(initial=fastest))
 
 
 def _turns_about_normal(contacts: Contacts, translation: FloatArray, rotation: FloatArray) -> BoolArray:

@@ -17,7 +17,8 @@ from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.model.solids.measures import connected_labels
-from mbla.results.collapse.interface_modes import TOGETHER, stuck_interfaces
+from mbla.results.collapse.interface_modes import TOGETHER, fastest_tie, moves_together
+from mbla.solution.verification.statics import contact_velocities
 
 TURNS = 0.01
 """rotation times the radius of a part over its travel from which it is said to turn: below, its axis lies a hundred
@@ -58,15 +59,16 @@ def rigid_parts(model: Model, contacts: Contacts, motion: FloatArray, together: 
     together : share of the largest speed up to which blocks move as one
     """
     solids = solids_of(model, contacts)
-    parts = _parts_of_solids(solids.model, solids.contacts, solids.solid_motions(motion), together)
+    fastest = fastest_tie(model, motion)
+    parts = _parts_of_solids(solids.model, solids.contacts, solids.solid_motions(motion), together, fastest)
     return parts if solids.solid_of_block is None else parts[solids.solid_of_block]
 
 
-def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray, together: float) -> IntArray:
-    n_blocks = len(model.blocks)
+def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray, together: float, fastest: float) -> IntArray:
+    n_blocks, velocities = len(model.blocks), contact_velocities(model, contacts, motion)
     blocks = np.where(resting_blocks(model, motion, together), n_blocks, np.arange(n_blocks))  # what rests is one node
     node = np.append(blocks, np.full(len(model.grounds), n_blocks))
-    pairs = node[contacts.bodies[stuck_interfaces(model, contacts, motion, together)]]
+    pairs = node[contacts.bodies[moves_together(contacts, velocities, together, fastest)]]
     label = connected_labels(pairs, n_blocks + 1)
     return numbered(model, label[blocks], int(label[n_blocks]))
 

@@ -80,6 +80,8 @@ def _moving(model: Model, collapse: Collapse, failure: Failure) -> str:
     """``12 of 52 free blocks move as one rigid part``."""
     moving = moving_blocks(model, collapse.parts)
     parts = len(failure.motions)
+    if not parts:
+        return "no block moves"
     how = "as one rigid part" if parts == 1 else f"in {parts} rigid parts"
     verb = ("moves" if moving == 1 else "move") + ("" if failure.explained == 1.0 else " mainly")
     return f"{moving} of {counted(len(model.free), 'free block')} {verb} {how}"
