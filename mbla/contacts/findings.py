@@ -23,6 +23,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.objective import ENDS
 from mbla.model.solids.defects import planarity_defects
 from mbla.model.solids.ragged import rows_and_items
+from mbla.model.ties.ties import OUTSIDE
 from mbla.model.wording import named
 
 CANCELLED = 1e-12
@@ -57,7 +58,10 @@ def objective_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
     """Forces through cuts without a joint, and through glue, whose force nothing determines; each once."""
     for case in model.load_cases:
         objective, path = case.objective, ("load_cases", case.deck_name, "objective", "force")
-        if objective is None or len(objective.ties) or objective.end != next(iter(ENDS)):
+        if objective is None or objective.end != next(iter(ENDS)):
+            continue
+        if len(objective.ties):
+            yield from _loose_ties(model, contacts, objective.ties, (*path[:-1], "tie"))
             continue
         glued = contacts.report.glued[objective.crossed(contacts.report.glued) != 0]
         if len(glued):
@@ -67,6 +71,17 @@ def objective_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPa
         elif not objective.crossed(contacts.bodies).any():
             words = "no joint lies between the two sides, so that there is no force: see what `mbla check` says touches"
             yield path, Message("objective-without-effect", words)
+
+
+def _loose_ties(model: Model, contacts: Contacts, rows: IntArray, path: KeyPath) -> Iterator[tuple[KeyPath, Message]]:
+    """Ties, (n,), all of whose points are on blocks that are glued to one."""
+    label = np.arange(len(model.blocks)) if contacts.solid_of_block is None else contacts.solid_of_block
+    body = np.append(np.where(held_model(model, contacts).fixed, OUTSIDE, label), OUTSIDE)
+    ties = model.ties.with_bodies(body[model.ties.bodies])
+    for row in rows.tolist():
+        if len(np.unique(ties.bodies[ties.start[row] : ties.start[row + 1]])) == 1:
+            words = f"{ties.names[row]} is between blocks that are glued to one: its force is not determined"
+            yield path, Message("objective-not-possible", words)
 
 
 def settlement_findings(model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:

@@ -31,6 +31,7 @@ from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase, Objective, Settlement
 from mbla.model.selectors import select_blocks
+from mbla.model.settlement import size_of_loads
 from mbla.model.solids.plane import unit
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
@@ -53,13 +54,12 @@ def build_objective(
         return []
     at, free = section.at or 0.0, ~site.fixed
     dead = load_case.dead_load + at * load_case.live_load
-    with np.errstate(over="ignore", invalid="ignore"):
-        weight = float(np.linalg.norm(dead[free, :3], axis=1).sum())
+    weight = size_of_loads(dead, site.blocks, free)
     if not np.isfinite(weight):
         return []  # refused as loads beyond computing
     if not weight > 0.0:
         if free.any() and not site.roster.partial:
-            words = "no load acts on blocks that can move: no force is determined"
+            words = "no load acts on blocks that can move, or all of them cancel: no force is determined"
             site.refuse(Finding("objective-without-effect", words, *path))
         return []
     cases, none = [], np.zeros(0, dtype=np.int64)

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import SettlementSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
@@ -53,17 +53,15 @@ def build_settlement(
         roster.refuse(Finding("settlement-not-fixed", message, *path, "on"))
         return load_case
     free = ~supports.fixed
-    with np.errstate(over="ignore", invalid="ignore"):
-        weights = np.linalg.norm(load_case.dead_load[free, :3], axis=1)
-    if not np.isfinite(weights).all():
+    size = size_of_loads(load_case.dead_load, roster.blocks, free)
+    if not np.isfinite(size):
         return load_case  # refused as loads beyond computing
-    if not weights.sum() > 0.0:
+    if not size > 0.0:
         if free.any() and not roster.partial:
-            message = "there is no dead load on blocks that can move: no reaction is lost"
+            message = "there is no dead load on blocks that can move, or all of it cancels: no reaction is lost"
             roster.refuse(Finding("settlement-without-effect", message, *path))
         return load_case
     motions, words = _motion(section, chosen, roster.blocks)
-    size = float(weights.sum())
     if section.turn is not None:
         size *= _distance_from(section, roster.blocks.centroids[free])
     settlement = Settlement(chosen, motions, section.turn is not None, words, np.nan, size)
@@ -73,6 +71,13 @@ def build_settlement(
         levers[chosen] = 0.0  # the reaction acts on their centroids
         pushover = replace(pushover, blocks=chosen, direction=unit(section.direction), dead_levers=levers)
     return with_reference(replace(load_case, settlement=settlement, pushover=pushover), np.nan)
+
+
+def size_of_loads(loads: FloatArray, blocks: Blocks, chosen: BoolArray) -> float:
+    """Sum of the forces on blocks; without any that of the moments about their centroids over sizes; from (n, 6)."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        forces, moments = (np.linalg.norm(part[chosen], axis=1) for part in np.split(loads, 2, axis=1))
+        return float(forces.sum() or (moments / blocks.sizes[chosen]).sum())
 
 
 def with_reference(load_case: LoadCase, reference: float) -> LoadCase:

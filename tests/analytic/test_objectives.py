@@ -417,3 +417,31 @@ def test_one_of_two_ties_side_by_side_in_space() -> None:
     assert 0.55 * least < found["one"][1] <= greatest * (1 + 1e-6)
     full = ends_of(one, "joints.dry.friction=0.9", "analysis.reductions=false")
     assert full["one"] == pytest.approx(found["one"], rel=1e-6, abs=1e-6 * greatest)
+
+
+LEVER = (
+    HEAD
+    + """\
+blocks:
+  - box: {group: beam, material: stone, min: [0, 0, 0], max: [4, 1, 0.4]}
+  - box: {group: pad, material: stone, min: [0, 0, -0.4], max: [0.2, 1, 0]}
+  - box: {group: pad, material: stone, min: [3.8, 0, -0.4], max: [4, 1, 0]}
+supports: [{blocks: pad}]
+ties: [{through: [[0.1, 0.5, 0.4], [0.1, 0.5, -3]], on: [beam, ground], capacity: 5000}]
+load_cases:
+  sinks:
+    dead: [{gravity: none}, {moment: [0, 3000, 0], on: beam}]
+    settlement: {on: {group: pad, index: 1}, direction: [0, 0, -1]}
+  ends:
+    dead: [{gravity: none}, {moment: [0, 3000, 0], on: beam}]
+    objective: {force: {on: beam, from: {group: pad, index: 1}, direction: [0, 0, 1]}}
+analysis: {flow_rule: associative}
+"""
+)
+
+
+def test_moments_alone_are_loads() -> None:
+    """A beam without weight that is twisted about a tie: 3000 N m between the tie, the pad beside it and the other."""
+    _, _, (sinks, *ends) = cases_of(LEVER)
+    assert reaction_of(sinks) == pytest.approx(657.8947368, rel=1e-6)
+    assert [reaction_of(end) for end in ends] == pytest.approx([657.8947368, 921.0526316], rel=1e-6)
