@@ -28,7 +28,8 @@ from mbla.program.build import crushable_interfaces
 from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.limits.joint_pressure import JointPressure, joint_pressure, pressed_by, unit_of_pressure
-from mbla.solution.limits.zeros import Zero, find_zero
+from mbla.solution.limits.samples import Zero
+from mbla.solution.limits.zeros import find_zero
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.solution import GeometricSafety, Mechanics, Solution
 from mbla.solution.verification.case import Case
@@ -52,6 +53,7 @@ class _Try:
     y: float
     slope: float
     found: JointPressure
+    known: float = 0.0
 
 
 def shrunk(contacts: Contacts, size: float) -> Contacts:

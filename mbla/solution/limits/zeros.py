@@ -6,15 +6,19 @@ concave function both lie short of its zero, and the further one is better; of a
 it is that of the parabola x(y) through the last three values, or of the secant (Brent 1973). What does not lie between
 them, or follows two steps that made little progress, is the middle. A value may be infinite: a structure that does not
 stand, or one that no load brings down, is on one side, but has no size.
+
+A value that is zero as far as it is known, without a slope that tells where, may be one of a stretch of such values:
+its ends are looked for then (:mod:`mbla.solution.limits.stretches`).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Generic, Protocol, TypeVar
+
+from mbla.solution.limits.samples import S, Sample, Zero, is_zero, level, steep
+from mbla.solution.limits.stretches import find_stretch, runs
 
 MOST = 50
 """Evaluations for one zero: bisection alone reaches rounding within that"""
@@ -28,53 +32,35 @@ NARROW, FAR = 1e-3, 1e-2
 """A function jumps over zero where, in so small a share of the first bracket, it keeps so much of its largest size"""
 
 
-class Sample(Protocol):
-    """A value of the function.
-
-    x     : where
-    y     : infinite where only the side is known, nan where nothing is
-    slope : nan without one
-    """
-
-    @property
-    def x(self) -> float: ...  # noqa: D102
-    @property
-    def y(self) -> float: ...  # noqa: D102
-    @property
-    def slope(self) -> float: ...  # noqa: D102
-
-
-S = TypeVar("S", bound=Sample)
-
-
-@dataclass(frozen=True)
-class Zero(Generic[S]):
-    """Where the function is zero.
-
-    best     : the sample nearest to it
-    bracket  : the nearest samples below and above zero
-    error    : of ``best.x``: its value over its slope, but no more than the bracket is wide
-    complete : the error is within the tolerance
-    jumps    : the function is not near zero on either side of it
-    """
-
-    best: S
-    bracket: tuple[S, S]
-    error: float
-    complete: bool
-    jumps: bool = False
-
-
 def scan(low: float, high: float, steps: int, at: Callable[[float], S]) -> list[S]:
-    """Samples at equal steps from bound to bound."""
-    return [at(low + (high - low) * row / steps) for row in range(steps + 1)]
+    """Samples at equal steps from bound to bound; in the middle too where the two bounds alone are alike."""
+    samples = [*(at(low + (high - low) * row / steps) for row in range(steps)), at(high)]
+    if steps == 1 and is_level(samples):
+        samples.insert(1, at(0.5 * (low + high)))
+    return samples
+
+
+def is_level(samples: Sequence[Sample]) -> bool:
+    """Whether the function is the same at all samples, as far as it is known."""
+    least, greatest = (side(samples, key=lambda each: each.y) for side in (min, max))
+    return level(least, greatest) and all(level(one, other) for one, other in pairwise(samples))
+
+
+def find_zeros(samples: Sequence[S], at: Callable[[float], S], tolerance: float) -> list[Zero[S]]:
+    """All that neighbouring samples show, from the least on: passed with a change of sign, or met.
+
+    tolerance : of x
+    """
+    passed = [find_zero(*pair, at, tolerance) for pair in changes(samples)]
+    met = [find_stretch(*run, at, tolerance) for run in runs(samples)]
+    return sorted([*passed, *met], key=lambda each: each.best.x)
 
 
 def changes(samples: Sequence[S]) -> Iterator[tuple[S, S]]:
-    """Neighbours of different signs; those where nothing is known are left out."""
+    """Neighbours of different signs, neither zero; those where nothing is known are left out."""
     known = [each for each in samples if not math.isnan(each.y)]
     for one, other in pairwise(known):
-        if (one.y < 0.0) != (other.y < 0.0):
+        if (one.y < 0.0) != (other.y < 0.0) and not (is_zero(one) or is_zero(other)):
             yield one, other
 
 
@@ -89,11 +75,15 @@ def find_zero(one: S, other: S, at: Callable[[float], S], tolerance: float) -> Z
         best, error = _best(below, above, seen)
         if error <= tolerance or len(seen) > MOST:
             complete = error <= tolerance
-            return Zero(best, (below, above), error, complete, complete and _jumps(below, above, seen, error))
+            jumps = complete and _jumps(below, above, seen, error)
+            return Zero(best, (below, above), _with_rounding(best, error), complete, jumps)
         middle = 0.5 * (below.x + above.x)
         sample = at(middle if slow >= PATIENCE else _next(below, above, seen, tolerance))
         if math.isnan(sample.y):
             return Zero(best, (below, above), error, complete=False)
+        if is_zero(sample) and not steep(sample, abs(other.x - one.x)):
+            before, after = (below, above) if below.x < above.x else (above, below)
+            return find_stretch(before, [sample], after, at, tolerance)
         replaced, width = below if sample.y < 0.0 else above, abs(above.x - below.x)
         below, above = (sample, above) if sample.y < 0.0 else (below, sample)
         progress = abs(sample.y) < 0.5 * abs(replaced.y) or abs(above.x - below.x) < 0.5 * width
@@ -114,6 +104,11 @@ def _best(below: S, above: S, seen: Sequence[S]) -> tuple[S, float]:
         distance = abs(end.y / slope) if towards and math.isfinite(end.y) else width
         found.append((end, 0.0 if end.y == 0.0 else min(width, distance)))
     return min(found, key=lambda each: (each[1], abs(each[0].y)))
+
+
+def _with_rounding(best: Sample, error: float) -> float:
+    """The error of x, no less than what the function may be off is worth by its slope."""
+    return max(error, best.known / abs(best.slope)) if is_zero(best) else error
 
 
 def _jumps(below: S, above: S, seen: Sequence[S], error: float) -> bool:

@@ -29,12 +29,15 @@ from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
 from mbla.solution.sensitivity.sensitivity import slope_by
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import StandingResult, Status
+from mbla.solution.solution import Checks, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.sweeps.find.question import Question
 
 SAME = 1e-7
 """Difference of load factors, relative, that is none"""
+SOLVED = 1e-8
+"""What a load factor may be off, over itself or its target, even where its bounds are closer: by the cone solver"""
 
 
 REFUSED = "refused"
@@ -59,6 +62,7 @@ class Answer:
     words    : why there is no result; empty where there is one
     solves   : of programs with a load factor
     bounds   : proved, of an associative result; nan without
+    known    : what the result may be off: within that of the target it meets it
     """
 
     x: float
@@ -70,6 +74,7 @@ class Answer:
     words: str = ""
     solves: int = 1
     bounds: tuple[float, float] = (math.nan, math.nan)
+    known: float = 0.0
 
 
 def answer_at(deck: Deck, question: Question, x: float) -> Answer:
@@ -130,7 +135,18 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
         bounds = case.checks.static_bound, case.checks.kinematic_bound
         slope = _slope(deck, question, replace(structure, load_case=case.load_case), case)
-    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds)
+    known = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
+    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds, known)
+
+
+def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:
+    """What a load factor may be off whatever its bounds, relative; without them as its residual tells."""
+    return SOLVED if math.isfinite(bounds[0]) else max(SAME, min(checks.complementarity_residual, SOLVED_RESIDUAL))
+
+
+def _farther(result: float, bounds: tuple[float, float]) -> float:
+    """What a result may be off by its bounds; 0 without."""
+    return max(0.0, result - bounds[0], bounds[1] - result)
 
 
 def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResult) -> float:
@@ -160,7 +176,8 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
 
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
-    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most))
+    known = _farther(value, (least, most))
+    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), known)
 
 
 def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:

@@ -11,14 +11,15 @@ from mbla.deck import Deck
 from mbla.process.sharing import Memory, sharing
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
-from mbla.solution.limits.zeros import Zero, changes, find_zero, scan
+from mbla.solution.limits.samples import Zero
+from mbla.solution.limits.zeros import find_zeros, is_level, scan
 from mbla.solution.solution import Standing, StandingResult
 from mbla.sweeps.find.answer import REFUSED, Answer, answer_at, refuse_unfit_deck, standing_at
 from mbla.sweeps.find.question import TARGETS, Question, question_of
 
 FOUND, IN_DOUBT, NOTHING = 0, 4, 5
 """exit status: every value verified; one that is not, that is a jump of the load factor or no limit of standing, or
-nothing found and something not known; no change of sign between the bounds"""
+nothing found and something not known; the target neither passed nor met between the bounds"""
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Finding:
     """What was found.
 
     answers : in the order in which they were looked for
-    zeros   : values at which the result is the target, from the least on
+    zeros   : values, or stretches of values, at which the result is the target, from the least on
     scanned : answers at the steps between the bounds
     standing : of ``stands``, at each zero on the side that stands: whether it does from the stress-free assembly
     """
@@ -57,6 +58,11 @@ class Finding:
         return tuple(each for each in self.scanned if math.isnan(each.y))
 
     @property
+    def changes(self) -> bool:
+        """Whether the result is not the same at all steps between the bounds, as far as it is known."""
+        return not is_level(self.scanned)
+
+    @property
     def found_words(self) -> list[str]:
         """A sentence or some on every value that was found."""
         of_load_factor = [None] * (len(self.zeros) - len(self.standing))
@@ -80,7 +86,8 @@ class Finding:
                     "value": zero.best.x,
                     "error": zero.error,
                     "bracket": sorted(each.x for each in zero.bracket),
-                    "rises": zero.bracket[0].x < zero.bracket[1].x,
+                    "rises": zero.rises if zero.stretch is None else None,
+                    "stretch": None if zero.stretch is None else [each.x for each in zero.stretch],
                     "complete": zero.complete,
                     "jumps": zero.jumps,
                     **_answer_json(zero.best),
@@ -89,6 +96,7 @@ class Finding:
                 }
                 for row, (zero, says) in enumerate(zip(self.zeros, self.found_words, strict=True))
             ],
+            "changes": self.changes,
             "evaluations": [{"value": each.x, **_answer_json(each)} for each in self.answers],
             "solves": self.solves,
             "exit_code": self.exit_code,
@@ -121,10 +129,13 @@ class Finding:
             lines += sentence(PRESSURE)
         for words in self.found_words:
             lines += sentence(words)
+        if not self.changes:
+            words = NO_EFFECT.format(question.parameter, what, least, greatest, unit, number(self.scanned[0].result))
+            lines += sentence(words)
         if self.unknown:
             at = ", ".join(f"{each.x:.9g}" for each in self.unknown)
             lines += sentence(UNKNOWN.format(question.parameter, at))
-        elif not self.zeros:
+        elif not self.zeros and self.changes:
             lines += sentence(NO_CHANGE.format(question.scan))
         return [*lines, f"  {counted(len(self.answers), 'value')}, {counted(self.solves, 'solve')}"]
 
@@ -137,28 +148,37 @@ NO_CHANGE = (
     "Nothing was found: the result is on one side of the target at both ends of every step ({} from bound to bound). "
     "Other bounds or a finer --scan may find it."
 )
+NO_EFFECT = "{} has no effect on the {} between {} and {}{}, as far as the values above show: it is {} at all of them."
 UNKNOWN = (
     "There is no result for {} = {}: values next to it may be missed. Other bounds or a finer --scan may find them."
 )
 
 
 def _sure(zero: Zero[Answer]) -> bool:
-    """Whether the search came to its end and the answer that counts is verified: of a jump those on both sides."""
-    answers = zero.bracket if zero.jumps else (zero.best,)
+    """Whether the search came to its end and the answer that counts is verified: of jump or stretch both ends."""
+    answers = zero.bracket if zero.jumps else zero.stretch or (zero.best,)
     return zero.complete and all(each.verified for each in answers)
 
 
 def _answer_json(answer: Answer) -> dict[str, Any]:
-    names = ("result", "slope", "status", "verified", "words", "bounds")
+    names = ("result", "slope", "status", "verified", "words", "bounds", "known")
     return {name: as_json(getattr(answer, name)) for name in names}
 
 
 def _found_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
-    """Value, error, which way the result goes, and how sure it is."""
-    below, above = zero.bracket
+    """Value or stretch, error, which way the result goes, and how sure it is."""
+    says = _value_words(question, zero, standing) if zero.stretch is None else _stretch_words(question, zero, standing)
+    if not zero.complete:
+        return f"{says}. The search did not come to its end: nothing narrower is known."
+    last = "answers at its ends are" if zero.stretch and zero.stretch[0] is not zero.stretch[1] else "last answer is"
+    says += f". The {last} {'verified' if _sure(zero) else 'NOT verified'}"
+    return f"{says}; mbla run --set {question.parameter}={zero.best.x!r} shows it."
+
+
+def _value_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
     first, last = sorted(zero.bracket, key=lambda each: each.x)
     unit = f" {question.unit}" if question.unit else ""
-    name, rises, stands = question.parameter, below.x < above.x, question.kind == "stands"
+    name, stands = question.parameter, question.kind == "stands"
     says = f"{name} between {first.x:.9g} and {last.x:.9g}{unit}"
     if zero.jumps and not stands:
         ends = f"{_side(first)} to {_side(last)}"
@@ -166,17 +186,34 @@ def _found_words(question: Question, zero: Zero[Answer], standing: StandingResul
     elif zero.complete and not zero.jumps:
         says = f"{name} = {zero.best.x:.9g}{unit}, within {small(zero.error)} by "
         says += "the values around it" if math.isnan(zero.best.slope) else "the slope there"
-    side = "above" if rises else "below"
+    side = "above" if zero.rises else "below"
     if standing is not None and standing.verdict is not Standing.YES:
-        says += f"; {side} some forces carry the dead load, but {standing.reason}; so this is no limit of standing"
+        says += f"; {side} {_no_limit(standing)}"
     elif stands:
         says += f"; it stands {side}"
     elif not zero.jumps:
-        says += f"; the result {'rises' if rises else 'falls'} with it"
-    if not zero.complete:
-        return f"{says}. The search did not come to its end: nothing narrower is known."
-    says += f". The last answer is {'verified' if _sure(zero) else 'NOT verified'}"
-    return f"{says}; mbla run --set {name}={zero.best.x!r} shows it."
+        says += f"; the result {'rises' if zero.rises else 'falls'} with it"
+    return says
+
+
+def _stretch_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
+    assert zero.stretch is not None
+    first, last = zero.stretch
+    unit, name = f" {question.unit}" if question.unit else "", question.parameter
+    touches = "touches the target without passing it" if zero.complete else "meets the target"
+    says, ends = f"{name} = {first.x:.9g}{unit}: there the result {touches}", "it is"
+    if first is not last:
+        says = (
+            f"every {name} from {first.x:.9g} to {last.x:.9g}{unit} meets the target, as far as the values above show"
+        )
+        inner = [each.x for each in zero.stretch if each.x not in question.bounds]
+        ends = "both ends are" if len(inner) == 2 else f"the end at {inner[0]:.9g} is" if inner else ""
+    says += f"; {ends} known within {small(zero.error)}" if zero.complete and ends else ""
+    return says if standing is None or standing.verdict is Standing.YES else f"{says}; {_no_limit(standing)}"
+
+
+def _no_limit(standing: StandingResult) -> str:
+    return f"some forces carry the dead load, but {standing.reason}; so this is no limit of standing"
 
 
 def _side(answer: Answer) -> str:
@@ -207,7 +244,7 @@ def find(deck: Deck, options: Any) -> Finding:
         samples = scan(*question.bounds, question.scan, at)
         if all(each.status == REFUSED for each in samples):
             refuse_unfit_deck(deck, question)
-        zeros = tuple(find_zero(one, other, at, question.absolute_tolerance) for one, other in changes(samples))
+        zeros = tuple(find_zeros(samples, at, question.absolute_tolerance))
         asked = zeros if question.kind == "stands" else ()
         standing = tuple(standing_at(deck, question, _standing_side(zero, question)) for zero in asked)
     return Finding(question, tuple(answers), zeros, tuple(samples), standing)
@@ -216,6 +253,8 @@ def find(deck: Deck, options: Any) -> Finding:
 def _standing_side(zero: Zero[Answer], question: Question) -> float:
     """A value that stands, if some do, as near to the limit as that is asked for."""
     limit, stands = zero.best.x, zero.bracket[1].x
+    if zero.stretch is not None:
+        return limit
     if not zero.complete or zero.jumps:
         return stands
     return limit + math.copysign(min(question.absolute_tolerance, abs(stands - limit)), stands - limit)

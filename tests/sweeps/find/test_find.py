@@ -170,6 +170,47 @@ def test_what_stands_only_in_a_self_stressed_state_has_no_limit_of_standing(text
     assert ("from the stress-free assembly it falls" in said(found)) == bool(most)
 
 
+@pytest.mark.parametrize(("bounds", "least"), [((0.1, 2.0), 0.5), ((0.5, 2.0), 0.5), ((0.9, 2.0), 0.9)])
+def test_beyond_the_friction_at_which_it_rocks_every_value_meets_the_target(
+    bounds: tuple[float, float], least: float
+) -> None:
+    """The load factor is min(μ, b/h), known to rounding."""
+    found = asked(BLOCK, "parameters.mu", "load_factor", 0.5, bounds)
+    (own,) = found.record["found"]
+    assert own["stretch"] == pytest.approx([least, 2.0], abs=4e-6)
+    assert own["rises"] is None
+    assert found.exit_code == 0
+    assert found.solves <= 4
+    assert f"to {bounds[1]:g} meets the target" in own["says"]
+
+
+@pytest.mark.parametrize(("target", "status", "count"), [(0.5, 0, 1), (0.4, 5, 0)])
+def test_a_parameter_without_effect(target: float, status: int, count: int) -> None:
+    found = asked(BLOCK, "materials.stone.density", "load_factor", target, (1000, 2000))
+    assert (found.exit_code, len(found.zeros), found.record["changes"]) == (status, count, False)
+    assert "has no effect on the load factor between 1000 and 2000 kg/m^3" in said(found)
+    assert "Nothing was found" not in said(found)
+
+
+def test_a_draft_without_dilatancy_meets_the_target_to_its_residual() -> None:
+    found = asked(
+        BLOCK.replace("flow_rule: associative", "flow_rule: non_associative, accuracy: draft"),
+        *("parameters.mu", "load_factor", 0.5, (0.9, 2.0)),
+    )
+    assert found.record["found"][0]["stretch"] == [0.9, 2.0]
+    assert found.zeros[0].best.known > 1e-7
+
+
+def test_a_whole_number_gives_a_stretch() -> None:
+    """A height that is rounded to 4 m, with a load factor of 1/4."""
+    text = BLOCK.replace('"=h"', '"=round(h)"')
+    found = asked(text, "parameters.h", "load_factor", 0.25, (3.0, 5.0), tolerance=1e-2)
+    (own,) = found.record["found"]
+    assert own["stretch"] == pytest.approx([3.5, 4.5], abs=0.05)
+    assert found.exit_code == 0
+    assert "both ends are known within" in own["says"]
+
+
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck = tmp_path / "block.yaml"
     deck.write_text(BLOCK, encoding="utf-8")
