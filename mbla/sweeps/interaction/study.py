@@ -86,7 +86,7 @@ def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusi
     """What follows from the points."""
     points = points_of(table, question)
     domain = domain_of(points, question)
-    words = [question.words, *_factor_words(question, points), *_domain_words(question, domain)]
+    words = [question.words, *_factor_words(question, points), *_domain_words(question, points, domain)]
     factors = []
     for axis, name, places in zip(question.axes, question.names, points.places.T, strict=True):
         factors.append((SweepColumn(f"factor_{name}", "", f"{axis} at collapse", "float", "result"), places))
@@ -168,7 +168,7 @@ def _angles(angles: Sequence[float]) -> str:
     return f"{', '.join(f'{angle:.6g}' for angle in angles[:MOST_ANGLES])}{more} degrees"
 
 
-def _domain_words(question: Question, domain: Domain | None) -> list[str]:
+def _domain_words(question: Question, points: Points, domain: Domain | None) -> list[str]:
     """What follows from the bounds of all points for the domain of associative flow."""
     if not question.pair:
         return ["no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"]
@@ -180,12 +180,24 @@ def _domain_words(question: Question, domain: Domain | None) -> list[str]:
             f"lies beyond the bound of a mechanism by {domain.crossed:.1e} of it: please report it with the deck"
         ]
     words = [
-        "the safe domain of associative flow is convex, and so are the points within their bounds; what those leave "
-        f"open between safe points and mechanisms is {percent(domain.gap)} % of its area"
+        "the safe domain of associative flow is convex, and so are the points within their bounds; "
+        + _gap_words(question, points, domain)
     ]
     if domain.everywhere is not None:
         words.append(f"at angles between the points too, associative flow carries at least {number(domain.everywhere)}")
     return words
+
+
+def _gap_words(question: Question, points: Points, domain: Domain) -> str:
+    """What safe points and mechanisms leave open between them, or why that is no share of an area."""
+    if not np.isnan(domain.gap):
+        return f"what those leave open between safe points and mechanisms is {percent(domain.gap)} % of its area"
+    free = [question.angles[row] for row in np.flatnonzero(points.factors.of(Answer.UNBOUNDED))]
+    if free:
+        return f"it is unbounded at {_angles(free)}, so that it has no area of which a share could be left open"
+    if domain.cut_off:
+        return "the mechanisms found do not bound it on all sides, so that what they leave open is no share of an area"
+    return "it has no area of which a share could be left open"
 
 
 def _reasons(question: Question, results: SweepTable) -> list[str]:

@@ -56,6 +56,7 @@ def test_a_load_that_never_brings_collapse_leaves_the_domain_open(tmp_path: Path
     assert found.points.factors.answer.tolist() == [Answer.VALUE, Answer.VALUE, Answer.UNBOUNDED]
     assert found.domain.cut_off
     assert math.isnan(found.domain.gap)
+    assert "it is unbounded at 90 degrees, so that it has no area of which a share could be left open" in found.words
     assert found.conclusion.exit_code == 0
 
 

@@ -57,6 +57,12 @@ def test_without_bounds_there_is_no_domain(tmp_path: Path) -> None:
     assert found.conclusion.record["interaction"]["domain"] is None
 
 
+def test_points_that_do_not_go_around_leave_sides_without_a_mechanism(tmp_path: Path) -> None:
+    found = made(tmp_path, DIRECTION, [0.5] * 4, {1: LATE, 2: LATE})
+    assert "the mechanisms found do not bound it on all sides" in found.words
+    assert "% of its area" not in found.words
+
+
 @pytest.mark.parametrize(
     ("changes", "mark", "status"),
     [
