@@ -19,8 +19,9 @@ def add_strengthen(commands: Any) -> None:
         description="Find the cheapest capacities of the candidates of the section strengthen with which each load "
         "case carries its required load factor: one program of all load cases, whose mechanisms prove what they cost "
         "at least. Then the strengthened structure is analysed by the deck's own flow rule, and while that falls short "
-        "the program is asked for more. Writes DECK_strengthened.yaml, its table as CSV and its results, with "
-        "pictures where the extra mbla[pictures] is installed.",
+        "the program is asked for more. Writes DECK_strengthened.yaml with the meshes and tables that it "
+        "names beside it, a table of the candidates as CSV and the results, with pictures where the extra "
+        "mbla[pictures] is installed.",
         epilog="Exit status 0: strengthened, and every load factor is verified; 4: not verified, or still short; 5: no "
         "capacities of these candidates suffice.",
     )

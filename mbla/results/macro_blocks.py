@@ -15,9 +15,6 @@ from __future__ import annotations
 import re
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from copy import deepcopy
-from functools import reduce
-from operator import getitem
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -25,14 +22,13 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.deck.content import DeckContent
 from mbla.deck.references import GROUND, groups
 from mbla.deck.sections.materials import GLUED
-from mbla.deck.text.writer import deck_text
 from mbla.errors import UsageError
 from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist
 from mbla.results.files import OutputFolder
 from mbla.results.listing.mechanism_words import motion_words
+from mbla.results.movable_deck import movable_deck, sections_text
 from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
 from mbla.results.provenance import deck_of
 from mbla.results.results import CaseResult, Results
@@ -78,18 +74,14 @@ def write_macro_blocks(
         raise UsageError("no-mechanism", "--macro-blocks: there is no mechanism in the load cases asked for")
     with TemporaryDirectory() as source:
         deck = deck_of(results.deck, Path(source), expected=False)
-    files = dict(results.deck.files)
-    beside = {name: f"{stem}_macro_{n}_{Path(name).name}" for n, name in enumerate(files, start=1)}
-    data: Any = deepcopy(deck.data)
-    for side in deck.side_files:
-        if side.key == ("contacts", "table"):
-            refuse_joints_of_table(files[Path(side.name).as_posix()])
-        reduce(getitem, side.key[:-1], data)[side.key[-1]] = beside[Path(side.name).as_posix()]
+    movable = movable_deck(deck, results.deck.files, f"{stem}_macro")
+    if (table := movable.data["contacts"].get("table")) is not None:
+        refuse_joints_of_table(movable.files[table])
     with OutputFolder(folder, stem, force, secondary=True) as out:
-        for name, content in files.items():
-            out.write_bytes(beside[name], content)
+        for name, content in movable.files.items():
+            out.write_bytes(name, content)
         for name, (case, mechanics) in found.items():
-            out.write_text(f"{stem}_{name}_macro.yaml", macro_deck(results, case, mechanics, data, stem))
+            out.write_text(f"{stem}_{name}_macro.yaml", macro_deck(results, case, mechanics, movable.data, stem))
     return [folder / name for name in out.names]
 
 
@@ -126,8 +118,7 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
         "load_cases": {load_case.deck_name: _first_movement(data["load_cases"][load_case.deck_name])},
         "expected": _expected(case, mechanics, f"{stem}.h5"),
     }
-    content = data | changed
-    text = deck_text({key: content[key] for key in DeckContent.model_fields if content.get(key) and key != "include"})
+    text = sections_text(data | changed)
     lines = [f"The rigid parts of a mechanism as blocks: load case {load_case.name} of {stem}.h5."]
     lines += [
         f"{names[each.number]}: {len(each.blocks)} blocks, {motion_words(model, each)}"

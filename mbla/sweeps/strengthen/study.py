@@ -9,14 +9,10 @@ the secant, and where it has no more to give all capacities are raised together.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
-from copy import deepcopy
 from dataclasses import dataclass, replace
-from functools import reduce
 from importlib.util import find_spec
 from io import StringIO
-from operator import getitem
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -26,15 +22,15 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck import Deck, read_deck
-from mbla.deck.content import DeckContent
 from mbla.deck.references import GROUND
-from mbla.deck.text.writer import deck_text
 from mbla.model import Model
 from mbla.model.ties.candidates import Candidates
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.process.run_options import RunOptions
 from mbla.results.files import OutputFolder
+from mbla.results.movable_deck import MovableDeck, movable_deck, sections_text
 from mbla.results.outcome import least_and_greatest, result_of
+from mbla.results.provenance import deck_record
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
@@ -112,14 +108,15 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
     """
     refuse_unfit(deck)
     stem = f"{deck.path.stem}_strengthened"
+    movable = movable_deck(deck, deck_record(deck).files, stem)
     with OutputFolder(options.folder_for(deck.path), stem, options.force, secondary=True) as out:
-        out.refuse(f"{stem}.yaml", f"{stem}.csv")
+        out.refuse(f"{stem}.yaml", f"{stem}.csv", *movable.files)
     model, candidates, question = question_of(deck, log)
     found = cheapest(question)
     if found.status not in WITH_VALUE:
         none = np.zeros(len(candidates.costs))
         return Strengthened(deck, model, candidates, found, none, required_of(deck), 1.0, math.nan, {}, False, 0, ())
-    return _analysed(deck, model, candidates, found, question, options, stem)
+    return _analysed(deck, movable, model, candidates, found, question, options)
 
 
 @dataclass(frozen=True)
@@ -144,12 +141,12 @@ class _Try:
 
 def _analysed(
     deck: Deck,
+    movable: MovableDeck,
     model: Model,
     candidates: Candidates,
     first: Cheapest,
     question: Strengthening,
     options: RunOptions,
-    stem: str,
 ) -> Strengthened:
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     assert deck.content.strengthen is not None  # who calls knows
@@ -158,7 +155,7 @@ def _analysed(
     for _ in range(MOST_REPEATS + 1):
         capacities = np.minimum(rounded_up(raised * wanted, catalogue), question.most)
         if not tries or not np.array_equal(capacities, tries[-1].capacities):
-            results = _analysis(deck, model, candidates.ties, capacities, stem)
+            results = _analysis(deck, movable, model, candidates.ties, capacities)
             factors = {name: _factor(results, name) for name in required}
             tries.append(_Try(asked, capacities, float(capacities @ candidates.costs), results, factors))
         more = _ask_for(required, tries)
@@ -184,7 +181,7 @@ def _analysed(
         len(tries),
         (),
     )
-    return replace(answer, files=_files(answer, best.results, options.folder_for(deck.path), stem, options))
+    return replace(answer, files=_files(answer, movable, best.results, options))
 
 
 def _ask_for(required: dict[str, float], tries: Sequence[_Try]) -> dict[str, float] | None:
@@ -212,11 +209,13 @@ def _beyond(name: str, required: float, tries: Sequence[_Try]) -> float:
     return float(asked + (required - found) / min(max(slope, LEAST_SLOPE), 1.0) + MARGIN * required)
 
 
-def _analysis(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, stem: str) -> Results:
+def _analysis(deck: Deck, movable: MovableDeck, model: Model, ties: Ties, capacities: FloatArray) -> Results:
     """Of the structure with ties of given capacities, (k,) N, in the load cases that have to carry something."""
     with TemporaryDirectory() as place:
-        path = Path(place) / f"{stem}.yaml"
-        path.write_text(strengthened_deck(deck, model, ties, capacities, path.parent), encoding="utf-8")
+        path = Path(place) / f"{movable.stem}.yaml"
+        path.write_text(strengthened_deck(deck, movable, model, ties, capacities), encoding="utf-8")
+        for name, content in movable.files.items():
+            (path.parent / name).write_bytes(content)
         asked = RunOptions(cases=tuple(required_of(deck)))
         return solve_deck(read_deck(path), asked, StatusFile(StringIO(), ""), None, perf_counter())
 
@@ -234,17 +233,12 @@ def _factor(results: Results, name: str) -> float:
     return math.nan
 
 
-def strengthened_deck(deck: Deck, model: Model, ties: Ties, capacities: FloatArray, folder: Path) -> str:
-    """Text of the deck with ties of given capacities, (k,) N; files that it names are named from a folder."""
-    data: Any = deepcopy(deck.data)
-    for side in deck.side_files:
-        place = reduce(getitem, side.key[:-1], data)
-        place[side.key[-1]] = os.path.relpath(deck.resolve_file(side.key, side.name), folder)
+def strengthened_deck(deck: Deck, movable: MovableDeck, model: Model, ties: Ties, capacities: FloatArray) -> str:
+    """Text of the deck with ties of given capacities, (k,) N."""
+    data = movable.data
     added = [_tie(model, ties, row, float(capacities[row])) for row in np.flatnonzero(capacities).tolist()]
     content = data | {"ties": [*data.get("ties", []), *added], "title": f"{deck.title or deck.path.stem}, strengthened"}
-    left_out = {"include", "strengthen", "expected"}
-    kept = [key for key in DeckContent.model_fields if content.get(key) and key not in left_out]
-    text = deck_text({key: content[key] for key in kept})
+    text = sections_text(content, ("strengthen", "expected"))
     return f"# {deck.path.name} with the ties that `mbla strengthen` found.\n{text}"
 
 
@@ -267,27 +261,29 @@ def _tie(model: Model, ties: Ties, row: int, capacity: float) -> dict[str, Any]:
     return {"name": name, "through": through, "on": on, "capacity": float(f"{capacity:.9g}")}
 
 
-def _files(answer: Strengthened, results: Results, folder: Path, stem: str, options: RunOptions) -> tuple[Path, ...]:
+def _files(answer: Strengthened, movable: MovableDeck, results: Results, options: RunOptions) -> tuple[Path, ...]:
     """Deck, table and results of the strengthened structure, with pictures where these can be drawn; their paths.
 
-    results : of the last analysis, which are those of the deck unless it has other load cases or names other files
+    results : of the last analysis, which are those of the deck unless it has other load cases
     """
     from mbla.sweeps.strengthen.report import table_csv  # late: it is written once
 
-    deck = answer.deck
-    text = strengthened_deck(deck, answer.model, answer.candidates.ties, answer.capacities, folder)
+    deck, stem, folder = answer.deck, movable.stem, options.folder_for(answer.deck.path)
+    text = strengthened_deck(deck, movable, answer.model, answer.candidates.ties, answer.capacities)
     output = deck.content.output
     with OutputFolder(folder, stem, options.force, secondary=True) as out:
         out.write_text(f"{stem}.yaml", text)
         out.write_text(f"{stem}.csv", table_csv(answer))
+        for name, content in movable.files.items():
+            out.write_bytes(name, content)
         if find_spec("matplotlib") and find_spec("pyvista") and not output.plots:
             _draw(results, out)
-    if deck.side_files or len(results.cases) < len(results.model.load_cases):
+    if len(results.cases) < len(results.model.load_cases):
         run(folder / f"{stem}.yaml", replace(options, folder=folder, overrides=(), force=True))
     else:
         with OutputFolder(folder, stem, force=True) as out:
             write_results(results, out, output)
-    return tuple(folder / f"{stem}.{kind}" for kind in ("yaml", "csv", "h5"))
+    return (*(folder / f"{stem}.{kind}" for kind in ("yaml", "csv", "h5")), *(folder / name for name in movable.files))
 
 
 def _draw(results: Results, out: OutputFolder) -> None:

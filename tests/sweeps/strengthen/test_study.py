@@ -93,6 +93,27 @@ def test_an_earlier_result_is_kept_without_force(path: Path, capsys: pytest.Capt
     assert "deck_strengthened" in capsys.readouterr().err
 
 
+def test_files_that_the_deck_names_lie_beside_the_strengthened_one(path: Path) -> None:
+    """Of the deck itself and of one that it includes; those of the deck are not needed any more."""
+    parts = path.parent / "parts"
+    parts.mkdir()
+    parts.joinpath("case.yaml").write_text("load_cases: {side: {live: [{table: loads.csv}]}}\n", encoding="utf-8")
+    contents = ["group,index,fx,fy,fz\nblock,0,100,0,0\n", "group,index,fx,fy,fz\nblock,0,1000,0,0\n"]
+    files = [parts / "loads.csv", path.parent / "more.csv"]
+    for file, content in zip(files, contents, strict=True):
+        file.write_text(content, encoding="utf-8")
+    text = DECK.replace("live: [{acceleration: [1, 0, 0]}]", "live: [{table: more.csv}]").replace("0.5}", "100}")
+    path.write_text(f"include: [parts/case.yaml]\n{text}", encoding="utf-8")
+    assert main(["strengthen", str(path), "-q"]) == 0
+    for file in files:
+        file.unlink()
+    deck = read_deck(path.parent / "deck.out" / "deck_strengthened.yaml")
+    assert len(deck.content.ties) == 1
+    named = {side.value: deck.resolve_file(side.key, side.value).read_text("utf-8") for side in deck.side_files}
+    assert named == dict(zip(["deck_strengthened_1_loads.csv", "deck_strengthened_2_more.csv"], contents, strict=True))
+    assert verify_file(path.parent / "deck.out" / "deck_strengthened.h5")[1] == ()
+
+
 def test_flow_without_dilatancy_decides_and_capacities_are_raised_for_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
