@@ -73,7 +73,9 @@ class StrengthenSection(Section):
     )
     candidates: list[Candidate] = Field(min_length=1, description="what may be added")
     catalogue: Annotated[list[PositiveForce], Field(min_length=1)] | None = Field(
-        None, description="capacities that there are, to which those found are rounded up; any unless given"
+        None,
+        description="capacities that there are, to which those found are rounded up; above the greatest, of those up "
+        "to `most`, to the least sum of several, which are beside each other; any unless given",
     )
 
 

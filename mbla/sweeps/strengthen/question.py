@@ -1,4 +1,4 @@
-"""What ``mbla strengthen`` asks: the program of a deck, and its capacities as there are, up to a catalogue."""
+"""What ``mbla strengthen`` asks: the program of a deck, and with fewer candidates where a catalogue rounds up."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE
 from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
+from mbla.sweeps.strengthen.catalogue import greatest_there, rounded_up
 
 SHORT = 1e-6
 """share of a required load factor that may be missing: its rounding"""
-ACCURACY = 1e-4
-"""share by which capacities are larger than the program says: its accuracy on large structures"""
 MOST_ROUNDS, LITTLE = 10, 0.3
 """programs with fewer candidates that are tried where a catalogue rounds up, and share of what is rounded up to below
 which a candidate is left out"""
@@ -87,7 +86,7 @@ def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[flo
         return best
     rows = np.flatnonzero(best)
     for _ in range(MOST_ROUNDS):
-        rounded = rounded_up(best, catalogue)
+        rounded = rounded_up(best, catalogue, question.most)
         kept = rows[best[rows] >= LITTLE * rounded[rows]]
         if len(kept) == len(rows):
             kept = np.delete(rows, np.argmin(best[rows] / rounded[rows]))
@@ -96,29 +95,8 @@ def with_fewer(question: Strengthening, found: Cheapest, catalogue: Sequence[flo
         fewer = cheapest(question.take(kept))
         capacities = np.zeros_like(best)
         capacities[kept] = fewer.capacities
-        cost = float(rounded_up(capacities, catalogue) @ question.costs)
+        cost = float(rounded_up(capacities, catalogue, question.most) @ question.costs)
         if fewer.status not in WITH_VALUE or cost >= float(rounded @ question.costs):
             break
         best, rows = capacities, np.flatnonzero(capacities)
     return best
-
-
-def rounded_up(capacities: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
-    """Capacities, (k,), as there are: the next in the catalogue, or as many of the greatest as it takes."""
-    if catalogue is None:
-        return capacities * (1.0 + ACCURACY)
-    values = np.array(catalogue)
-    row = np.minimum(np.searchsorted(values, capacities * (1.0 - SHORT)), len(values) - 1)
-    several = np.ceil(capacities / values[-1] * (1.0 - SHORT))  # ties beside each other
-    found = np.where(capacities > values[-1] * (1.0 + SHORT), several * values[-1], values[row])
-    return np.where(capacities > 0.0, found, 0.0)
-
-
-def greatest_there(most: FloatArray, catalogue: Sequence[float] | None) -> FloatArray:
-    """Greatest capacities, (k,), of those that there are, up to given ones, of which none is below the least."""
-    if catalogue is None:
-        return most
-    values, limited = np.array(catalogue), np.isfinite(most)
-    row = np.searchsorted(values, most * (1.0 + SHORT), side="right") - 1
-    several = np.floor(np.where(limited, most, 0.0) / values[-1] * (1.0 + SHORT)) * values[-1]
-    return np.where(limited, np.maximum(values[np.maximum(row, 0)], several), np.inf)

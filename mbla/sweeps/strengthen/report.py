@@ -155,5 +155,5 @@ def _bound_words(answer: Strengthened) -> str:
     if answer.raised > 1.0:
         says += f", raised by {100 * (answer.raised - 1):.3g} % where the program had no more to give"
     if section.catalogue is not None:
-        says += ", rounded up to the catalogue: above its greatest as several ties beside each other"
+        says += ", rounded up to the catalogue: above its greatest to the least sum of several ties beside each other"
     return f"{says}."

@@ -38,7 +38,8 @@ from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Strengthening, cheapest
-from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, rounded_up, with_fewer
+from mbla.sweeps.strengthen.catalogue import rounded_up
+from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, with_fewer
 
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
 """analyses after the first one, share of a required load factor that is asked for beyond what was short, and what an
@@ -153,7 +154,7 @@ def _analysed(
     required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Try]()
     asked, raised, wanted = required, 1.0, with_fewer(question, first, catalogue)
     for _ in range(MOST_REPEATS + 1):
-        capacities = np.minimum(rounded_up(raised * wanted, catalogue), question.most)
+        capacities = rounded_up(raised * wanted, catalogue, question.most)
         if not tries or not np.array_equal(capacities, tries[-1].capacities):
             results = _analysis(deck, movable, model, candidates.ties, capacities)
             factors = {name: _factor(results, name) for name in required}

@@ -7,7 +7,6 @@ import json
 from importlib.util import find_spec
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from mbla.cli import main
@@ -15,7 +14,6 @@ from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.verify import verify_file
 from mbla.sweeps.strengthen import study
-from mbla.sweeps.strengthen.question import greatest_there, rounded_up
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
 
@@ -129,11 +127,6 @@ def test_flow_without_dilatancy_decides_and_capacities_are_raised_for_it(
     assert record["least_cost"] <= record["cost"] * (1 + 1e-6)  # type: ignore[operator]  # numbers of JSON
 
 
-def test_capacities_are_rounded_up_to_the_catalogue() -> None:
-    found = rounded_up(np.array([0.0, 1.0, 10.0, 10.1, 49.9, 50.0, 120.0]), [10.0, 20.0, 50.0])
-    assert found.tolist() == [0.0, 10.0, 10.0, 20.0, 50.0, 50.0, 150.0]
-
-
 def test_a_catalogue_leaves_out_what_is_hardly_used(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Of two rods of one worth the program may share the force; one of the next size is enough."""
     two = ROD.replace("0.5,", "0.3,")
@@ -146,10 +139,17 @@ def test_a_catalogue_leaves_out_what_is_hardly_used(tmp_path: Path, capsys: pyte
     assert sorted(each["capacity"] for each in candidates) == [0.0, 2000.0]
 
 
-def test_rounded_and_raised_capacities_stay_below_the_greatest_allowed() -> None:
-    most = np.array([np.inf, 1.0, 25.0, 50.0, 120.0])
-    assert greatest_there(most, None).tolist() == most.tolist()
-    assert greatest_there(most[[0, 2, 3, 4]], [10.0, 20.0, 50.0]).tolist() == [np.inf, 20.0, 50.0, 100.0]
+def test_two_of_the_catalogue_beside_each_other_are_as_much_as_is_allowed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where one of the greatest is too little, and two of it are more than is allowed."""
+    great, small = 0.8 * CAPACITY, 0.3 * CAPACITY
+    rod = ROD.replace("on:", f"most: {1.5 * CAPACITY}, on:")
+    path = tmp_path / "deck.yaml"
+    path.write_text(DECK.replace(f"[{ROD}]", f"[{rod}], catalogue: [{small}, {great}]"), encoding="utf-8")
+    code, record = told(capsys, str(path))
+    assert code == 0
+    assert record["cost"] == pytest.approx(3 * (great + small), rel=1e-8)
 
 
 def test_where_nothing_has_to_be_added_it_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
