@@ -22,8 +22,10 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.deck.parameter_keys import path_of_key
 from mbla.deck.references import GROUND, groups
 from mbla.deck.sections.materials import GLUED
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import UsageError
 from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist
 from mbla.results.files import OutputFolder
@@ -38,6 +40,8 @@ from mbla.solution.solution import Mechanics
 AT_REST = "at_rest"
 APART = -1
 """number of the part of blocks that stay bodies of their own"""
+WHOLE_DECK = ("find", "strengthen")
+"""sections that ask for something of the whole deck, with all of its load cases"""
 EXPECTED_WITHIN = 1e-6
 """relative difference of load factors that a written deck allows, or what the proved bounds leave open"""
 
@@ -118,7 +122,10 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
         "load_cases": {load_case.deck_name: _first_movement(data["load_cases"][load_case.deck_name])},
         "expected": _expected(case, mechanics, f"{stem}.h5"),
     }
-    text = sections_text(data | changed)
+    content = data | changed
+    if "analysis" in data:
+        content["analysis"] = with_slopes_left(data, content)
+    text = sections_text(content, WHOLE_DECK)
     lines = [f"The rigid parts of a mechanism as blocks: load case {load_case.name} of {stem}.h5."]
     lines += [
         f"{names[each.number]}: {len(each.blocks)} blocks, {motion_words(model, each)}"
@@ -126,6 +133,26 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
         if each.number in names and len(each.blocks) > 1
     ]
     return "".join(f"# {line}\n" for line in lines) + text
+
+
+def with_slopes_left(data: dict[str, Any], content: dict[str, Any]) -> dict[str, Any]:
+    """Section analysis without sensitivity to what the written deck has no more, such as loads of other load cases."""
+    analysis = dict(data["analysis"])
+    if isinstance(keys := analysis.get("sensitivity"), list):
+        analysis["sensitivity"] = [key for key in keys if _is_same(data, content, path_of_key(data, key))]
+        if not analysis["sensitivity"]:
+            del analysis["sensitivity"]
+    return analysis
+
+
+def _is_same(data: Any, content: Any, path: KeyPath) -> bool:
+    """Whether two decks have the same at a path, or both leave it to its default in the same section."""
+    for key in path:
+        there = [key in each if isinstance(each, dict) else key in range(len(each)) for each in (data, content)]
+        if not all(there):
+            return not any(there)
+        data, content = data[key], content[key]
+    return bool(data == content)
 
 
 def _first_movement(case: dict[str, Any]) -> dict[str, Any]:

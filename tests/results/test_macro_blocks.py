@@ -13,6 +13,7 @@ from mbla.cli import main
 from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.macro_blocks import with_slopes_left
 from mbla.results.outcome import associative_of, reaction_of
 from mbla.results.results import Results
 from tests.decks.folder import DECKS
@@ -136,6 +137,42 @@ def test_inclusions_overrides_and_files_are_in_the_written_deck(written: Written
         again = run_again(path)
         assert set(again.model.joints) == set(results.model.joints)
         assert np.array_equal(again.model.blocks.masses, results.model.blocks.masses)
+
+
+QUESTIONS = """
+find: {parameter: joints.dry.friction, target: {load_factor: 0.3}, bounds: [0.1, 2], load_case: push_x}
+strengthen:
+  required: {push_x: 0.5, pushed: 0.1}
+  candidates: [{through: [[0, 0.1, 1], [-1, 0.1, 1]], on: [{group: wall, index: 10}, ground]}]
+analysis: {flow_rule: associative, sensitivity: [load_cases.push_x.live.0.acceleration.0]}
+"""
+
+
+def test_what_is_asked_of_the_whole_deck_is_left_out(written: Written, door: Path) -> None:
+    (door.parent / "parts" / "wall.yaml").write_text(DOOR + QUESTIONS)
+    _, decks = written(door)
+    slopes = {}
+    for name, path in decks.items():
+        content = read_deck(path).content
+        assert (content.find, content.strengthen) == (None, None)
+        slopes[name] = content.analysis.sensitivity
+    assert slopes == {"push_x": ["load_cases.push_x.live.0.acceleration.0"], "pushed": False}
+
+
+def test_slopes_are_left_of_what_is_in_the_written_deck_as_before() -> None:
+    left = ["load_cases.a.live.0.acceleration.0", "joints.dry.friction", "contacts.tolerance", "blocks.0.box.max.2"]
+    others = ["load_cases.b.live.0.acceleration.0", "load_cases.a.pushover.step", "load_cases.a.pushover.error"]
+    live = {"live": [{"acceleration": [1, 0, 0]}]}
+    data = {
+        "joints": {"dry": {"friction": 0.6}},
+        "blocks": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}],
+        "load_cases": {"a": live | {"pushover": {"step": 0.01}}, "b": live},
+        "analysis": {"sensitivity": [*others, *left]},
+    }
+    content = data | {"load_cases": {"a": live}}
+    assert with_slopes_left(data, content) == {"sensitivity": left}
+    assert with_slopes_left(data | {"analysis": {"sensitivity": others}}, content) == {}
+    assert with_slopes_left(data | {"analysis": {"sensitivity": True}}, content) == {"sensitivity": True}
 
 
 def test_a_coarser_division_carries_more(written: Written) -> None:
