@@ -73,12 +73,12 @@ def told(verdict: Standing, results: Results, *, proof: bool = False) -> Standin
         pytest.param(YES, SELF_STRESS, True, SHOWN, marks=pytest.mark.long),
         (YES, SELF_STRESS, False, LOCKED),
         (YES, NO, True, FALL_NOT_SHOWN),
-        (YES, NO, False, FALL_NOT_SHOWN),
+        pytest.param(YES, NO, False, FALL_NOT_SHOWN, marks=pytest.mark.long),
         (SELF_STRESS, YES, False, NOT_SHOWN),
         pytest.param(SELF_STRESS, NO, False, FALL_NOT_SHOWN, marks=pytest.mark.long),
         (NO, YES, False, FALL_SHOWN),
         pytest.param(NO, SELF_STRESS, False, FALL_SHOWN, marks=pytest.mark.long),
-        (NO, DOUBTFUL, False, FALL_SHOWN),
+        pytest.param(NO, DOUBTFUL, False, FALL_SHOWN, marks=pytest.mark.long),
     ],
 )
 def test_a_verdict_that_the_file_refutes_or_lacks_the_proof_of_is_disagreed_with(

@@ -69,7 +69,7 @@ STRUCTURES = {
 dome, a column, a stair with fixed blocks of its own, meshes from a file, half of a symmetric structure"""
 
 
-SLOW = ("tutorials/wall.yaml", "tutorials/measured_arch.yaml", "tutorials/dome.yaml")
+SLOW = [f"tutorials/{name}.yaml" for name in ("wall", "measured_arch", "dome", "obj_wall", "half_of_a_front")]
 
 
 @pytest.mark.parametrize("deck", [pytest.param(deck, marks=[pytest.mark.long] * (deck in SLOW)) for deck in STRUCTURES])

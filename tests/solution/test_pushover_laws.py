@@ -171,7 +171,7 @@ def test_the_normal_is_that_of_the_face_stood_on() -> None:
     assert reaction[4:] == pytest.approx(closed[4:], rel=3e-6)
 
 
-@pytest.mark.parametrize("breadth", [0.6, 1.0])
+@pytest.mark.parametrize("breadth", [0.6, pytest.param(1.0, marks=pytest.mark.long)])
 def test_a_block_tips_on_a_narrow_base_as_on_a_wide_one(breadth: float) -> None:
     """By a moment about its edge, until its centre of gravity is above it, whatever the friction."""
     inside = (1.0 - breadth) / 2

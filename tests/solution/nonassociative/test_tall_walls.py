@@ -8,12 +8,16 @@ from mbla.solution.solution import Status
 from tests.line import line_of, verified
 from tests.performance.standard_set import DECKS
 
-pytestmark = pytest.mark.long
-
 WALL = (DECKS / "tradeoff" / "wall.yaml").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(("courses", "associative"), [(40, 0.453068), (60, 0.437461)])
+@pytest.mark.parametrize(
+    ("courses", "associative"),
+    [
+        pytest.param(40, 0.453068, marks=pytest.mark.long),
+        pytest.param(60, 0.437461, marks=pytest.mark.trust),
+    ],
+)
 def test_a_tall_wall_has_its_answer(courses: int, associative: float) -> None:
     overrides = (f"parameters.m={courses}", f"parameters.n={courses}", "analysis.search=0")
     solution, checks, status = verified(line_of(WALL, *overrides))

@@ -24,7 +24,7 @@ from tests.solution.cone_solvers.interior_point.random_programs import (
 )
 
 SHORT = range(40)
-LONG, FULL = range(300), range(1000)
+LONG, FULL = range(150), range(1000)
 
 
 def test_the_generator_gives_every_kind_and_always_the_same() -> None:
