@@ -48,6 +48,7 @@ def test_a_run_in_the_background_of_a_script_is_not_interrupted(tmp_path: Path) 
     assert process.wait(60) == 0
 
 
+@pytest.mark.long
 def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: Path) -> None:
     title = "Bögen – 拱"
     deck = written(tmp_path / "wänd 墙.yaml", f"title: {title}\n" + BLOCK)

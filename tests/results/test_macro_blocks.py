@@ -200,6 +200,7 @@ def test_the_parts_of_associative_flow_prove_the_factor_of_a_deck_without_normal
     assert after.load_factor == pytest.approx(before.load_factor, rel=WITHIN)
 
 
+@pytest.mark.long
 def test_the_parts_shown_of_a_deck_without_normality_carry_no_less(written: Written, door: Path) -> None:
     results, decks = written(door, "--case", "push_x")
     assert "expected" not in decks["push_x"].read_text()
@@ -210,6 +211,7 @@ def test_the_parts_shown_of_a_deck_without_normality_carry_no_less(written: Writ
     assert again.case("push_x").verified
 
 
+@pytest.mark.long
 def test_macro_blocks_of_macro_blocks_are_the_same(written: Written, door: Path) -> None:
     _, decks = written(door, **{"analysis.flow_rule": "associative"})
     first = decks["push_x"]

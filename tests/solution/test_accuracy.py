@@ -52,6 +52,7 @@ def test_a_draft_leaves_out_what_does_not_change_the_load_factor() -> None:
     assert standard.solution.standing is not None
 
 
+@pytest.mark.long
 def test_range_and_peak_go_each_by_itself() -> None:
     rule = (WITHOUT, "parameters.n=10")
     standard, without = case(WALL, *rule), case(WALL, *rule, "analysis.range=false")

@@ -60,7 +60,7 @@ def pushed_case(text: str, *overrides: str) -> CaseResult:
 SPREADING = (DECKS / "tutorials" / "arch_that_spreads.yaml").read_text(encoding="utf-8")
 
 
-@pytest.mark.every(20)
+@pytest.mark.every(25)
 @pytest.mark.parametrize("seed", range(50))
 def test_live_work_is_friction_and_what_the_dead_load_gained(seed: int) -> None:
     """On random structures; what is missing is the work of gaps that close, of first order in the step."""

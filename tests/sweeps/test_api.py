@@ -38,6 +38,7 @@ def test_the_table_and_its_files(sweep: Path, capfd: pytest.CaptureFixture[str])
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.long
 def test_values_for_every_point(sweep: Path) -> None:
     """A block twice as high as it is wide rocks at 0.5, whatever friction keeps it from sliding."""
     sweep.write_text(SWEEP.replace("0.3, 0.4", "0.8"), encoding="utf-8")

@@ -227,6 +227,7 @@ def test_more_search_never_ends_higher(text: str) -> None:
     assert [result.first for result in results] == pytest.approx(3 * [factors[0]], rel=1e-6)
 
 
+@pytest.mark.long
 def test_in_space_a_search_begins_far_from_the_law() -> None:
     """Smaller tilts alone end at 0.2833 of g, where more stretchers slide along the through-stones."""
     mechanics = solution_of(line_of_file(TWO_LEAVES, "analysis.search=1", case=1)).mechanics

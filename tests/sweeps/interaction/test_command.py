@@ -85,6 +85,7 @@ def test_an_interrupted_study_is_gone_on_with_by_the_same_command(
     assert len(rows_of(tmp_path / "block_interact.out")) == 4
 
 
+@pytest.mark.long
 def test_the_points_of_two_loads_are_those_of_their_ratio(tmp_path: Path) -> None:
     """The flat block slides under either at 0.4 of its weight; the second load is twice as large."""
     settings = ("parameters.mu=0.4", "parameters.h=1", "load_cases.top.live=[{acceleration: [0, 2, 0]}]")
