@@ -178,14 +178,7 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Polygo
     """
     import shapely
 
-    loops = pieces.loops
-    if line:
-        parts = np.arange(EDGE_PARTS)[:, None] / EDGE_PARTS
-        on = np.roll(loops, -1, axis=1)
-        loops = (loops[:, :, None] + parts * (on - loops)[:, :, None]).reshape(
-            len(loops), EDGE_PARTS * loops.shape[1], 3
-        )
-    flat = _flat(loops, line)
+    flat = _with_chords(pieces.loops) if line else _flat(pieces.loops, line)
     rows = np.flatnonzero(signed_areas(flat) > NOTHING * size)
     images = polygons_from_loops(flat[rows].reshape(-1, 2), np.arange(len(rows) + 1) * flat.shape[1])
     one, other = shapely.STRtree(images).query(images, predicate="intersects")
@@ -200,9 +193,24 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Polygo
     return rows, images
 
 
+def _with_chords(loops: FloatArray) -> FloatArray:
+    """Images of loops (n, k, 3) under a line load, whose edges are curves: polygons of the same area, (n, m, 2).
+
+    Between a parabola and its chords lies 1/12 of the second differences times their lengths, by which their corners
+    are moved out; the first and the last of an edge by half as much again, for its ends stay.
+    """
+    parts = np.arange(EDGE_PARTS + 1)[:, None] / EDGE_PARTS
+    points = loops[:, :, None] + parts * (np.roll(loops, -1, axis=1) - loops)[:, :, None]
+    curve = _flat(points, line=True)
+    weights = np.ones(EDGE_PARTS - 1)
+    weights[[0, -1]] = 1.5
+    curve[:, :, 1:-1] -= weights[:, None] * np.diff(curve, n=2, axis=2) / 12.0
+    return curve[:, :, :-1].reshape(len(loops), EDGE_PARTS * loops.shape[1], 2)
+
+
 def _flat(loops: FloatArray, line: bool) -> FloatArray:
-    """Images of loops (n, k, 3) in the plane of slopes, (n, k, 2), which across a line load is one of places."""
-    return np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=2)
+    """Images of points (..., 3) in the plane of slopes, (..., 2), which across a line load is one of places."""
+    return np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=-1)
 
 
 def _bounds(images: Polygons) -> tuple[float, float]:

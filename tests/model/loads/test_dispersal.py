@@ -211,6 +211,17 @@ def test_below_a_sloping_top(tmp_path: Path) -> None:
     assert shares(found) == pytest.approx(shares(level), rel=1e-9, abs=1e-6)
 
 
+def test_halves_of_a_skew_line_add_up(tmp_path: Path) -> None:
+    """Below a top that slopes both ways the images of the joints are curves, which chords do not follow."""
+    top, ends = "surface: {point: [0, 0, 1.6], normal: [-0.1, 0.1, 1]}", [(3.8, 0.9), (3.95, 1.0), (4.1, 1.1)]
+    lines = [
+        f"line: {{from: [{a[0]}, {a[1]}, 9], to: [{b[0]}, {b[1]}, 9], force_per_length: [0, 0, -1000]}}"
+        for a, b in ((ends[0], ends[2]), (ends[0], ends[1]), (ends[1], ends[2]))
+    ]
+    whole, first, last = (shares(model(tmp_path, line, *ROW, top=top)) for line in lines)
+    assert first + last == pytest.approx(whole, rel=1e-6, abs=1e-6)
+
+
 def test_a_vehicle_stands_or_travels(tmp_path: Path) -> None:
     """Standing where it travels it is the same load; each axle is a line of its width."""
     stands = model(tmp_path, "vehicle: {name: lorry, at: [6.3, 1, 9]}", *ROW, width=", width: 1.8")
