@@ -121,22 +121,41 @@ def _of_member(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray |
     return Finding("unknown-name", unknown("member", term.member, known, "these blocks have"), "member")
 
 
+OUTER_FIRST = ("copy", "span", "segment", "leaf", "ring", "course", "tread", "drum", "unit", "voussoir")
+"""the positions, those of parts before those of what is in them"""
+assert sorted(OUTER_FIRST) == sorted(POSITIONS)
+
+
 def _at_positions(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:
-    for name in POSITIONS:
+    """Negative positions count from the last one of each group, in each of the parts that are chosen besides."""
+    outer: list[IntArray] = []
+    for name in OUTER_FIRST:
         asked = term.position(name)
         if asked is None:
             continue
         positions = blocks.labels.position(name)[rows]
         if not (positions >= 0).any():
             return Finding("empty-selector", f"these blocks have no {name}: leave it out", name)
-        count = int(positions.max()) + 1
-        first, last = (at + count if at < 0 else at for at in (asked if isinstance(asked, tuple) else (asked, asked)))
-        fits = (positions >= max(first, 0)) & (positions <= last)
+        ends = asked if isinstance(asked, tuple) else (asked, asked)
+        counts = _counts(positions, [part[rows] for part in outer], rows, blocks) if min(ends) < 0 else 0
+        first, last = (at + counts if at < 0 else at for at in ends)
+        fits = (positions >= np.maximum(first, 0)) & (positions <= last)
         if not fits.any():
-            words = f"there is none: they go from {positions[positions >= 0].min()} to {count - 1}"
+            known = positions[positions >= 0]
+            words = f"there is none: they go from {known.min()} to {known.max()}"
             return Finding("empty-selector", words, name)
         rows = rows[fits]
+        outer.append(blocks.labels.position(name))
     return rows
+
+
+def _counts(positions: IntArray, outer: list[IntArray], rows: IntArray, blocks: Blocks) -> IntArray:
+    """How many positions there are beside each block, (n,): in its group and in the same parts ``outer``, (n,) each."""
+    _, groups = np.unique(np.array(blocks.groups, dtype=object)[rows].astype(str), return_inverse=True)
+    _, part = np.unique(np.column_stack([groups, *outer]), axis=0, return_inverse=True)
+    most = np.full(part.max() + 1, -1)
+    np.maximum.at(most, part.ravel(), positions)
+    return np.asarray(most[part.ravel()] + 1)
 
 
 def _in_box(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:

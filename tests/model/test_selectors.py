@@ -56,6 +56,7 @@ def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, l
         ({"group": "a", "course": -1}, [4]),
         ({"group": "a", "course": (0, -1)}, [0, 2, 4, 6, 8]),
         ({"group": "a", "copy": 1, "course": 0}, [6, 8]),
+        ({"group": "a", "copy": (-2, -1), "course": -1}, [4, 6, 8]),
         ({"box": [(-1, -1, -1), (5, 1, 1)], "course": 0}, [0, 2]),
         (["a", "a", {"box": [(-1, -1, -1), (1, 1, 1)]}], [0, 2, 4, 6, 8]),
     ],
@@ -89,7 +90,7 @@ def test_empty_box() -> None:
         ({"group": "b", "course": 0}, "on.course", "these blocks have no course: leave it out"),
         ({"group": "a", "course": 2}, "on.course", "there is none: they go from 0 to 1"),
         ({"group": "a", "course": -3}, "on.course", "there is none: they go from 0 to 1"),
-        ({"group": "a", "copy": 1, "course": 1}, "on.copy", "there is none: they go from 0 to 0"),
+        ({"group": "a", "copy": 1, "course": 1}, "on.course", "there is none: they go from 0 to 0"),
         (
             {"group": "b", "box": [(0, 0, 0), (1, 1, 1)]},
             "on.box",

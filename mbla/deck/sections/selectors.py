@@ -36,7 +36,8 @@ PositionRange: TypeAlias = Annotated[
 class SelectorTerm(Section):
     """Blocks of a group, or blocks whose centroid lies in a box; every further key narrows the choice.
 
-    A position is a number, or [first, last]; negative ones count from the last of the group, -1.
+    A position is a number, or [first, last]; negative ones count from the last of the group, -1, or of each of the
+    parts that are chosen besides: {span: [0, 1], voussoir: -1} are the last voussoirs of both spans.
     """
 
     model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": [key]} for key in ONE_OF]})
