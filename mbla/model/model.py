@@ -184,7 +184,7 @@ class Pushing:
 
     step, until : m, of the control point; ``until`` inf: until the load factor is nothing
     steps       : at most
-    blocks      : (m,) whose common centroid is the control point; none: of what moves at first
+    blocks      : (m,) whose centre of mass is the control point; none: that of the live load on what moves at first
     direction   : (3,) unit, in which its displacement counts; nan: along the live load on these blocks
     error       : whether steps of twice the size are made as well, for the error of the load factors
     dead_levers, live_levers : (n_blocks, 9) sums of arm times force, arms from the centroid by rows, of what keeps its

@@ -66,12 +66,21 @@ def test_forces_act_where_they_act_on_the_block(load: str) -> None:
         "mass": [push + "}", "masses=[{on: block, mass: 200, at: [0.1, 0.25, 1.0]}]"],
     }
     moved, factors = columns(pushover_of(ROCKING, *overrides[load]).curve)
-    alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+    height = 0.75 if load == "mass" else 0.5  # of the common centre of mass, which is the control point
+    alpha, radius = math.atan(0.1 / height), math.hypot(0.1, height)
     turned = alpha - np.arcsin(np.sin(alpha) - moved / radius)
     cos, sin = np.cos(turned), np.sin(turned)
     arms = 0.1 * cos - 0.5 * sin, 0.1 * cos - sin
     heights = 0.1 * sin + 0.5 * cos, 0.1 * sin + cos
     assert factors == pytest.approx(sum(arms) / (sum(heights) if load == "mass" else heights[0]), abs=1e-6)
+
+
+def test_the_control_point_does_the_work_of_the_live_load() -> None:
+    """A force at the top of the rocking block: the area below the curve is the live work."""
+    force = "{force: [100, 0, 0], on: block, at: [0.1, 0.25, 1.0]}"
+    curve = pushover_of(ROCKING, f"load_cases.push={{live: [{force}], pushover: {{step: 0.005}}}}").curve
+    moved, factors = columns(curve)
+    assert np.trapezoid(100 * factors, moved) == pytest.approx(curve[-1].live_work, rel=1e-3)
 
 
 def test_a_load_that_follows_turns_with_its_block() -> None:

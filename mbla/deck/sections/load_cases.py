@@ -47,7 +47,9 @@ class ControlSection(Section):
     """Whose displacement a pushover counts."""
 
     on: Selector | None = Field(
-        None, description="the blocks whose common centroid is followed; those that move at first unless given"
+        None,
+        description="the blocks whose common centre of mass is followed; the centre of the live load on what moves at "
+        "first unless given",
     )
     direction: Direction | None = Field(
         None, description="the way in which its displacement counts; that of the live load on what moves unless given"

@@ -75,6 +75,12 @@ class Blocks(Polyhedra):
         """Own and added mass, (n_blocks,) kg."""
         return self.volumes * self.densities + self.added_masses
 
+    @cached_property
+    def mass_centres(self) -> FloatArray:
+        """Centroids of own and added mass, (n_blocks, 3) m; of the volume where there is no mass."""
+        share = self.added_masses / np.where(self.masses > 0.0, self.masses, 1.0)
+        return self.centroids + share[:, None] * (self.added_mass_points - self.centroids)
+
 
 NONE = -1
 """position of a block that has none of that name"""

@@ -176,8 +176,7 @@ def _mechanism_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: M
     acceleration = float(np.linalg.norm(live))
     along = live / acceleration
     failure = failure_of(model, contacts, collapse_of(model, contacts, case, mechanics), mechanics)
-    to_mass = (blocks.added_masses / blocks.masses)[:, None] * (blocks.added_mass_points - blocks.centroids)
-    speeds = (motion[:, :3] + np.cross(motion[:, 3:], to_mass)) @ along
+    speeds = (motion[:, :3] + np.cross(motion[:, 3:], blocks.mass_centres - blocks.centroids)) @ along
     moves, count = failure.clusters > 0, int(failure.clusters.max()) + 1
     weights = summed(failure.clusters, model.weights, count)[1:]
     delta = summed(failure.clusters, model.weights * speeds, count)[1:] / weights

@@ -14,6 +14,10 @@ MOVES = 1e-3
 """Speed of a block, over the greatest, from which it moves: for the control point that is not given."""
 
 
+NO_SHARE = 1e-9
+"""Live load on a block, over that on all, that is none, so that it has no place where it acts."""
+
+
 @dataclass(frozen=True)
 class Control:
     """Whose displacement is followed: the mean of points of blocks, along a direction.
@@ -40,13 +44,19 @@ class Control:
     @staticmethod
     def of_moving(model: Model, case: LoadCase, mechanism: FloatArray) -> Control:
         """Centre of the live load on what moves in a mechanism, (n_blocks, 6), along it: of masses their centroid."""
+        assert case.pushover is not None  # else nothing is pushed
         speed = np.linalg.norm(mechanism[:, :3], axis=1)
         moves = np.flatnonzero(speed > MOVES * speed.max())
         loads = case.live_load[moves, :3]
         along, own = loads.sum(axis=0), _centre(model, moves)
         size = float(np.linalg.norm(along))
-        if size > 0.0:  # by its share of the live load: so the control point does the work of it
-            return Control(moves, own["points"], loads @ along / size**2, along / size)
+        if size > 0.0:  # by its share of the live load, where that acts: so the control point does the work of it
+            along = along / size
+            shares = loads @ along
+            acts = np.abs(shares) > NO_SHARE * size
+            levers = case.pushover.live_levers[moves].reshape(-1, 3, 3) @ along
+            arms = np.where(acts[:, None], levers / np.where(acts, shares, 1.0)[:, None], 0.0)
+            return Control(moves, model.blocks.centroids[moves] + arms, shares / size, along)
         direction = own["weights"] @ mechanism[moves, :3]
         return Control(moves, direction=direction / np.linalg.norm(direction), **own)
 
@@ -65,4 +75,4 @@ def _centre(model: Model, blocks: IntArray) -> dict[str, FloatArray]:
     """Points and weights of which the mean is the common centroid of blocks."""
     masses = model.blocks.masses[blocks]
     masses = masses if masses.any() else model.blocks.volumes[blocks]
-    return {"points": model.blocks.centroids[blocks], "weights": masses / masses.sum()}
+    return {"points": model.blocks.mass_centres[blocks], "weights": masses / masses.sum()}
