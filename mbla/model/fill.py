@@ -23,7 +23,7 @@ from mbla.deck.sections.fill import Dispersal, Passive
 from mbla.deck.sections.fill import Fill as FillSection
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
-from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, carried_masses, joined_masses
+from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, joined_masses
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import items_of_rows, row_maxima
@@ -141,9 +141,11 @@ def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed
             )
     materials = {name: deck.content.fill[name].material for name in found}
     parts = joined_masses(own.parts(densities[materials[name]]) for name, (_, own) in found.items())
-    total, centres = carried_masses(blocks.centroids, parts.blocks, parts.masses, parts.points)
+    laden = parts.added_to(blocks)
     words = tuple(_in_words(deck.content.fill[name], *each, deck, blocks) for name, each in found.items())
-    return Fill(total, centres, words, {name: body for name, (body, _) in found.items()}, parts)
+    return Fill(
+        laden.added_masses, laden.added_mass_points, words, {name: body for name, (body, _) in found.items()}, parts
+    )
 
 
 def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], roster: Roster) -> None:

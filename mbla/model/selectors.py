@@ -151,7 +151,7 @@ def _at_positions(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArra
 
 def _counts(positions: IntArray, outer: list[IntArray], rows: IntArray, blocks: Blocks) -> IntArray:
     """How many positions there are beside each block, (n,): in its group and in the same parts ``outer``, (n,) each."""
-    _, groups = np.unique(np.array(blocks.groups, dtype=object)[rows].astype(str), return_inverse=True)
+    _, groups = np.unique(np.array(blocks.groups)[rows], return_inverse=True)
     _, part = np.unique(np.column_stack([groups, *outer]), axis=0, return_inverse=True)
     most = np.full(part.max() + 1, -1)
     np.maximum.at(most, part.ravel(), positions)

@@ -21,10 +21,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.mechanics import AT_REST, contact_modes
 from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
+from mbla.solution.thresholds import STILL
 from mbla.solution.verification.statics import contact_velocities
-
-STILL = 1e-12
-"""Velocity over the largest of the motion that is rounding."""
 
 MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
 """parts of a solution that hold a mechanism"""

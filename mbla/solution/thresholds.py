@@ -30,3 +30,6 @@ GAP_TOLERANCE = 1e-5
 
 BOUNDS_ROUNDING = 1e-9
 """Bounds that cross by no more than this, relative to the load factor, count as equal."""
+
+STILL = 1e-12
+"""Velocity over the largest of the motion that is rounding: where no contact point moves more, no joint does."""

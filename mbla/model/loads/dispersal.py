@@ -208,9 +208,9 @@ def _with_chords(loops: FloatArray) -> FloatArray:
     return curve[:, :, :-1].reshape(len(loops), EDGE_PARTS * loops.shape[1], 2)
 
 
-def _flat(loops: FloatArray, line: bool) -> FloatArray:
+def _flat(points: FloatArray, line: bool) -> FloatArray:
     """Images of points (..., 3) in the plane of slopes, (..., 2), which across a line load is one of places."""
-    return np.stack([loops[..., 0] / loops[..., 2], loops[..., 1] / (1.0 if line else loops[..., 2])], axis=-1)
+    return np.stack([points[..., 0] / points[..., 2], points[..., 1] / (1.0 if line else points[..., 2])], axis=-1)
 
 
 def _bounds(images: Polygons) -> tuple[float, float]:

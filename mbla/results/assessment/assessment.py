@@ -17,15 +17,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from mbla.arrays import FloatArray, summed
 from mbla.contacts.contacts import Contacts
 from mbla.deck.section import given
 from mbla.deck.sections.assessment import LIMIT_STATES, AssessmentSection, SpectrumSection
 from mbla.deck.units import Units
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model
-from mbla.model.pose import Pose
+from mbla.model.model import Model
 from mbla.results.assessment import codes
+from mbla.results.assessment.kinematic_blocks import KinematicBlocks, kinematic_blocks_of
 from mbla.results.assessment.spectra import (
     Floor,
     Spectrum,
@@ -37,17 +36,15 @@ from mbla.results.assessment.spectra import (
     participation,
     spectrum_of,
 )
-from mbla.results.collapse.collapse import collapse_of, failure_of, kept
+from mbla.results.collapse.collapse import kept
 from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Mechanics, Status
+from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 OLD = "circolare_617_2009"
 NAMES = {"ntc_2018": "NTC 2018 with Circolare 7/2019", OLD: "Circolare 617/2009"}
 """of the codes, in words"""
-IN_PLANE = 0.01
-"""motion out of the vertical plane of the live load, over the greatest, from which a mechanism is one in space"""
 LOWER = 1e-3
 """share by which the least load factor that was found may lie below the one assessed"""
 PARTS = 12
@@ -127,7 +124,7 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     if mechanics is None or case.status is not Status.SOLVED or not mechanics.load_factor > 0.0:
         words = "there is no assessment: the load case has no verified load factor above 0"
         return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))
-    rows, mechanism = _Rows(asked.code, model.units), _mechanism_of(model, contacts, case.load_case, mechanics)
+    rows, mechanism = _Rows(asked.code, model.units), kinematic_blocks_of(model, contacts, case.load_case, mechanics)
     capacity = _capacity(rows, model, contacts, asked, mechanism, mechanics.load_factor)
     _doubts(rows, model, case, mechanism)
     for state in given(asked.spectra, LIMIT_STATES):
@@ -149,63 +146,7 @@ def with_remarks(model: Model, contacts: Contacts, case: CaseResult) -> CaseResu
 # --- The mechanism in numbers ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _Mechanism:
-    """Weights and virtual displacements of a mechanism, the greatest of a cluster 1.
-
-    acceleration   : of the live load, in g
-    weights, delta : (n,) of the clusters that move
-    stones         : the same of single blocks, (m,), (m,)
-    control        : of the control point; nan where there is none, or where it is not counted along the live load
-    in_plane       : parallel to the vertical plane of the live load
-    explained      : share of the motion that the clusters reproduce
-    """
-
-    acceleration: float
-    weights: FloatArray
-    delta: FloatArray
-    stones: tuple[FloatArray, FloatArray]
-    control: float
-    in_plane: bool
-    explained: float
-
-
-def _mechanism_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: Mechanics) -> _Mechanism:
-    motion, blocks = mechanics.mechanism, model.blocks
-    live = case.live_load[:, :3].sum(axis=0) / model.total_weight
-    acceleration = float(np.linalg.norm(live))
-    along = live / acceleration
-    failure = failure_of(model, contacts, collapse_of(model, contacts, case, mechanics), mechanics)
-    speeds = (motion[:, :3] + np.cross(motion[:, 3:], blocks.mass_centres - blocks.centroids)) @ along
-    moves, count = failure.clusters > 0, int(failure.clusters.max()) + 1
-    weights = summed(failure.clusters, model.weights, count)[1:]
-    delta = summed(failure.clusters, model.weights * speeds, count)[1:] / weights
-    size = float(np.abs(delta).max())
-    across = np.cross([0.0, 0.0, 1.0], along)
-    off = np.abs(motion[:, :3] @ across) + blocks.sizes * np.linalg.norm(np.cross(motion[:, 3:], across), axis=1)
-    return _Mechanism(
-        acceleration,
-        weights,
-        delta / size,
-        (model.weights[moves], speeds[moves] / size),
-        _control_speed(model, case, motion, along) / size,
-        bool(off.max() <= IN_PLANE * np.linalg.norm(motion[:, :3], axis=1).max()),
-        failure.explained,
-    )
-
-
-def _control_speed(model: Model, case: LoadCase, motion: FloatArray, along: FloatArray) -> float:
-    """Of the control point of a pushover, along the live load; nan where there is none or it counts another way."""
-    if case.pushover is None:
-        return math.nan
-    from mbla.solution.pushover.control import Control  # late, as few load cases are pushed
-
-    control = Control.of(model, case, motion)
-    speed = control.speed(model, Pose.at_rest(len(model.blocks)), motion)
-    return speed if float(control.direction @ along) > 1.0 - 1e-9 and speed > 0.0 else math.nan
-
-
-def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: _Mechanism) -> None:
+def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: KinematicBlocks) -> None:
     """What makes the figures less than they seem."""
     if case.solution.flow_rule == "associative":
         rows.doubt("the load factor of associative flow is unsafe as alpha_0, for sliding joints lift in it")
@@ -226,7 +167,7 @@ class _Capacity:
     """What the articles need: e*, FC, a_0* in g, and where the mechanism is, None on the ground."""
 
     asked: AssessmentSection
-    mechanism: _Mechanism
+    mechanism: KinematicBlocks
     share: float
     confidence: float
     activation: float
@@ -234,7 +175,12 @@ class _Capacity:
 
 
 def _capacity(
-    rows: _Rows, model: Model, contacts: Contacts, asked: AssessmentSection, mechanism: _Mechanism, load_factor: float
+    rows: _Rows,
+    model: Model,
+    contacts: Contacts,
+    asked: AssessmentSection,
+    mechanism: KinematicBlocks,
+    load_factor: float,
 ) -> _Capacity:
     laws = [model.joints[contacts.joint_names[number]] for number in np.unique(contacts.joints).tolist()]
     crushes = all(np.isfinite(law.compressive_strength) for law in laws)
@@ -304,7 +250,7 @@ def _source(section: SpectrumSection) -> str:
     return "table" if section.table is not None else "EN 1998-1" if section.ntc_2018 is None else "NTC 3.2.3.2.1"
 
 
-def _why_no_displacement(case: CaseResult, mechanism: _Mechanism) -> str:
+def _why_no_displacement(case: CaseResult, mechanism: KinematicBlocks) -> str:
     """What keeps the curve of a pushover from a verdict, in words; empty where nothing does."""
     from mbla.solution.pushover.curve import dropped  # late, as few load cases are pushed
 

@@ -14,15 +14,11 @@ from mbla.program.static import PointMotion
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathPoint, ProgramRecord, Status
-from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL, STILL
 
 NEAR_ZERO = 1e-5
 """Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
 share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
-
-
-STILL = 1e-12
-"""Velocity over the largest of the motion that is rounding: where no contact point moves more, no joint does."""
 
 SPREAD_STEPS = 10
 """Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""

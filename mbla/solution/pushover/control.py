@@ -48,7 +48,7 @@ class Control:
         speed = np.linalg.norm(mechanism[:, :3], axis=1)
         moves = np.flatnonzero(speed > MOVES * speed.max())
         loads = case.live_load[moves, :3]
-        along, own = loads.sum(axis=0), _centre(model, moves)
+        along = loads.sum(axis=0)
         size = float(np.linalg.norm(along))
         if size > 0.0:  # by its share of the live load, where that acts: so the control point does the work of it
             along = along / size
@@ -57,6 +57,7 @@ class Control:
             levers = case.pushover.live_levers[moves].reshape(-1, 3, 3) @ along
             arms = np.where(acts[:, None], levers / np.where(acts, shares, 1.0)[:, None], 0.0)
             return Control(moves, model.blocks.centroids[moves] + arms, shares / size, along)
+        own = _centre(model, moves)
         direction = own["weights"] @ mechanism[moves, :3]
         return Control(moves, direction=direction / np.linalg.norm(direction), **own)
 

@@ -162,9 +162,10 @@ def _analysed(
         more = _ask_for(required, tries)
         if more is None or (raised > 1.0 and tries[-1].carries(required)):
             break
-        after = cheapest(question.asking(more)) if raised == 1.0 else None
+        raising = question.asking(more)
+        after = cheapest(raising) if raised == 1.0 else None
         if after is not None and after.status in WITH_VALUE:
-            asked, wanted = more, with_fewer(question.asking(more), after, catalogue)
+            asked, wanted = more, with_fewer(raising, after, catalogue)
         else:
             raised *= RAISE
     best = min((each for each in tries if each.carries(required)), key=lambda each: each.cost, default=tries[-1])
