@@ -62,7 +62,8 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     pairs = find_block_pairs(model.blocks, section.tolerance)
     facets = build_facets(model.blocks)
     verdicts, separated = _verdicts(model, facets, section.tolerance)
-    overlaps = find_overlaps(model.blocks, facets, pairs, section.tolerance)
+    # blocks that do not move are never in contact, whatever they share: footings drawn into each other
+    overlaps = find_overlaps(model.blocks, facets, pairs[~both_fixed(model, pairs)], section.tolerance)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
     bodies = movable.overlays.bodies

@@ -60,6 +60,14 @@ def test_identical_blocks_overlap(scale: float) -> None:
     assert found.depths == pytest.approx([1 / 3], rel=1e-9)
 
 
+@pytest.mark.parametrize(("fixed", "count"), [((0, 1), 0), ((0,), 1), ((), 1)])
+def test_blocks_that_do_not_move_may_overlap(fixed: tuple[int, ...], count: int) -> None:
+    three = boxes(([0, 0, 0], [1, 1, 1]), ([0.5, 0, 0], [1.5, 1, 1]), ([0, 0, 1], [1, 1, 2]))
+    report = find_contacts(model_of(blocks_of(three), fixed=fixed), section()).report
+    assert len(report.overlaps) == count
+    assert any(notice.identifier == "blocks-overlap" for notice in report.notices) == bool(count)
+
+
 def test_a_cross_of_two_bars_overlaps() -> None:
     """No corner of either lies in the other."""
     found = overlaps_of(boxes(([-5, -1, -1], [5, 1, 1]), ([-1, -5, -1], [1, 5, 1])))
