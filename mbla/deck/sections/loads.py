@@ -24,6 +24,7 @@ from mbla.deck.quantities import (
     Stress,
     UnitWeight,
     Vector,
+    WallFrictionAngle,
 )
 from mbla.deck.section import EXACTLY_ONE, Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
@@ -110,11 +111,24 @@ def _parallel(a: list[float], b: tuple[float, ...]) -> bool:
 
 
 class PressureLoad(Section):
-    """Pressure on faces: the same everywhere, or growing with depth below a level, and none above it."""
+    """Pressure on faces: the same everywhere, or growing with depth below a level, and none above it.
 
-    value: Stress = Field(0.0, description="pressure, at the level if there is one; positive pushes against the face")
+    Earth pressure of soil with the unit weight γ, whose top is the `level` and carries q per area: `value` K q,
+    `per_depth` K γ, `wall_friction` δ, with the coefficient K of the pressure that is normal to the wall. Coulomb's
+    coefficient K_a, which is that of the whole pressure, inclined by δ, is to be multiplied by cos δ.
+    """
+
+    value: Stress = Field(
+        0.0,
+        description="pressure normal to the face, at the level if there is one; positive pushes against the face",
+    )
     level: Length | None = Field(None, description="height z above which there is no pressure")
     per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")
+    wall_friction: WallFrictionAngle = Field(
+        0.0,
+        description="angle δ between what acts on the face and its normal, in degrees: the pressure p drags the face "
+        "with p tan δ besides, straight down its slope, as soil does that settles along a wall; up where δ is negative",
+    )
     normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
     within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
     box: Box | None = Field(None, description="least and greatest coordinates: faces whose centroid lies inside")

@@ -1,5 +1,7 @@
 """Load `pressure`: p on faces, F = -∫ p n dA with the moment -∫ (x - c) × p n dA about the centroid c of the block.
 
+With wall friction δ the face is dragged besides, F += ∫ p tan δ d dA with the unit vector d down the slope of the face.
+
 p is the same everywhere, or p = value + per_depth · (level - z) below a level and nothing above. Faces that cross the
 level are cut there. The integrands are of second degree at most, so that the three middles of the edges of a triangle
 integrate them exactly (Strang and Fix 1973, An Analysis of the Finite Element Method, table 4.1).
@@ -48,6 +50,13 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
             words = f"all of these faces lie above its level, z = {pressure.level:g}, or are covered by other blocks"
         _refuse(words, here, site)
         return None
+    if pressure.wall_friction and _on_level_faces(wrenches, site.blocks.face_normals[faces]):
+        words = (
+            "a level face is among these, along which nothing points down: say with normal which faces are meant, and "
+            "load level ones without wall friction"
+        )
+        site.refuse(Finding("friction-on-level-face", words, *here, "wall_friction"))
+        return None
     words = _in_words(pressure, float(areas.sum()), int((areas > 0).sum()), site)
     share = parts.covered / parts.areas
     if partly := int(((share > 2.0 * site.tolerance) & (share < 1.0) & (areas > 0)).sum()):
@@ -82,14 +91,33 @@ def _integrals(
     normals = blocks.face_normals[faces][parts.faces]
     areas = np.einsum("nkj,nj->nk", np.cross(b - a, c - a), normals) / 2
     centroids = blocks.centroids[blocks.block_of_face[faces]][parts.faces]
+    directions = math.tan(math.radians(pressure.wall_friction)) * _down_slope(normals) - normals
     wrenches = np.zeros((len(faces), 15))
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
-        push = -(_pressure(pressure, middle) * areas / 3)[..., None] * normals[:, None]
+        push = (_pressure(pressure, middle) * areas / 3)[..., None] * directions[:, None]
         around = np.broadcast_to(centroids[:, None], middle.shape)
         own = wrenches_of(*(values.reshape(-1, 3) for values in (push, middle, around)))
         np.add.at(wrenches, parts.faces, own.reshape(*middle.shape[:2], 15).sum(axis=1))
     loaded = np.bincount(parts.faces, areas.sum(axis=1), len(faces))
     return wrenches, np.where(loaded > 1e-9 * parts.areas, loaded, 0.0)
+
+
+LEVEL = 1e-6
+"""horizontal component of the unit normal of a face up to which it is level and has no direction down its slope"""
+
+
+def _down_slope(normals: FloatArray) -> FloatArray:
+    """Unit vectors in faces that point down as steeply as the faces do, zero in level ones; both (n, 3)."""
+    slopes = np.hypot(normals[:, 0], normals[:, 1])
+    down = normals[:, 2:] * normals - np.array([0.0, 0.0, 1.0])
+    return np.asarray(np.where(slopes > LEVEL, 1.0, 0.0)[:, None] * down / np.maximum(slopes, LEVEL)[:, None])
+
+
+def _on_level_faces(wrenches: FloatArray, normals: FloatArray) -> bool:
+    """Whether faces (n, 3) carry anything that are level, with more than rounding of the level of the pressure."""
+    pushed = np.linalg.norm(wrenches[:, :3], axis=1)
+    level = np.hypot(normals[:, 0], normals[:, 1]) <= LEVEL
+    return bool((pushed[level] > 1e-9 * pushed.max()).any())
 
 
 def _pressure(pressure: PressureLoad, points: FloatArray) -> FloatArray:
@@ -106,6 +134,8 @@ def _in_words(pressure: PressureLoad, area: float, count: int, site: LoadSite) -
     words = f"pressure {' + '.join(terms)}"
     if pressure.level is not None:
         words += f" below z = {pressure.level:.6g} {units.length}"
+    if pressure.wall_friction:
+        words += f", inclined {'up' if pressure.wall_friction < 0 else 'down'} by {abs(pressure.wall_friction):.6g}°"
     return f"{words}, on {counted(count, 'face')} ({area:.6g} {units.length}2)"
 
 

@@ -126,6 +126,81 @@ def test_box_and_angle_choose_faces(tmp_path: Path) -> None:
                 model(tmp_path, pressure, arch, "[]")
 
 
+def earth_pressure(soil: float, wall: float, batter: float, slope: float) -> float:
+    """Coulomb's K_a, of the whole pressure: φ, δ, back of the wall from upright, leaning to the soil below, and slope.
+
+    Coulomb 1776; EN 1998-5 annex E (E.3) with no earthquake. All in degrees.
+    """
+    phi, delta, psi, beta = np.radians([soil, wall, 90.0 - batter, slope])
+    root = np.sqrt(np.sin(phi + delta) * np.sin(phi - beta) / (np.sin(psi - delta) * np.sin(psi + beta)))
+    return float(np.sin(psi + phi) ** 2 / (np.sin(psi) ** 2 * np.sin(psi - delta) * (1.0 + root) ** 2))
+
+
+def test_coefficient_of_coulomb() -> None:
+    """The usual tables: φ = 30°, level soil, upright backs with δ = 0 (Rankine), 15° and 20°; a back at 10°, smooth."""
+    assert earth_pressure(30, 0, 0, 0) == pytest.approx(1 / 3)
+    assert earth_pressure(30, 20, 0, 0) == pytest.approx(0.2973, abs=1e-4)
+    assert earth_pressure(30, 15, 0, 0) == pytest.approx(0.3014, abs=1e-4)
+    assert earth_pressure(30, 0, 10, 0) == pytest.approx(0.4067, abs=2e-4)
+
+
+@pytest.mark.parametrize("units", ["", "length: mm, force: kN, mass: t"])
+@pytest.mark.parametrize("batter", [-12.0, 0.0, 15.0])
+@pytest.mark.parametrize("wall", [20.0, -10.0])
+def test_earth_pressure_with_wall_friction(tmp_path: Path, units: str, batter: float, wall: float) -> None:
+    """½ K γ H² + K q H per width over cos(batter), at δ from the normal of the back, at a third and half of it.
+
+    The soil stands at x > back of a wall 3 m wide (y) and 4 m high, with 18 kN/m3 and 10 kN/m2 on it. The back leans
+    to the soil below, if the batter is positive.
+    """
+    run = 4.0 * np.tan(np.radians(batter))
+    coefficient = earth_pressure(30.0, max(wall, 0.0), batter, 0.0)
+    whole = coefficient * np.array([10e3, 18e3])
+    length, force = (1e3, 1e-3) if units else (1.0, 1.0)
+    corners = np.array([(0, 0), (2 + run, 0), (2, 4), (0, 4)]) * length
+    points = [[float(x), y * length, float(z)] for y in (0.0, 3.0) for x, z in corners]
+    sides = "[[0,1,2,3],[7,6,5,4],[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]]"
+    wall_block = f"polyhedron: {{group: wall, material: stone, vertices: {points}, faces: {sides}}}"
+    normal = whole * np.cos(np.radians(wall))
+    given = (
+        f"normal: [1, 0, 0], within: 20, value: {normal[0]} Pa, level: 4 m, per_depth: {normal[1]} N/m^3, "
+        f"wall_friction: {wall}"
+    )
+    loads = f"dead: [{{gravity: none}}, {{pressure: {{{given}}}}}], live: [{{acceleration: [1, 0, 0]}}]"
+    found = load_about(build_model(deck(tmp_path, [wall_block], GROUND, loads, units)), [0, 0, 0])
+    sizes = np.array([whole[0] * 4.0, whole[1] * 8.0]) * 3.0 / np.cos(np.radians(batter))
+    angle = np.radians(batter + wall)  # from the level, downwards, of what pushes to -x
+    parts = sizes[:, None] * [-np.cos(angle), 0.0, -np.sin(angle)]
+    heights = np.array([2.0, 4.0 / 3.0])
+    places = np.column_stack([2.0 + run * (1.0 - heights / 4.0), np.full(2, 1.5), heights])
+    expected = np.concatenate([parts.sum(axis=0) * force, np.cross(places, parts).sum(axis=0) * force * length])
+    assert found == pytest.approx(expected, rel=1e-10, abs=1e-7)
+
+
+def test_wall_friction_turns_with_the_structure(tmp_path: Path) -> None:
+    """Back faces to every side: each is dragged straight down its slope, by tan δ of what presses it."""
+    pyramid = (
+        "polyhedron: {group: p, material: stone, vertices: [[0,0,0],[4,0,0],[4,2,0],[0,2,0],[1.5,1.2,3]], "
+        "faces: [[0,3,2,1],[0,1,4],[1,2,4],[2,3,4],[3,0,4]]}"
+    )
+    for normal in ([1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]):
+        given = f"normal: {normal}, within: 60, value: 3"
+        pushed = load_about(model(tmp_path, given, [pyramid]), [0, 0, 0])[:3]
+        dragged = load_about(model(tmp_path, f"{given}, wall_friction: 30", [pyramid]), [0, 0, 0])[:3] - pushed
+        assert np.linalg.norm(dragged) == pytest.approx(np.tan(np.pi / 6) * np.linalg.norm(pushed))
+        assert dragged @ pushed == pytest.approx(0.0, abs=1e-12)
+        assert np.cross(dragged, pushed)[2] == pytest.approx(0.0, abs=1e-12)  # in the upright plane of the normal
+        assert dragged[2] < 0
+
+
+def test_no_direction_down_a_level_face(tmp_path: Path) -> None:
+    given = "level: 4, per_depth: 20, wall_friction: 10"
+    with pytest.raises(DeckError, match=r"a level face is among these"):
+        model(tmp_path, "level: 5, per_depth: 20, wall_friction: 10", DAM)
+    # at the level itself there is no pressure, and the foot stands on the ground
+    assert load_about(model(tmp_path, given, DAM), [1, 1.5, 0])[2] < 0
+
+
 @pytest.mark.parametrize(("units", "length", "force"), [("length: mm, force: kN, mass: t", 1e3, 1e-3)])
 def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
     metres = load_about(model(tmp_path, "normal: [-1, 0, 0], level: 3, per_depth: 10000", DAM), [0, 0, 0])
@@ -144,6 +219,8 @@ def test_units(tmp_path: Path, units: str, length: float, force: float) -> None:
         ("value: 500", "pressure 500 N/m2, on 1 face (12 m2)"),
         ("value: 500, level: 3", "pressure 500 N/m2 below z = 3 m, on 1 face (9 m2)"),
         ("level: 3, per_depth: 20", "pressure 20 N/m3 times depth below z = 3 m, on 1 face (9 m2)"),
+        ("value: 500, wall_friction: 20", "pressure 500 N/m2, inclined down by 20°, on 1 face (12 m2)"),
+        ("value: 500, wall_friction: -2.5", "pressure 500 N/m2, inclined up by 2.5°, on 1 face (12 m2)"),
         ("value: 5, level: 3, per_depth: 20", "pressure 5 N/m2 + 20 N/m3 times depth below z = 3 m, on 1 face (9 m2)"),
     ],
 )
