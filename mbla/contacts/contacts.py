@@ -136,7 +136,8 @@ class ContactReport:
     near_miss_gaps : (n,) greatest distance over the common surface, relative to block size; negative where faces
                      overlap
     overlaps       : (n, 2) blocks that share volume deeper than the tolerance
-    overlap_depths : (n,) relative to block size
+    overlap_depths : (n,) how far they reach into each other, relative to block size
+    overlap_swallows : (n,) where one reaches through half of the other
     unchecked      : (n, 2) pairs of blocks whose overlap could not be judged, because one is not a closed solid
     isolated       : blocks without any contact
     unsupported    : connected parts of free blocks that reach no support, each a sorted array of blocks (blocks without
@@ -154,6 +155,7 @@ class ContactReport:
     near_miss_gaps: FloatArray
     overlaps: IntArray
     overlap_depths: FloatArray
+    overlap_swallows: BoolArray
     unchecked: IntArray
     isolated: IntArray
     unsupported: tuple[IntArray, ...]

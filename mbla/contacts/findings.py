@@ -153,7 +153,7 @@ _OUTSIDE = 1e-6
 def bent_faults(deck: Deck, model: Model, contacts: Contacts) -> list[Fault]:
     """A fault for each block with bent faces in contact, at its item, as for faces that cannot be split."""
     bent, tolerance = model.bent, deck.contacts.tolerance
-    rows, others = bent_contacts(model, contacts, tolerance)
+    rows, others = bent_contacts(model, contacts, max(tolerance, deck.contacts.depth_allowed))
     if not len(rows):
         return []
     blocks = bent.blocks[rows]
@@ -200,6 +200,18 @@ def _lies_on(points: FloatArray, normals: FloatArray, triangles: FloatArray, rea
     return np.asarray(inside & near & (np.einsum("ki,ki->k", normals, unit) > _FACING))
 
 
+def _overlap_findings(deck: Deck, model: Model, contacts: Contacts) -> Iterator[tuple[KeyPath, Message]]:
+    """Blocks that overlap; at the tolerance that would accept them, were one of them not swallowed."""
+    report, key = contacts.report, "tolerance" if deck.contacts.overlap_tolerance is None else "overlap_tolerance"
+    within = report.overlap_swallows & (report.overlap_depths <= deck.contacts.depth_allowed)
+    for words in overlap_messages(model, report):
+        yield ("blocks",), Message("blocks-overlap", words)
+    if within.any():
+        first, second = map(model.blocks.name, report.overlaps[within][0].tolist())
+        words = f"so great that it would swallow a block: {first} and {second} reach through half of one another"
+        yield ("contacts", key), Message("block-swallowed", words)
+
+
 def contacts_of(deck: Deck, model: Model) -> Contacts:
     """Contacts of a model.
 
@@ -212,10 +224,7 @@ def contacts_of(deck: Deck, model: Model) -> Contacts:
         contacts = find_contacts(model, deck.contacts)
     except ContactsRefused as refused:
         raise DeckError([deck.fault_at(refused.path, refused.message)]) from refused
-    faults = [
-        deck.fault_at(("blocks",), Message("blocks-overlap", message))
-        for message in overlap_messages(model, contacts.report)
-    ]
+    faults = [deck.fault_at(path, message) for path, message in _overlap_findings(deck, model, contacts)]
     faults += bent_faults(deck, model, contacts)
     faults += [deck.fault_at(path, message) for path, message in glue_findings(model, contacts)]
     faults += [deck.fault_at(path, message) for path, message in objective_findings(model, contacts)]

@@ -79,10 +79,12 @@ class MovedSearch:
         self._corners, self._facet_of_corner = corners
         self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
         self._edges = self._joined = np.zeros(0, dtype=np.int64)
+        self._reach = max(REACH, 2.0 * section.depth_allowed)
         overlays, parts = self._near(model, self.facets)
         least, greatest = _extreme_gaps(overlays, parts)
-        apart = ((greatest > section.tolerance) & (least < section.tolerance)) | (widths(parts) < section.tolerance)
-        pair, joined = self._pair(overlays.bodies, overlays.facets), ~apart & (greatest <= section.tolerance)
+        touches = (greatest <= section.tolerance) & (least >= -section.depth_allowed)
+        apart = (~touches & (least < section.tolerance)) | (widths(parts) < section.tolerance)
+        pair, joined = self._pair(overlays.bodies, overlays.facets), ~apart & touches
         self._edges = np.unique(pair[apart])
         self._joined, first = np.unique(pair[joined], return_index=True)
         middles = gap_at(overlays, np.arange(len(parts)), areas_and_centroids(needed_corners(parts, NARROW))[1])
@@ -137,7 +139,7 @@ class MovedSearch:
         overlays, shapes = self._between(model, facets)
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
-        near = (widths(parts) > NARROW) & (np.abs(_extreme_gaps(overlays, parts)[0]) < REACH)
+        near = (widths(parts) > NARROW) & (np.abs(_extreme_gaps(overlays, parts)[0]) < self._reach)
         near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
             self._pair(overlays.bodies, overlays.facets), self._edges
         )

@@ -3,7 +3,8 @@
 Both outlines are projected onto the mean plane of the two facets and intersected; every connected part of the result
 is judged by itself (tolerance ε, lengths relative to the block size of the pair):
 
-- contact:    the gap is at most ε at every corner, and the part is at least ε wide;
+- contact:    the gap is at most ε at every corner, and the part is at least ε wide; where blocks overlap the gap is
+              negative, and at least minus the tolerance of overlaps;
 - sliver:     the gap is at most ε, but the part is narrower;
 - near miss:  the gap is more than ε somewhere, halfway between its extremes at most 10 ε, and the part is at least
               ε wide.
@@ -67,8 +68,14 @@ class Verdicts:
     near_misses: Patches
 
 
-def find_patches(blocks: Blocks, facets: Facets, grounds: tuple[Ground, ...], tolerance: float) -> Patches:
-    """All common surfaces of blocks with blocks and with grounds, whatever their gap (within reach)."""
+def find_patches(
+    blocks: Blocks, facets: Facets, grounds: tuple[Ground, ...], tolerance: float, overlap: float = 0.0
+) -> Patches:
+    """All common surfaces of blocks with blocks and with grounds, whatever their gap (within reach).
+
+    overlap : greatest depth that counts as touching, relative to block size
+    """
+    tolerance = max(tolerance, overlap / NEAR_MISS)
     between, first, second = _between_blocks(blocks, facets, tolerance)
     keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
     between = between.take(keep)
@@ -83,15 +90,18 @@ def find_patches(blocks: Blocks, facets: Facets, grounds: tuple[Ground, ...], to
     return _measured(concatenate(overlays).take(row), parts, shapely.area(facets.polygons))
 
 
-def judge(patches: Patches, tolerance: float, reach: float | None = None) -> Verdicts:
+def judge(
+    patches: Patches, tolerance: float, reach: float | None = None, overlap: float | None = None
+) -> Verdicts:
     """Sort common surfaces into contacts, slivers and near misses.
 
-    reach : greatest gap of near misses, ten tolerances unless given
+    reach   : greatest gap of near misses, ten tolerances unless given
+    overlap : greatest depth at which blocks touch, that of gaps unless given
     """
-    gap = np.abs(patches.gaps)
     # Equality with the tolerance must not hang on the last digit.
-    limit = tolerance * (1 + 1e-9) + _ROUNDING
-    close = gap <= limit
+    limit, depth = (each * (1 + 1e-9) + _ROUNDING for each in (tolerance, tolerance if overlap is None else overlap))
+    other_gaps = 2 * patches.mid_gaps - patches.gaps
+    close = (np.maximum(patches.gaps, other_gaps) <= limit) & (np.minimum(patches.gaps, other_gaps) >= -depth)
     near = ~close & (np.abs(patches.mid_gaps) <= (NEAR_MISS * limit if reach is None else reach))
     visible = patches.widths > _EDGE * tolerance
     wide = (patches.widths >= tolerance * (1 - 1e-9)) | (visible & (patches.coverage >= _NARROW_FACET))

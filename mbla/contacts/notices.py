@@ -11,6 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
 from mbla.contacts.glue import solid_sizes
 from mbla.contacts.narrow_phase import Patches
+from mbla.contacts.overlaps import MOST_OVERLAPS
 from mbla.contacts.report import WIDEST, Findings
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
@@ -27,6 +28,7 @@ def report_notices(
     return (
         *_loose(model, section, report),
         *(Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)),
+        *_accepted(model, findings),
         *_missed(model, section, report),
         *_grounds(model, section, bodies),
         *_left_out(model, report, findings),
@@ -51,12 +53,44 @@ def _loose(model: Model, section: ContactsSection, report: ContactReport) -> Ite
 
 
 def overlap_messages(model: Model, report: ContactReport) -> tuple[str, ...]:
-    """One sentence for each pair of blocks that overlap: names, depth, remedy; any makes the deck invalid."""
-    return tuple(
-        f"{_pair(model, pair)} overlap by {_length(model, pair, depth)}: move them apart, leave one out"
-        f"{_by_tolerance(depth, ', or set contacts.tolerance above {:.2g} if they are meant to touch')}"
-        for pair, depth in zip(report.overlaps, report.overlap_depths.tolist(), strict=True)
-    )
+    """One sentence for all pairs of blocks that overlap, none without: any makes the deck invalid.
+
+    How many, which most and by how much, and the tolerance at which all are accepted.
+    """
+    if not (number := len(report.overlaps)):
+        return ()
+    most = _deepest(model, report.overlaps, report.overlap_depths)
+    which, far = _pair(model, report.overlaps[most]), _length(model, report.overlaps[most], report.overlap_depths[most])
+    many = f"more than {MOST_OVERLAPS}" if number > MOST_OVERLAPS else f"{number}"
+    text = f"{which} overlap by {far}" if number == 1 else f"{many} pairs of blocks overlap, {which} most, by {far}"
+    text += ": move them apart, leave one out"
+    if number > MOST_OVERLAPS or report.overlap_swallows.any():
+        return (text,)
+    accepted = ", or set contacts.overlap_tolerance above {:.2g} if they are meant to touch"
+    if number > 1:
+        accepted += f", which accepts all {number}"
+    return (text + _by_tolerance(float(report.overlap_depths.max()), accepted),)
+
+
+def _deepest(model: Model, pairs: IntArray, relative: FloatArray) -> int:
+    """The first of the pairs of blocks (n, 2) that reach deepest into each other, up to rounding."""
+    depths = relative * model.blocks.sizes[pairs].min(axis=1)
+    return int(np.argmax(depths >= (1 - 1e-9) * depths.max()))
+
+
+def _accepted(model: Model, findings: Findings) -> Iterator[Notice]:
+    """Overlaps within the tolerance: how much counts twice."""
+    overlaps, volume = findings.overlaps, float(model.blocks.volumes.sum())
+    if number := len(overlaps.accepted):
+        most = _deepest(model, overlaps.accepted, overlaps.accepted_depths)
+        common = float(overlaps.common.sum())
+        text = (
+            f"{counted(number, 'pair')} of blocks {'overlaps' if number == 1 else 'overlap'} within the tolerance, "
+            f"most {_measured(model, overlaps.accepted[most], overlaps.accepted_depths[most])}; contacts lie "
+            f"midway, and the {common:.3g} {model.units.length}3 that they share, {100 * common / volume:.2g} % of the "
+            "volume of all blocks, counts in the weight of both"
+        )
+        yield Notice("notice", "overlaps-accepted", text)
 
 
 def _missed(model: Model, section: ContactsSection, report: ContactReport) -> Iterator[Notice]:
@@ -69,12 +103,13 @@ def _missed(model: Model, section: ContactsSection, report: ContactReport) -> It
         yield Notice("warning", "overlap-not-checked", text)
     if number := len(report.near_misses):
         gaps = np.abs(report.near_miss_gaps)
-        least = int(np.argmin(gaps))
+        sizes = np.append(model.blocks.sizes, np.full(len(model.grounds), np.inf))[report.near_misses].min(axis=1)
+        least, most = int(np.argmin(gaps)), int(np.argmax(gaps * sizes))
+        widest = "" if number == 1 else f", the widest {_measured_at(model, report, most)}"
         text = (
             f"{counted(number, 'near miss')}, opposite faces that miss each other by more than the tolerance of "
-            f"{section.tolerance:g}: {_measured(model, report.near_misses[least], report.near_miss_gaps[least])}"
-            f"{_more(number)}; they are no contacts"
-            f"{_by_tolerance(float(gaps.max()), ', with contacts.tolerance above {:.2g} all of them are')}"
+            f"{section.tolerance:g}: {_measured_at(model, report, least)}{_more(number)}{widest}; they are no contacts"
+            f"{_closing(section, report.near_miss_gaps)}"
         )
         yield Notice("warning", "near-misses", text)
     if number := len(report.slivers):
@@ -84,6 +119,23 @@ def _missed(model: Model, section: ContactsSection, report: ContactReport) -> It
             f"{_measured(model, report.slivers[widest], report.sliver_widths[widest])}{_more(number)}"
         )
         yield Notice("notice", "slivers-dropped", text)
+
+
+def _closing(section: ContactsSection, gaps: FloatArray) -> str:
+    """The tolerances at which near misses (n,), negative where faces overlap, are contacts; nothing where none does."""
+    depth, gap = float(-gaps.min(initial=0.0)), float(gaps.max(initial=0.0))
+    if section.overlap_tolerance is None and gap:  # one tolerance does both
+        depth, gap = 0.0, max(depth, gap)
+    named = {"contacts.tolerance": gap, "contacts.overlap_tolerance": depth}
+    parts = [_by_tolerance(value, f"{key} above {{:.2g}}") for key, value in named.items() if value]
+    if not all(parts):
+        return ""
+    real = ", and so is every real gap of the file up to that" if gap else ""
+    return f", with {' and '.join(parts)} all of them are{real}"
+
+
+def _measured_at(model: Model, report: ContactReport, row: int) -> str:
+    return _measured(model, report.near_misses[row], report.near_miss_gaps[row])
 
 
 def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> Iterator[Notice]:
@@ -97,7 +149,7 @@ def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> Iterat
             continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
         height = (blocks.vertices - ground.point) @ ground.normal
         depths, heights = (row_maxima(sign * height, blocks.vertex_start) for sign in (-1.0, 1.0))
-        crossing = np.flatnonzero(np.minimum(depths, heights) > section.tolerance * blocks.sizes)
+        crossing = np.flatnonzero(np.minimum(depths, heights) > max(section.tolerance, section.depth_allowed) * blocks.sizes)
         if len(crossing):
             which = named(crossing, model.blocks.name)
             text = f"{counted(len(crossing), 'block')} on both sides of {ground.label}: {which}"

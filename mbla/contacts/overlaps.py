@@ -3,7 +3,13 @@
 Two blocks are apart if the plane of some facet has all of one on its inner side and all of the other on its outer side,
 up to the tolerance. Pairs without such a plane are intersected as solids: with V the volume and S the surface of what
 they share, they overlap if the thickness 2 V / S exceeds the tolerance times the block size. The measure sees identical
-and nested blocks too, which no comparison of faces does. Only this module imports manifold3d (when it is needed).
+and nested blocks too, which no comparison of faces does. Where it is exceeded, what is told is how far the two must be
+moved apart (:mod:`mbla.contacts.penetration`), which is no less.
+
+A pair that overlaps by less is accepted, and the weight of what it shares counts twice. It is not where one of the two
+is so thin that the other reaches through half of it: then no faces of the two touch midway.
+
+Only this module imports manifold3d (when it is needed).
 """
 
 from __future__ import annotations
@@ -13,10 +19,10 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import frames_from_normals
-from mbla.errors import MOST_FAULTS
+from mbla.contacts.penetration import convex_penetration, deepest_point
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import chunks, ranges, rows_and_items
 
@@ -24,30 +30,45 @@ from mbla.model.solids.ragged import chunks, ranges, rows_and_items
 _BATCH = 1_000_000
 # Products of facets and vertices above which a pair is intersected at once: for surveyed stones that is the faster way.
 _LARGE = 1_000_000
+MOST_OVERLAPS = 20_000
+"""pairs of blocks that overlap, after which no more are looked at: the deck is refused anyway"""
+SLIGHT = 1e-3
+"""overlap relative to block size that is rounding, and not remarked on where it is accepted"""
+HALF = 0.5
+"""share of the thickness of a block by which another may reach into it and still touch the face it came through"""
 
 
 @dataclass(frozen=True)
 class Overlaps:
     """Pairs of blocks that share volume.
 
-    pairs     : (n, 2) blocks; only the first of more than ``MOST_FAULTS``, for which the deck is refused anyway
-    depths    : (n,)   thickness of the shared volume relative to block size
+    pairs     : (n, 2) blocks that overlap by more than the tolerance; those that swallow one of the two included
+    depths    : (n,)   how far they reach into each other, relative to block size
     unchecked : (m, 2) pairs that could not be judged, because one of the blocks is not a closed solid
+    accepted  : (k, 2) pairs that overlap by no more than the tolerance, but by more than rounding
+    accepted_depths : (k,) relative to block size
+    common    : (k,) m3 that each of them shares
+    swallows  : (n,) pairs of which one reaches through half of the other: no tolerance accepts these
     """
 
     pairs: IntArray
     depths: FloatArray
     unchecked: IntArray
+    accepted: IntArray
+    accepted_depths: FloatArray
+    common: FloatArray
+    swallows: BoolArray
 
 
 def find_overlaps(blocks: Blocks, facets: Facets, pairs: IntArray, tolerance: float) -> Overlaps:
-    """Overlaps of pairs of blocks, (n, 2), deeper than the tolerance (relative to block size)."""
+    """Overlaps of pairs of blocks, (n, 2), deeper than the tolerance (relative to block size), and those accepted."""
     for one, other in ((0, 1), (1, 0)):
         n_facets, n_vertices = np.diff(facets.facet_start), np.diff(blocks.vertex_start)
         first, second, sizes = pairs[:, one], pairs[:, other], blocks.sizes[pairs].min(axis=1)
         small = n_facets[first] * np.maximum(n_vertices[first], n_vertices[second]) <= _LARGE
         together = ~small
-        together[small] = _clearances(blocks, facets, first[small], second[small]) < -tolerance * sizes[small]
+        least = min(tolerance, SLIGHT)
+        together[small] = _clearances(blocks, facets, first[small], second[small]) < -least * sizes[small]
         pairs = pairs[together]
     return _by_solids(blocks, pairs, tolerance)
 
@@ -83,8 +104,10 @@ def _least_heights(blocks: Blocks, facets: Facets, one: IntArray, other: IntArra
 
 
 def _by_solids(blocks: Blocks, pairs: IntArray, tolerance: float) -> Overlaps:
-    """Judge the pairs left over one by one, until there are more overlaps than are reported."""
-    found, depths, unchecked = [], [], []
+    """Judge the pairs left over one by one."""
+    found: list[tuple[tuple[int, int], float, bool]] = []
+    accepted: list[tuple[tuple[int, int], float, float]] = []
+    unchecked = []
     triangles = triangulate_blocks(blocks, np.unique(pairs))
     for a, b in pairs.tolist():
         smaller = a if blocks.sizes[a] <= blocks.sizes[b] else b
@@ -94,17 +117,50 @@ def _by_solids(blocks: Blocks, pairs: IntArray, tolerance: float) -> Overlaps:
             unchecked.append((a, b))
             continue
         common = one ^ other
-        thickness = 2 * abs(common.volume()) / (common.surface_area() or 1.0)
-        if thickness > tolerance:
-            found.append((a, b))
-            depths.append(thickness)
-            if len(found) > MOST_FAULTS:
+        volume = abs(common.volume())
+        thickness = 2 * volume / (common.surface_area() or 1.0)
+        if thickness <= min(tolerance, SLIGHT):
+            continue
+        depth, swallows = _depth(blocks, (a, b), common, triangles)
+        depth = max(depth, thickness)
+        if thickness > tolerance or swallows:
+            found.append(((a, b), depth, swallows))
+            if len(found) > MOST_OVERLAPS:
                 break
+        else:
+            accepted.append(((a, b), depth, volume * size**3))
     return Overlaps(
-        np.array(found, dtype=np.int64).reshape(-1, 2),
-        np.array(depths, dtype=np.float64),
-        np.array(unchecked, dtype=np.int64).reshape(-1, 2),
+        pairs=_pairs([pair for pair, *_ in found]),
+        depths=np.array([depth for _, depth, _ in found], dtype=np.float64),
+        unchecked=_pairs(unchecked),
+        accepted=_pairs([pair for pair, *_ in accepted]),
+        accepted_depths=np.array([depth for _, depth, _ in accepted], dtype=np.float64),
+        common=np.array([volume for *_, volume in accepted], dtype=np.float64),
+        swallows=np.array([swallows for *_, swallows in found], dtype=bool),
     )
+
+
+def _pairs(found: list[tuple[int, int]]) -> IntArray:
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
+def _depth(
+    blocks: Blocks, pair: tuple[int, int], common: Any, triangles: dict[int, IntArray]
+) -> tuple[float, bool]:
+    """How far two blocks reach into each other, relative to block size, and whether through half of one of them."""
+    sizes = blocks.sizes[list(pair)]
+    size, origin = float(sizes.min()), blocks.centroids[pair[int(np.argmin(sizes))]]
+    if blocks.convex[list(pair)].all() and (out := convex_penetration(blocks, *pair)) is not None:
+        distance, way = out
+        extents = [_extent(blocks, block, way) for block in pair]
+        return distance / size, distance > HALF * min(extents)
+    one, other = ((blocks.vertices[triangles[block]] - origin) / size for block in pair)
+    return deepest_point(common, one, other) or 0.0, False
+
+
+def _extent(blocks: Blocks, block: int, direction: FloatArray) -> float:
+    """Of a block along a direction, m."""
+    return float(np.ptp(blocks.vertices[blocks.vertex_start[block] : blocks.vertex_start[block + 1]] @ direction))
 
 
 def triangulate_blocks(blocks: Blocks, chosen: IntArray) -> dict[int, IntArray]:

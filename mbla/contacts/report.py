@@ -56,6 +56,7 @@ def build_report(model: Model, findings: Findings) -> ContactReport:
         near_miss_gaps=gaps,
         overlaps=overlaps.pairs,
         overlap_depths=overlaps.depths,
+        overlap_swallows=overlaps.swallows,
         unchecked=overlaps.unchecked,
         isolated=np.setdiff1d(np.arange(len(model.blocks)), held),
         unsupported=unsupported_parts(held_blocks(model), held),
@@ -139,11 +140,11 @@ WIDEST = 0.1
 """Gap relative to block size up to which faces nearly touch where blocks reach no support: the greatest tolerance."""
 
 
-def misses_within(model: Model, facets: Facets, tolerance: float) -> Patches | None:
+def misses_within(model: Model, facets: Facets, tolerance: float, overlap: float) -> Patches | None:
     """Near misses with gaps up to ``WIDEST``; None where those of the search reach as far."""
     if NEAR_MISS * tolerance >= WIDEST:
         return None
     patches = find_patches(model.blocks, facets, model.grounds, WIDEST / NEAR_MISS)
-    found = judge(patches, tolerance, WIDEST).near_misses
+    found = judge(patches, tolerance, WIDEST, overlap).near_misses
     # what is narrower than its gap would be no contact if the gap were none
     return found.take((found.widths >= np.abs(found.gaps)) & (np.abs(found.gaps) <= WIDEST))

@@ -20,7 +20,7 @@ from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
 from mbla.contacts.outlines.points import in_pieces, interface_points
 from mbla.contacts.outlines.refine import InterfacePoints
-from mbla.contacts.overlaps import find_overlaps
+from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
@@ -59,11 +59,11 @@ def _crushes(law: Joint) -> float:
 @shared("contacts")
 def _found(model: Model, section: ContactsSection) -> Contacts:
     """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
-    pairs = find_block_pairs(model.blocks, section.tolerance)
+    pairs = find_block_pairs(model.blocks, min(section.depth_allowed, SLIGHT))
     facets = build_facets(model.blocks)
-    verdicts, separated = _verdicts(model, facets, section.tolerance)
+    verdicts, separated = _verdicts(model, facets, section.tolerance, section.depth_allowed)
     # blocks that do not move are never in contact, whatever they share: footings drawn into each other
-    overlaps = find_overlaps(model.blocks, facets, pairs[~both_fixed(model, pairs)], section.tolerance)
+    overlaps = find_overlaps(model.blocks, facets, pairs[~both_fixed(model, pairs)], section.depth_allowed)
     order = _order(verdicts.contacts, ~both_fixed(model, verdicts.contacts.overlays.bodies))
     movable = verdicts.contacts.take(order)
     bodies = movable.overlays.bodies
@@ -100,13 +100,14 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     return _contacts(kept, areas, found, (law_of, names), replace(report, notices=remarks), glue.solid_of_block)
 
 
-def _verdicts(model: Model, facets: Facets, tolerance: float) -> tuple[Verdicts, SeparatedPairs]:
+def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) -> tuple[Verdicts, SeparatedPairs]:
     """What touches, what nearly does, what a third block separates; prescribed interfaces are taken as they are."""
     if model.interfaces is None:
-        found = judge(find_patches(model.blocks, facets, model.grounds, tolerance), tolerance)
+        patches = find_patches(model.blocks, facets, model.grounds, tolerance, overlap)
+        found = judge(patches, tolerance, overlap=overlap)
         verdicts, separated = drop_pairs_separated_by_third_block(found, model.blocks, tolerance)
         if unsupported_parts(held_blocks(model), found.contacts.overlays.bodies):
-            wide = replace(found, near_misses=misses_within(model, facets, tolerance) or found.near_misses)
+            wide = replace(found, near_misses=misses_within(model, facets, tolerance, overlap) or found.near_misses)
             near_misses = drop_pairs_separated_by_third_block(wide, model.blocks, tolerance)[0].near_misses
             verdicts = replace(verdicts, near_misses=near_misses)
         return verdicts, separated

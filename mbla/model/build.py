@@ -61,6 +61,7 @@ def build_model(deck: Deck) -> Model:
         grounds=supports.grounds,
         named=deck.content.loads,
         tolerance=deck.contacts.tolerance,
+        overlap=deck.contacts.depth_allowed,
         fill=structure.fill.bodies if structure.fill else {},
         vehicles=deck.content.vehicles,
         masses=structure.masses,

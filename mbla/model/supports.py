@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
+from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.supports import Plane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
@@ -66,7 +67,7 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Suppo
             fixed[chosen] = True
     everything_guided = _joined_guides(guides, fixed, roster)
     for path, ground in grounds:
-        check_ground(ground, path, fixed, roster, deck.contacts.tolerance)
+        check_ground(ground, path, fixed, roster, deck.contacts)
     found = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds)), everything_guided)
     if complete:
         _check_hold(found, roster)
@@ -127,11 +128,11 @@ def plane_of(section: Plane) -> tuple[FloatArray, FloatArray, str]:
     return np.array(section.point), unit(section.normal), ""
 
 
-def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, tolerance: float) -> None:
+def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, contacts: ContactsSection) -> None:
     """Blocks it may carry must not reach below it, and one of their faces must lie on it.
 
-    fixed     : (n_blocks,) blocks that cannot move
-    tolerance : relative to block size
+    fixed    : (n_blocks,) blocks that cannot move
+    contacts : with the tolerances
     """
     blocks = roster.blocks
     # what cannot be built need not lie right, either
@@ -140,22 +141,25 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
         may_carry &= np.isin(np.arange(len(blocks)), ground.blocks)
     heights = (blocks.vertices - ground.point) @ ground.normal
     depths = row_maxima(-heights, blocks.vertex_start)
-    sunk = np.flatnonzero(may_carry & (depths > tolerance * blocks.sizes))
+    sunk = np.flatnonzero(may_carry & (depths > contacts.depth_allowed * blocks.sizes))
     if len(sunk):
         words = (
             f"blocks reach below it, by up to {depths[sunk].max():.4g}: {named(sunk, blocks.name)}; move the plane, or "
             "list the blocks that stand on it under the key blocks"
         )
         roster.refuse(Finding("ground-misplaced", words, *path))
-    elif not _faces_on(ground, heights, may_carry, blocks, tolerance) and not roster.partial:
+    elif not _faces_on(ground, heights, may_carry, blocks, contacts) and not roster.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         nearest = f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else ""
         roster.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
 
 
-def _faces_on(ground: Ground, heights: FloatArray, may_carry: BoolArray, blocks: Blocks, tolerance: float) -> bool:
+def _faces_on(
+    ground: Ground, heights: FloatArray, may_carry: BoolArray, blocks: Blocks, contacts: ContactsSection
+) -> bool:
     """Whether a face of one of the blocks lies on the ground, looking down at it."""
-    allowed = tolerance * blocks.sizes[blocks.block_of_face]
-    away = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start)
+    size = blocks.sizes[blocks.block_of_face]
+    above, below = (row_maxima(sign * heights[blocks.loops], blocks.loop_start) for sign in (1.0, -1.0))
+    near = (above <= contacts.tolerance * size) & (below <= contacts.depth_allowed * size)
     facing = blocks.face_normals @ ground.normal < -FACING
-    return bool((facing & (away <= allowed) & may_carry[blocks.block_of_face]).any())
+    return bool((facing & near & may_carry[blocks.block_of_face]).any())

@@ -72,6 +72,8 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
+    if deck.contacts.overlap_tolerance is not None:
+        words["overlap_tolerance"] = f"{deck.contacts.overlap_tolerance:g}"
     if analysis.flow_rule == "non_associative":
         words["scheme"] = analysis.scheme
         parameters = getattr(analysis, analysis.scheme, None)  # none for auto

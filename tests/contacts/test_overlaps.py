@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray, starts
-from mbla.contacts import find_contacts
+from mbla.contacts import find_contacts, overlap_messages
 from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.facets import build_facets
 from mbla.contacts.overlaps import Overlaps, find_overlaps
@@ -22,6 +23,7 @@ from tests.contacts.structures import (
     any_rotation,
     blocks_of,
     boxes,
+    ground,
     model_of,
     moved,
     prism,
@@ -42,8 +44,7 @@ def test_boxes_that_overlap(depth: float, turn: np.ndarray | None) -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 1 - depth], [1, 1, 2 - depth]))
     found = overlaps_of(moved(pair, turn=turn))
     assert found.pairs.tolist() == [[0, 1]]
-    # V = d, S = 2 + 4 d
-    assert found.depths == pytest.approx([2 * depth / (2 + 4 * depth)], rel=1e-9)
+    assert found.depths == pytest.approx([depth], rel=1e-9)
 
 
 def test_overlap_within_the_tolerance_is_none() -> None:
@@ -57,7 +58,8 @@ def test_identical_blocks_overlap(scale: float) -> None:
     pair = boxes(([0, 0, 0], [1, 1, 1]), ([0, 0, 0], [1, 1, 1]))
     found = overlaps_of(moved(pair, scale=scale, turn=any_rotation()))
     assert found.pairs.tolist() == [[0, 1]]
-    assert found.depths == pytest.approx([1 / 3], rel=1e-9)
+    assert found.depths == pytest.approx([1.0], rel=1e-9)
+    assert found.swallows.tolist() == [True]
 
 
 @pytest.mark.parametrize(("fixed", "count"), [((0, 1), 0), ((0,), 1), ((), 1)])
@@ -88,7 +90,8 @@ def test_a_plug_too_large_for_its_socket() -> None:
     socket = ring(circle(1.0, 24), circle(2.0, 24), 0, 1)
     found = overlaps_of(join_polyhedra([socket, prism(circle(1.05, 24), 0, 1)]))
     assert found.pairs.tolist() == [[0, 1]]
-    assert found.depths[0] * np.cbrt(24 * np.sin(np.pi / 12) / 2 * 1.05**2) == pytest.approx(0.05, rel=0.1)
+    # a corner of the plug lies below the middle of a side of the socket's inner polygon, or below its corner
+    assert found.depths[0] * np.cbrt(24 * np.sin(np.pi / 12) / 2 * 1.05**2) == pytest.approx(0.05, rel=0.02)
 
 
 def test_edges_across_each_other_are_no_overlap() -> None:
@@ -116,10 +119,76 @@ def test_of_blocks_with_a_plane_between_them_neither_need_be_a_closed_solid() ->
         assert report.unchecked.tolist() == unchecked
 
 
-def test_of_many_overlaps_the_first_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.contacts.overlaps.MOST_FAULTS", 2)
-    row = boxes(*(([0.9 * k, 0, 0], [0.9 * k + 1, 1, 1]) for k in range(6)))
-    assert overlaps_of(row).pairs.tolist() == [[0, 1], [1, 2], [2, 3]]
+def test_an_overlap_is_the_least_distance_that_cures() -> None:
+    """A low block beside a high one: they are moved apart sideways, not upwards."""
+    low, high = ([0, 0, 0], [0.8, 0.6, 0.4]), ([0.6, 0, 0], [1.2, 0.6, 4])
+    found = overlaps_of(moved(boxes(low, high), turn=any_rotation(3)))
+    size = np.cbrt(0.8 * 0.6 * 0.4)
+    assert found.depths * size == pytest.approx([0.2], rel=1e-9)
+    assert len(overlaps_of(boxes(low, ([0.8, 0, 0], [1.4, 0.6, 4]))).pairs) == 0
+
+
+def test_the_least_distance_across_two_edges() -> None:
+    """Two bars, each turned about its axis by 45 degrees, that cross with one edge below the other."""
+    half = np.sqrt(0.5)
+    diamond = [(half, 0.0), (0.0, half), (-half, 0.0), (0.0, -half)]
+    along_x = [[x, y, z] for x in (-3, 3) for y, z in diamond]
+    along_y = [[y, x, z + 2 * half - 0.1] for x in (-3, 3) for y, z in diamond]
+    sides = [[k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k] for k in range(4)]
+    faces = [[3, 2, 1, 0], [4, 5, 6, 7], *sides]
+    found = overlaps_of(polyhedra_from_lists([along_x, along_y], [faces, faces]))
+    assert found.depths * np.cbrt(6.0) == pytest.approx([0.1], rel=1e-9)
+
+
+@pytest.mark.parametrize("turn", [None, any_rotation(4)], ids=["along the axes", "turned"])
+def test_the_depth_of_a_block_in_the_corner_of_another(turn: np.ndarray | None) -> None:
+    """Below both legs of an L by 0.02: the edge of the block lies below that of the L by the diagonal of both."""
+    pair = join_polyhedra([prism(L_OUTLINE, 0, 1), boxes(([0.98, 0.98, 0], [2, 2, 1]))])
+    found = overlaps_of(moved(pair, turn=turn))
+    assert found.pairs.tolist() == [[0, 1]]
+    assert found.depths * 1.02 ** (2 / 3) == pytest.approx([0.02 * np.sqrt(2)], rel=1e-6)
+
+
+ROW = [([k, 0, 0], [k + 1.02, 1, 1]) for k in range(5)]
+"""Each reaches into the next by 0.02."""
+
+
+def test_overlaps_within_their_tolerance_are_accepted_and_gaps_stay_open() -> None:
+    shapes = boxes(*ROW, ([5.03, 0, 0], [6, 1, 1]))
+    model = model_of(blocks_of(shapes), grounds=(ground(),))
+    refused = find_contacts(model, section()).report
+    assert refused.overlaps.tolist() == [[k, k + 1] for k in range(4)]
+    (message,) = overlap_messages(model, refused)
+    assert message.startswith("4 pairs of blocks overlap, block[0] and block[1] most, by 0.02 m, ")
+    words = re.search(r"contacts.overlap_tolerance above ([0-9.]+) if they .*accepts all 4", message)
+    assert words is not None
+    found = find_contacts(model, section().model_copy(update={"overlap_tolerance": float(words[1])}))
+    assert len(found.report.overlaps) == 0
+    between = found.bodies[:, 1] < 6
+    between &= found.bodies[:, 0] < 6
+    assert found.bodies[between].tolist() == [[k, k + 1] for k in range(4)]  # and none across the gap of 0.01
+    assert found.gaps[between] == pytest.approx(-0.02)
+    assert found.centroids[between, 0] == pytest.approx(np.arange(4) + 1.01)  # midway
+    told = {notice.identifier: notice.message for notice in found.report.notices}
+    share = 100 * 0.08 / (5 * 1.02 + 0.97)
+    assert f"the 0.08 m3 that they share, {share:.2g} % of the volume" in told["overlaps-accepted"]
+
+
+@pytest.mark.parametrize(("key", "accepted"), [("tolerance", 5), ("overlap_tolerance", 4)])
+def test_the_tolerance_of_gaps_closes_what_is_open_that_of_overlaps_does_not(key: str, accepted: int) -> None:
+    model = model_of(blocks_of(boxes(*ROW, ([5.03, 0, 0], [6, 1, 1]))), fixed=[0])
+    found = find_contacts(model, section().model_copy(update={key: 0.03}))
+    assert len(found) == accepted
+    assert len(found.report.overlaps) == 0
+
+
+def test_a_block_that_another_reaches_through_is_no_accepted_overlap() -> None:
+    """Two plates in one place, thinner than the tolerance of their size."""
+    model = model_of(blocks_of(boxes(([0, 0, 0], [1, 1, 0.02]), ([0, 0, 0], [1, 1, 0.02]))), grounds=(ground(),))
+    report = find_contacts(model, section().model_copy(update={"overlap_tolerance": 0.1})).report
+    assert report.overlaps.tolist() == [[0, 1]]
+    assert report.overlap_swallows.tolist() == [True]
+    assert "overlap_tolerance" not in overlap_messages(model, report)[0]
 
 
 # Loops of corners in the plane.

@@ -86,6 +86,7 @@ def empty_report(notices: Any = ()) -> ContactReport:
         near_miss_gaps=numbers,
         overlaps=pairs,
         overlap_depths=numbers,
+        overlap_swallows=np.zeros(0, dtype=bool),
         unchecked=pairs,
         isolated=rows,
         unsupported=(),

@@ -81,6 +81,12 @@ class ContactsSection(Section):
     tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
         1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
+    overlap_tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] | None = Field(
+        None,
+        description="greatest overlap, relative to block size, where that of gaps is another; unless given tolerance. "
+        "Faces that reach into each other by no more are in contact, midway; gaps above tolerance stay open. What two "
+        "blocks share counts in the weight of both, and a notice says how much it is",
+    )
     table: str | None = Field(
         None,
         min_length=1,
@@ -97,6 +103,11 @@ class ContactsSection(Section):
     )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
     overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
+
+    @property
+    def depth_allowed(self) -> float:
+        """Greatest overlap, relative to block size."""
+        return self.tolerance if self.overlap_tolerance is None else self.overlap_tolerance
 
 
 CONDITIONS = ("between", "orientation", "box")

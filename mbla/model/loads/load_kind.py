@@ -34,7 +34,7 @@ class LoadSite:
     resolve_file : path of a file named by the value at a key path of the deck
     grounds : planes of rigid ground
     named   : loads of the deck by name
-    tolerance : of contacts, relative to block size
+    tolerance, overlap : greatest gap and greatest overlap of contacts, relative to block size
     fill    : fills by name, through which loads spread
     vehicles : of the deck by name
     masses  : that blocks carry, each by itself
@@ -47,6 +47,7 @@ class LoadSite:
     grounds: tuple[Ground, ...] = ()
     named: Mapping[str, Sequence[Load]] = field(default_factory=dict)
     tolerance: float = 1e-3
+    overlap: float = 1e-3
     fill: Mapping[str, FillBody] = field(default_factory=dict)
     vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
     masses: PointMasses = NO_MASSES

@@ -42,7 +42,7 @@ def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: Load
     if not len(faces):
         _refuse("no face of these blocks lies so: look at normal, within and box", here, site)
         return None
-    parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free")
+    parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free", site.overlap)
     wrenches, areas = _integrals(parts, pressure, faces, site.blocks)
     if not areas.any():
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
@@ -184,39 +184,50 @@ class _Frames:
 
 
 def face_parts(
-    faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float, free_only: bool
+    faces: IntArray,
+    blocks: Blocks,
+    grounds: tuple[Ground, ...],
+    tolerance: float,
+    free_only: bool,
+    overlap: float = 0.0,
 ) -> FaceParts:
-    """The faces (n,), or what of them is free; ``tolerance`` relative to block size, as that of contacts."""
+    """The faces (n,), or what of them is free.
+
+    tolerance, overlap : of gaps and of overlaps, relative to block size, as those of contacts
+    """
     import shapely
 
     frames = _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
     polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
     areas = left = np.asarray(shapely.area(polygons))
     if free_only:
-        mine, others = _facing_pairs(faces, blocks, tolerance)
+        mine, others = _facing_pairs(faces, blocks, tolerance, overlap)
         groups = np.split(frames.polygons(mine, others, blocks), np.flatnonzero(np.diff(mine)) + 1)
         for row, against in zip(np.unique(mine).tolist(), groups, strict=False):
             polygons[row] = shapely.difference(polygons[row], shapely.union_all(against))
-        left = np.where(_on_ground(faces, blocks, grounds, tolerance), 0.0, shapely.area(polygons))
+        left = np.where(_on_ground(faces, blocks, grounds, tolerance, overlap), 0.0, shapely.area(polygons))
         left[left <= 2.0 * tolerance * areas] = 0.0  # rounding of outlines
         polygons[left == 0.0] = shapely.Polygon()
     return FaceParts(*frames.triangles(polygons), areas, areas - left)
 
 
-def _on_ground(faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float) -> BoolArray:
+def _on_ground(
+    faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float, overlap: float
+) -> BoolArray:
     """Faces that lie on a ground plane that carries their block."""
     found = np.zeros(len(faces), dtype=bool)
     owner = blocks.block_of_face[faces]
     corners, start = blocks.corners_of(faces)
     for ground in grounds:
-        heights = np.abs((corners - ground.point) @ ground.normal)
+        heights = (corners - ground.point) @ ground.normal
         on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
+        on &= row_maxima(-heights, start) <= max(tolerance, overlap) * blocks.sizes[owner]
         on &= blocks.face_normals[faces] @ ground.normal <= -FACING
         found |= on if ground.blocks is None else on & np.isin(owner, ground.blocks)
     return found
 
 
-def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float) -> tuple[IntArray, IntArray]:
+def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float, overlap: float) -> tuple[IntArray, IntArray]:
     """(position in ``faces``, face of another block that may lie against it)."""
     corners = blocks.vertices[blocks.loops]
     low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
@@ -228,6 +239,9 @@ def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float) -> tuple[In
     between = between - blocks.vertices[blocks.loops[blocks.loop_start[face]]]
     normals = blocks.face_normals[face]
     kept = blocks.block_of_face[face] != blocks.block_of_face[others]
-    kept &= np.abs(np.einsum("ij,ij->i", between, normals)) <= 2.0 * reach[face] + reach[others]
+    height = np.einsum("ij,ij->i", between, normals)
+    near = 2.0 * reach[face] + reach[others]
+    smaller = np.minimum(*(blocks.sizes[blocks.block_of_face[side]] for side in (face, others)))
+    kept &= (height <= near) & (height >= -np.maximum(near, 1.001 * overlap * smaller))
     kept &= np.einsum("ij,ij->i", blocks.face_normals[others], normals) <= -FACING
     return mine[kept], others[kept]
