@@ -90,9 +90,7 @@ def find_patches(
     return _measured(concatenate(overlays).take(row), parts, shapely.area(facets.polygons))
 
 
-def judge(
-    patches: Patches, tolerance: float, reach: float | None = None, overlap: float | None = None
-) -> Verdicts:
+def judge(patches: Patches, tolerance: float, reach: float | None = None, overlap: float | None = None) -> Verdicts:
     """Sort common surfaces into contacts, slivers and near misses.
 
     reach   : greatest gap of near misses, ten tolerances unless given

@@ -85,8 +85,8 @@ def _accepted(model: Model, findings: Findings) -> Iterator[Notice]:
         most = _deepest(model, overlaps.accepted, overlaps.accepted_depths)
         common = float(overlaps.common.sum())
         text = (
-            f"{counted(number, 'pair')} of blocks {'overlaps' if number == 1 else 'overlap'} within the tolerance, "
-            f"most {_measured(model, overlaps.accepted[most], overlaps.accepted_depths[most])}; contacts lie "
+            f"{counted(number, 'pair')} of blocks with overlaps within the tolerance, most "
+            f"{_measured(model, overlaps.accepted[most], overlaps.accepted_depths[most])}; contacts lie "
             f"midway, and the {common:.3g} {model.units.length}3 that they share, {100 * common / volume:.2g} % of the "
             "volume of all blocks, counts in the weight of both"
         )
@@ -105,10 +105,10 @@ def _missed(model: Model, section: ContactsSection, report: ContactReport) -> It
         gaps = np.abs(report.near_miss_gaps)
         sizes = np.append(model.blocks.sizes, np.full(len(model.grounds), np.inf))[report.near_misses].min(axis=1)
         least, most = int(np.argmin(gaps)), int(np.argmax(gaps * sizes))
-        widest = "" if number == 1 else f", the widest {_measured_at(model, report, most)}"
+        second = "" if number == 1 else f", the widest {_measured_at(model, report, most)}"
         text = (
             f"{counted(number, 'near miss')}, opposite faces that miss each other by more than the tolerance of "
-            f"{section.tolerance:g}: {_measured_at(model, report, least)}{_more(number)}{widest}; they are no contacts"
+            f"{section.tolerance:g}: {_measured_at(model, report, least)}{_more(number)}{second}; they are no contacts"
             f"{_closing(section, report.near_miss_gaps)}"
         )
         yield Notice("warning", "near-misses", text)
@@ -126,8 +126,8 @@ def _closing(section: ContactsSection, gaps: FloatArray) -> str:
     depth, gap = float(-gaps.min(initial=0.0)), float(gaps.max(initial=0.0))
     if section.overlap_tolerance is None and gap:  # one tolerance does both
         depth, gap = 0.0, max(depth, gap)
-    named = {"contacts.tolerance": gap, "contacts.overlap_tolerance": depth}
-    parts = [_by_tolerance(value, f"{key} above {{:.2g}}") for key, value in named.items() if value]
+    keys = {"contacts.tolerance": gap, "contacts.overlap_tolerance": depth}
+    parts = [_by_tolerance(value, f"{key} above {{:.2g}}") for key, value in keys.items() if value]
     if not all(parts):
         return ""
     real = ", and so is every real gap of the file up to that" if gap else ""
@@ -149,7 +149,9 @@ def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> Iterat
             continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
         height = (blocks.vertices - ground.point) @ ground.normal
         depths, heights = (row_maxima(sign * height, blocks.vertex_start) for sign in (-1.0, 1.0))
-        crossing = np.flatnonzero(np.minimum(depths, heights) > max(section.tolerance, section.depth_allowed) * blocks.sizes)
+        crossing = np.flatnonzero(
+            np.minimum(depths, heights) > max(section.tolerance, section.depth_allowed) * blocks.sizes
+        )
         if len(crossing):
             which = named(crossing, model.blocks.name)
             text = f"{counted(len(crossing), 'block')} on both sides of {ground.label}: {which}"

@@ -144,9 +144,7 @@ def _pairs(found: list[tuple[int, int]]) -> IntArray:
     return np.array(found, dtype=np.int64).reshape(-1, 2)
 
 
-def _depth(
-    blocks: Blocks, pair: tuple[int, int], common: Any, triangles: dict[int, IntArray]
-) -> tuple[float, bool]:
+def _depth(blocks: Blocks, pair: tuple[int, int], common: Any, triangles: dict[int, IntArray]) -> tuple[float, bool]:
     """How far two blocks reach into each other, relative to block size, and whether through half of one of them."""
     sizes = blocks.sizes[list(pair)]
     size, origin = float(sizes.min()), blocks.centroids[pair[int(np.argmin(sizes))]]

@@ -161,6 +161,7 @@ def test_the_tolerance_that_closes_all_gaps_is_told_whatever_the_present_one_is(
     assert words is not None
     every = float(words[1])
     assert every == 0.053
+    assert "the widest block[0] and block[3] (0.05 m" in told(report, "near-misses")
     assert len(report_of(every).near_misses) == 0
 
 
