@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from mbla.contacts import Contacts
 from mbla.contacts.findings import contacts_of
@@ -17,17 +18,18 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.sharing import Memory, sharing
-from mbla.process.stopwatch import timing
+from mbla.process.stopwatch import Stopwatch, timing
 from mbla.program.build import build_program
 from mbla.results.assessment.assessment import with_remarks
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
+from mbla.results.partial import Partial
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
 from mbla.results.sta import StatusFile
-from mbla.results.write import leaves_nothing, stopped, write_results
+from mbla.results.write import write_results
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
-from mbla.solution.solution import IterationRecord, Status
+from mbla.solution.solution import IterationRecord, Solution, Status
 from mbla.solution.solve import solve
 from mbla.solution.tilt import Answer
 from mbla.solution.trials import trials_of
@@ -35,6 +37,13 @@ from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
 
 Progress = Callable[[str, IterationRecord], None]
+T = TypeVar("T")
+Tell = Callable[[Callable[[], T]], None]
+"""is told how to make what there is of something that takes long; may be made at any time, while it goes on"""
+
+
+def unheard(make: Callable[[], object]) -> None:
+    """Nobody asks."""
 
 
 def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) -> Results:
@@ -45,10 +54,9 @@ def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) 
     Raises
     ------
     DeckError, UsageError, FileError, LimitError, SolverError
-        nothing is written then, and an earlier result stays as it was
+        an earlier result stays as it was
     StoppedRun
-        of whatever else ends it when load cases are done: these are written with it
-        (:mod:`mbla.results.write`)
+        of whatever else ends it: what is done is written (:mod:`mbla.results.partial`)
     """
     started = time.perf_counter()
     return run_and_write(read_deck(deck_path, options.overrides), options, progress, started)
@@ -63,21 +71,28 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
     """
     stem, folder, output = deck.path.stem, options.folder_for(deck.path), deck.content.output
     out = OutputFolder(folder, stem, options.force)
-    results: Results | None = None
+    partial = Partial(out, output)
+
+    def each(case: str, record: IterationRecord) -> None:
+        partial.keep()
+        if progress is not None:
+            progress(case, record)
+
     try:
         with out:
-            status_file = StatusFile(out.open_live(f"{stem}.sta"), deck.title)
-            for so_far in solved_case_by_case(deck, options, status_file, progress, started):
-                results = so_far
-            assert results is not None
-            return write_results(results, out, output)
+            try:
+                status_file = StatusFile(out.open_live(f"{stem}.sta"), deck.title)
+                for results in solved_case_by_case(deck, options, status_file, each, started, partial.at_work):
+                    partial.done(results)
+                return write_results(results, out, output)
+            except BaseException:
+                partial.keep_status()
+                raise
     except BaseException as cause:
-        if out.in_place or leaves_nothing(cause):
+        stopped = None if out.in_place else partial.stopped(cause)
+        if stopped is None:
             raise
-        if results is None or not results.cases:
-            cause.add_note("no load case was done")
-            raise
-        raise stopped(results, cause, out, output) from cause
+        raise stopped from cause
 
 
 def solve_deck(
@@ -89,9 +104,16 @@ def solve_deck(
 
 
 def solved_case_by_case(
-    deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
+    deck: Deck,
+    options: RunOptions,
+    status_file: StatusFile,
+    progress: Progress | None,
+    started: float,
+    at_work: Tell[Results] = unheard,
 ) -> Iterator[Results]:
     """As ``solve_deck``: the results so far, before any load case is solved and after each of them.
+
+    at_work : told how to make results with what there is of a load case that takes long
 
     Raises DeckError for faults of the deck, UsageError for load cases that it does not have and where expectations are
     asked for and it has none.
@@ -111,10 +133,24 @@ def solved_case_by_case(
         yield results
         memory = Memory()
         for load_case in load_cases:
+            tell = _teller(at_work, results, found, stopwatch)
             with sharing(memory):
-                solved = solve_case(deck, model, contacts, load_case, settings, status_file, progress)
+                solved = solve_case(deck, model, contacts, load_case, settings, status_file, progress, tell)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
+
+
+def _teller(at_work: Tell[Results], results: Results, found: float, stopwatch: Stopwatch) -> Tell[CaseResult]:
+    """How a load case tells what there is of it: it becomes the last of the results, and is not done."""
+
+    def tell(part: Callable[[], CaseResult]) -> None:
+        def so_far() -> Results:
+            more = with_case(results, part(), time.perf_counter() - found, stopwatch)
+            return replace(more, not_done=results.not_done)
+
+        at_work(so_far)
+
+    return tell
 
 
 def solve_case(
@@ -125,8 +161,12 @@ def solve_case(
     settings: SolverSettings,
     status_file: StatusFile,
     progress: Progress | None,
+    tell: Tell[CaseResult] = unheard,
 ) -> CaseResult:
-    """Program, solution and verification of one load case: once, or of a tilting table for every angle tried."""
+    """Program, solution and verification of one load case: once, or of a tilting table for every angle tried.
+
+    tell : told how to make the load case as far as it has come, where it is pushed on
+    """
 
     def log(record: IterationRecord) -> None:
         status_file.add(load_case.name, record)
@@ -144,11 +184,16 @@ def solve_case(
     status = verified_status(answer.solution, answer.checks)
     status_file.remark(f"{load_case.name}: {status}")
     solution = answer.solution
+
+    def found(solution: Solution) -> CaseResult:
+        solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
+        return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))
+
     if load_case.pushover is not None:
         from mbla.solution.pushover.curve import pushed  # late: few load cases are
 
-        solved = status is Status.SOLVED
-        solution = pushed(moving, contacts, deck.contacts, answer.load_case, solution, settings, log, solved)
+        of_case = (moving, contacts, deck.contacts, answer.load_case, solution, settings, log, status is Status.SOLVED)
+        solution = pushed(*of_case, lambda so_far: tell(lambda: found(so_far())))
     if deck.analysis.sensitivity is not False:
         from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
 
@@ -157,5 +202,4 @@ def solve_case(
         from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
 
         solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
-    solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
-    return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))
+    return found(solution)

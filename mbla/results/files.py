@@ -3,8 +3,8 @@
 Every file is written under a temporary name in the folder itself (a rename is atomic only inside one file system),
 flushed to the disk and renamed into place when the run has succeeded.
 
-A run that fails or is interrupted puts the earlier files back (what it had done goes into files of other names,
-:mod:`mbla.results.write`, which the next complete result removes); signals wait while it does that, and while it
+A run that fails or is interrupted puts the earlier files back (what it had done is in files of other names,
+:mod:`mbla.results.partial`, which the next complete result removes); signals wait while it does that, and while it
 puts the new ones in place. One that is killed outright cannot; the next run in the folder does it then
 (:mod:`mbla.results.disk`). Two runs of one deck into one folder exclude each other (:mod:`mbla.results.disk`).
 """
@@ -169,8 +169,6 @@ class OutputFolder:
         if not self.secondary:
             self._refuse_earlier_result()
             self._stale = earlier_files(self.folder, self.stem)
-            if is_partial(self.folder, partial_stem(self.stem)):
-                self._stale += earlier_files(self.folder, partial_stem(self.stem))
 
     def _temporary(self, kind: str, name: str) -> Path:
         return temporary_path(self.folder / name, kind)
@@ -228,7 +226,9 @@ class OutputFolder:
 
     def _commit(self) -> None:
         self._place([name for name in self._names if name not in self._live])
-        for name in self._stale:
+        partial = partial_stem(self.stem)
+        left = earlier_files(self.folder, partial) if not self.secondary and is_partial(self.folder, partial) else ()
+        for name in (*self._stale, *left):
             if name not in self._names and os.path.lexists(self.folder / name):
                 self._set_aside(name)
         with file_errors(self.folder):

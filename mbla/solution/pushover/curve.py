@@ -11,7 +11,7 @@ is its difference from the curve of steps twice as long.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -128,10 +128,12 @@ def pushed(
     settings: SolverSettings,
     log: Log,
     solved: bool,
+    tell: Callable[[Callable[[], Solution]], None] = lambda so_far: None,
 ) -> Solution:
     """The solution of a load case with its capacity curve, or with a remark that says why there is none.
 
     model : as it may move under the load case
+    tell  : told how to make the solution with the steps that are done by then
     """
     against = why_not_pushed(model, solution, solved)
     if against or solution.mechanics is None or case.pushover is None:
@@ -140,18 +142,30 @@ def pushed(
     search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, solution.mechanics)
     control = Control.of(model, case, first.mechanism)
     push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
-    steps, end = _followed(push, first)
+    done: list[Step] = []
+
+    def with_curve(steps: list[Step], errors: FloatArray, end: CurveEnd) -> Solution:
+        found = replace(solution, pushed=_record(steps, errors), curve_end=end)
+        curve = curve_of(model, contacts, section, case, found)
+        remarks = (*solution.remarks, *_control_remarks(model, control, first), *_curve_remarks(curve))
+        return replace(found, curve=curve, remarks=remarks)
+
+    tell(lambda: with_curve(done, np.full(len(done), np.nan), CurveEnd.STOPPED) if done else solution)
+    steps, end = _followed(push, first, done)
     errors = np.full(len(steps), np.nan)
     if case.pushover.error:
-        longer, _ = _followed(replace(push, step=2.0 * push.step, most=2.0), first)
+        longer, _ = _followed(replace(push, step=2.0 * push.step, most=2.0), first, [])
         moved, factors = (
             np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor")
         )
         own = np.array([each.displacement for each in steps])
         errors = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
-    solution = replace(solution, pushed=_record(steps, errors), curve_end=end)
-    curve = curve_of(model, contacts, section, case, solution)
-    remarks = (*solution.remarks, *_control_remarks(model, control, first))
+    return with_curve(steps, errors, end)
+
+
+def _curve_remarks(curve: Sequence[CurveRow]) -> tuple[Message, ...]:
+    """Remarks where blocks drop, and where steps are rough."""
+    remarks: tuple[Message, ...] = ()
     if fall := dropped(curve):
         words = f"blocks drop without the live load where the control point has moved by {fall[0]:.6g}, and lose "
         words += f"{fall[1]:.2g} of the greatest live work: what is pushed on may fall there"
@@ -162,7 +176,7 @@ def pushed(
         words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
         words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
         remarks = (*remarks, Message("pushover-rough", words))
-    return replace(solution, curve=curve, remarks=remarks)
+    return remarks
 
 
 def _control_remarks(model: Model, control: Control, first: Mechanics) -> tuple[Message, ...]:
@@ -174,11 +188,13 @@ def _control_remarks(model: Model, control: Control, first: Mechanics) -> tuple[
     return (Message("control-point-at-rest", words),)
 
 
-def _followed(push: Pushover, first: Mechanics) -> tuple[list[Step], CurveEnd]:
-    """Steps up to the end of the curve, and why it ends."""
+def _followed(push: Pushover, first: Mechanics, steps: list[Step]) -> tuple[list[Step], CurveEnd]:
+    """Steps up to the end of the curve, and why it ends.
+
+    steps : none yet, gets each as soon as it is done
+    """
     asked, settles = push.case.pushover, push.case.settlement is not None
     assert asked is not None  # else nothing is pushed
-    steps: list[Step] = []
     dropping = 0
     for step in push.steps(first):
         if step.load_factor > BLOCKED * abs(first.load_factor) and not settles:

@@ -23,6 +23,7 @@ class CurveEnd(StrEnum):
     DEEP = "blocks overlap, however short the step"
     STUCK = "no forces or no motion were found for the next step"
     LATE = "the time limit was reached"
+    STOPPED = "the run was stopped"
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ def check_killed(scene: Scene, told: object) -> None:
     """What a killed run left is put right by the next one, which is refused as there is a result."""
     refused = scene.run()
     assert refused.status == 6, (told, refused)
-    now = content(scene.out)
+    now = without_partial(content(scene.out))
     if now != scene.earlier:
         check_whole(scene, now, told)
         assert all(now[name] != scene.earlier[name] for name in ("block.sta", "block.lst", "block.h5")), told
@@ -59,7 +59,7 @@ def check_whole(scene: Scene, now: Mapping[str, bytes], told: object) -> None:
 def check_interrupted(scene: Scene, ended: Ended, told: object) -> None:
     """One line; files are as they were, or all new; nothing temporary is there, without a next run.
 
-    The load case that was done may be left in files of its own, all or none.
+    What was done may be left in files of its own.
     """
     assert is_one_plain_line(ended.err), told
     now = without_partial(content(scene.out))
