@@ -75,6 +75,7 @@ class Columns:
     volumes   : (n,); centroids : (n, 3)
     depths    : (n, 2) least and greatest height
     areas     : (n,) of the pieces below the top, seen from above; middles : (n, 3) of these pieces
+    pressed   : (n, 3) middles weighted by the height of soil above: where its vertical stress acts on them
     """
 
     rows: IntArray
@@ -84,6 +85,7 @@ class Columns:
     depths: FloatArray
     areas: FloatArray
     middles: FloatArray
+    pressed: FloatArray
 
     def parts(self, density: float) -> PointMasses:
         """Half the mass of each a little above its centroid and half below: as heavy as it all over its mean height."""
@@ -244,13 +246,14 @@ def columns(body: FillBody, blocks: Blocks) -> Columns:
     ab, ac = (b - a)[..., :2], (c - a)[..., :2]
     areas = (ab[..., 0] * ac[..., 1] - ab[..., 1] * ac[..., 0]) / 2
     plan, volumes = areas.sum(axis=1), np.zeros(len(loops))
-    moments, middles = np.zeros((2, len(loops), 3))
+    moments, middles, pressed = np.zeros((3, len(loops), 3))
     for middle in ((a + b) / 2, (b + c) / 2, (c + a) / 2):
         share = areas / 3 * middle[..., 3]
         volumes += share.sum(axis=1)
         lifted = middle[..., :3] + np.array([0.0, 0.0, 0.5]) * middle[..., 3:]
         moments += (share[..., None] * lifted).sum(axis=1)
         middles += (areas[..., None] / 3 * middle[..., :3]).sum(axis=1)
+        pressed += (share[..., None] * middle[..., :3]).sum(axis=1)
     kept = np.flatnonzero(volumes > ROUNDING * summed(body.blocks, volumes, len(blocks))[body.blocks])
     return Columns(
         rows=kept,
@@ -260,4 +263,5 @@ def columns(body: FillBody, blocks: Blocks) -> Columns:
         depths=np.stack([loops[kept, :, 3].min(axis=1), loops[kept, :, 3].max(axis=1)], axis=1),
         areas=plan[kept],
         middles=origins[kept] + middles[kept] / plan[kept, None],
+        pressed=origins[kept] + pressed[kept] / volumes[kept, None],
     )

@@ -91,7 +91,8 @@ def restraint() -> list[PlanarTie]:
         drop = float(np.diff(h)[row])
         if abs(drop) > 1e-9:
             stress = EARTH * WIDTH * (h[row] + h[row + 1]) / 2 * abs(drop)
-            middle = (x[row] + x[row + 1] - SPAN) / 2, TOP + arch().inner - RISE - (h[row] + h[row + 1]) / 2
+            down = (h[row] + 2 * h[row + 1]) / (h[row] + h[row + 1]) / 3  # share of the chord, of a trapezium of stress
+            middle = x[row] + down * (x[row + 1] - x[row]) - SPAN / 2, TOP + arch().inner - RISE - h[row] - down * drop
             away = middle[0] + np.sign(drop), middle[1]
             found.append(PlanarTie((row, GROUND), (middle, away), -MOBILISED * K_P * stress, -stress / K_P))
     return found

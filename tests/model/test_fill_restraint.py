@@ -53,15 +53,17 @@ def write(folder: Path, cohesion: float) -> Path:
 @pytest.mark.parametrize("cohesion", [0.0, 20.0])
 def test_a_strut_on_the_slope(tmp_path: Path, cohesion: float) -> None:
     ties = build_model(read_deck(write(tmp_path, cohesion))).ties
-    assert len(ties) == 1  # none on the level top
+    count = 2 if cohesion else 1  # none on the level top
+    assert ties.forms == ("fill", "cohesion")[:count]
     cohesive = 0.1 * 2 * np.sqrt(3) * cohesion * 1.0
-    assert ties.least == pytest.approx([-(0.5 * 3 * PRESSURE + cohesive)], rel=1e-12)
-    assert ties.greatest == pytest.approx([-PRESSURE / 3], rel=1e-12)
-    assert ties.places[0] == pytest.approx([5, 0.5, 0.5])
-    assert ties.pulls[0] == pytest.approx([1, 0, 0])
-    assert ties.bodies.tolist() == [0, OUTSIDE]
-    assert ties.forms == ("fill",)
-    assert ties.lengths.tolist() == [0.0]
+    assert ties.least == pytest.approx([-0.5 * 3 * PRESSURE, -cohesive][:count], rel=1e-12)
+    assert ties.greatest == pytest.approx([-PRESSURE / 3, 0][:count], rel=1e-12)
+    height = (1.5 + 2 * 0.5) / (1.5 + 0.5) / 3  # of a trapezium
+    assert ties.places[0] == pytest.approx([6 - 2 * height, 0.5, height])
+    assert ties.places[2 * count - 2] == pytest.approx([5, 0.5, 0.5] if cohesion else ties.places[0])
+    assert ties.pulls[::2] == pytest.approx(np.array([[1, 0, 0]] * count))
+    assert ties.bodies.tolist() == [0, OUTSIDE] * count
+    assert ties.lengths.tolist() == [0.0] * count
 
 
 def test_it_never_breaks_and_keeps_its_direction_as_the_block_moves(tmp_path: Path) -> None:
@@ -83,6 +85,76 @@ def test_pushed_into_the_soil_and_away(flow: str) -> None:
         assert result.status is Status.SOLVED
         assert result.solution.mechanics is not None
         assert result.solution.mechanics.load_factor == pytest.approx(expected, rel=1e-6)
+
+
+BUTTRESS = """mbla: 1
+materials: {{stone: {{density: 2000}}, soil: {{density: 1700}}}}
+joints: {{dry: {{friction: 5}}}}
+blocks:
+  - polyhedron: {{group: a, material: stone, vertices: {vertices}, faces: {faces}}}
+contacts: {{joint: dry}}
+supports: [{{ground: {{z: 0}}}}]
+fill:
+  soil: {{on: a, material: soil, level: {level}, passive: {{cohesion: {cohesion}, cohesion_mobilisation: 0.5}}}}
+load_cases:
+  over: {{live: [{{force: [{way}, 0, 0], on: a, at: [0.1, 0.25, 0.9]}}]}}
+analysis: {{flow_rule: associative, accuracy: reference}}
+"""
+
+
+def buttress(base: float, level: float, cohesion: float, strips: int, *, away: bool = False) -> tuple[float, float]:
+    """Load factor of a wedge with an upright face at x = 0 and a slope of ``strips`` faces; the closed form for it.
+
+    It is 1 m high and 0.5 m wide, and turns about its toe, where x = base, or 0 if it is pulled away from the soil. At
+    z the soil pushes with σ = K γ (level − z) + c, of which ∫ σ z dz is the moment about both.
+    """
+    line = [(base * (1 - k / strips), k / strips) for k in range(strips + 1)]
+    outline = [(0.0, 0.0), *line]  # counter-clockwise in x and z
+    n = len(outline)
+    vertices = [[x, y, z] for y in (0.0, 0.5) for x, z in outline]
+    faces = [list(range(n)), [n + k for k in reversed(range(n))]]
+    faces += [[k, n + k, n + (k + 1) % n, (k + 1) % n] for k in range(n)]
+    values = {
+        "vertices": vertices,
+        "faces": faces,
+        "level": level,
+        "cohesion": cohesion,
+        "way": -1000 if away else 1000,
+    }
+    _, result = case_of(BUTTRESS.format(**values))
+    assert result.status is Status.SOLVED
+    assert result.solution.mechanics is not None
+    top, g = min(level, 1.0), 9.81
+    stone = 2000 * g * 0.5 * base * 0.5
+    z = np.polynomial.Polynomial([0.0, 1.0])
+    deep = ((level - z) * base * 1700 * g * 0.5, base * (1 - z))  # soil on the slope over dz, and its place
+    heavy = (deep[0] * (deep[1] if away else base - deep[1])).integ()(top)
+    share = 1 / 3 if away else 0.33 * 3
+    sigma = share * 1700 * g * (level - z) * 0.5 + (0.0 if away else 0.5 * 2 * np.sqrt(3) * cohesion * 0.5)
+    pushed = (sigma * z).integ()(top)
+    expected = stone * base * (1 / 3 if away else 2 / 3) + heavy + (-pushed if away else pushed)
+    return result.solution.mechanics.load_factor, float(expected) / (1000 * 0.9)
+
+
+@pytest.mark.parametrize("strips", [1, 3])
+@pytest.mark.parametrize(
+    ("base", "level", "cohesion"), [(1.0, 1.0, 0.0), (1.0, 0.6, 0.0), (0.6, 1.0, 0.0), (1.0, 1.7, 5000.0)]
+)
+def test_turned_into_the_soil(base: float, level: float, cohesion: float, strips: int) -> None:
+    """Hydrostatic at its passive limit: a third of the depth; a slope partly above the top, a steep one."""
+    found, expected = buttress(base, level, cohesion, strips)
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_the_lever_of_a_wedge() -> None:
+    assert buttress(1.0, 1.0, 0.0, 1)[1] == pytest.approx(6.7062, abs=1e-4)
+
+
+@pytest.mark.parametrize("strips", [1, 4])
+def test_turned_away_from_the_soil(strips: int) -> None:
+    """Active pressure follows at the same place, cohesion does not."""
+    found, expected = buttress(1.0, 1.2, 5000.0, strips, away=True)
+    assert found == pytest.approx(expected, rel=1e-6)
 
 
 def test_units(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ class TieHistory:
         lengths = _lengths(ties)
         pulled, pushed = _senses(ties)
         slack = np.where(pulled, self.longest - lengths, np.where(pushed, lengths - self.shortest, 0.0))
-        return np.asarray(np.maximum(slack, 0.0))
+        return np.where(ties.of_fill, 0.0, np.maximum(slack, 0.0))
 
     def broken(self, ties: Ties) -> BoolArray:
         """Which ties, as built, have broken, (n,)."""

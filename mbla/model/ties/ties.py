@@ -7,7 +7,8 @@ unit direction, or where it passes along the sum of two::
 
 with e the direction of each stretch: one force all along, without friction where it passes. A closed tie passes all of
 its points. A strip pulls together the two faces of each joint that it crosses, along itself. What fill does on a face
-is a tie of the form ``fill``, whose force is the push, negative; its limits are the passive and the active pressure.
+is a tie of the form ``fill``, whose force is the push, negative, between passive and active pressure, and one of the
+form ``cohesion``, if there is any.
 
 Its elongation rate is −Σ pull · v over the velocities v of its points: normality asks that it is at ``greatest`` where
 it gets longer, and at ``least`` where it gets shorter.
@@ -24,7 +25,10 @@ from mbla.model.solids.ragged import items_of_rows
 
 FILL = "fill"
 """form of what fill does on a face: a push between two limits, from outside of the model"""
-AT_ONE_PLACE = ("strip", FILL)
+COHESION = "cohesion"
+"""form of what its cohesion adds, where the face moves into it"""
+OF_FILL = (FILL, COHESION)
+AT_ONE_PLACE = ("strip", *OF_FILL)
 """forms whose points lie at one place, and whose direction is that of their pulls"""
 ONE_PLACE = 1e-9
 """length of a stretch over that of its line that is none"""
@@ -37,7 +41,7 @@ class Ties:
     """All ties of a model, n of them with m points.
 
     names     : of each
-    forms     : tie, strut, bar, ring, strip or fill
+    forms     : tie, strut, bar, ring, strip, fill or cohesion
     closed    : (n,) its last point is joined to the first one
     start     : (n + 1,) points of tie k are rows start[k]:start[k + 1] of the next three
     bodies    : (m,) block at each point, or ``OUTSIDE``
@@ -78,7 +82,7 @@ class Ties:
     @property
     def of_fill(self) -> BoolArray:
         """Which are what fill does on faces, (n,)."""
-        return np.array([form == FILL for form in self.forms], dtype=bool)
+        return np.array([form in OF_FILL for form in self.forms], dtype=bool)
 
     @property
     def lengths_known(self) -> BoolArray:

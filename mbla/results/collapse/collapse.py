@@ -37,6 +37,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
+from mbla.model.ties.ties import FILL
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.cracks import Crack, YieldLine, cracks, yield_lines
@@ -102,14 +103,15 @@ class Collapse:
 def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
     """The mechanism of one load case."""
     parts = rigid_parts(model, contacts, mechanics.mechanism)
-    states = [row.state for row in tie_rows(model, mechanics)]
+    rows = tie_rows(model, mechanics)
+    states, soil = [row.state for row in rows], [row.state for row in rows if row.form == FILL]
     return Collapse(
         interfaces=interface_motion(model, contacts, mechanics),
         parts=parts,
         motions=part_motions(model, parts, mechanics.mechanism),
         work=work_of(model, contacts, load_case, mechanics),
         yielding=states.count(TieState.YIELDS),
-        soil=(states.count(TieState.PASSIVE), states.count(TieState.ACTIVE)),
+        soil=(soil.count(TieState.PASSIVE), soil.count(TieState.ACTIVE)),
     )
 
 

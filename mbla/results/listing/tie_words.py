@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.model.model import Model
-from mbla.model.ties.ties import FILL
+from mbla.model.ties.ties import FILL, OF_FILL
 from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, vector
 from mbla.solution.solution import Mechanics
@@ -23,7 +23,7 @@ def tie_lines(model: Model) -> list[str]:
     ties, soil = _parted(tie_rows(model, None))
     lines = _tie_lines(model, ties) if ties else []
     if soil:
-        words = f"Fill pushes on {counted(len(soil), 'face')}, each between two limits; a push is negative:"
+        words = f"Fill pushes on {counted(_on_faces(soil), 'face')}, each between two limits; a push is negative:"
         head = ["face", "of", f"at [{model.units.length}]", f"force [{model.units.force}]"]
         size = float(np.abs(model.blocks.vertices).max(initial=0.0))
         table = [[row.name, row.from_body, vector(row.from_place, size), _limits(row)] for row in soil[:MOST_ROWS]]
@@ -33,7 +33,12 @@ def tie_lines(model: Model) -> list[str]:
 
 def _parted(rows: Sequence[TieRow]) -> tuple[list[TieRow], list[TieRow]]:
     """Ties, and what fill does on faces."""
-    return [row for row in rows if row.form != FILL], [row for row in rows if row.form == FILL]
+    return [row for row in rows if row.form not in OF_FILL], [row for row in rows if row.form in OF_FILL]
+
+
+def _on_faces(rows: Sequence[TieRow], state: TieState | None = None) -> int:
+    """How many faces fill holds, or holds in one state; cohesion, which is listed by itself, counts with its face."""
+    return sum(row.form == FILL and state in (None, row.state) for row in rows)
 
 
 def _tie_lines(model: Model, rows: Sequence[TieRow]) -> list[str]:
@@ -71,10 +76,9 @@ def tie_force_lines(model: Model, mechanics: Mechanics) -> list[str]:
         )
         lines += ["", *sentence(words), *_force_table(model, ties, "tie", "of capacity", TieState.YIELDS)]
     if soil:
-        passive = sum(row.state is TieState.PASSIVE for row in soil)
-        active = sum(row.state is TieState.ACTIVE for row in soil)
+        passive, active = (_on_faces(soil, state) for state in (TieState.PASSIVE, TieState.ACTIVE))
         words = (
-            f"Fill is at its passive limit on {passive} of {counted(len(soil), 'face')}, at its active limit on "
+            f"Fill is at its passive limit on {passive} of {counted(_on_faces(soil), 'face')}, at its active limit on "
             f"{active}. Pushes of the others are those of the state shown; others are possible. Faces move away where "
             "it elongates, at rates scaled as the mechanism:"
         )
