@@ -119,13 +119,13 @@ def slopes(deck: Deck, structure: Structure, solution: Solution) -> Iterator[Slo
 
 
 def _of_ties(deck: Deck, structure: Structure, state: State) -> Iterator[Slope]:
-    """By the greatest tension of each tie, or push of what only pushes: its elongation rate, exactly."""
+    """By the greatest force of each tie, tension or push or either: the rate at which it gives way to it, exactly."""
     ties, unit = structure.model.ties, deck.units.force
     for row, name in enumerate(ties.names):
-        pulls = ties.greatest[row] > 0.0
-        value = float(ties.greatest[row] if pulls else -ties.least[row])
-        rate = float(state.elongation[row] if pulls else -state.elongation[row])
-        yield _slope(state, f"{TIE} {name}", value, unit, max(rate, 0.0), Side.BOTH if value > 0.0 else Side.ABOVE)
+        pulls, pushes = ties.greatest[row] > 0.0, ties.least[row] < 0.0
+        value, longer = float(ties.greatest[row] if pulls else -ties.least[row]), float(state.elongation[row])
+        rate = pulls * max(longer, 0.0) + pushes * max(-longer, 0.0)  # both limits of a bar move
+        yield _slope(state, f"{TIE} {name}", value, unit, rate, Side.BOTH if value > 0.0 else Side.ABOVE)
 
 
 def _of_path(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:

@@ -92,3 +92,57 @@ def differences(text: str, slope: Slope, factor: float) -> Differences | None:
         found[row] = case.solution.mechanics.load_factor
     sides = [sign * (-3 * found[0] + 4 * found[sign] - found[2 * sign]) / (2 * step) for sign in (-1, 1)]
     return Differences(*sides)
+
+
+TIED = """\
+mbla: 1
+parameters: {{{values}}}
+materials: {{stone: {{density: 2000}}}}
+joints: {{dry: {{friction: {mu}{crush}}}}}
+blocks:
+  - wall: {{material: stone, group: wall, unit: [0.4, 0.3, 0.2], length: 1.6, courses: 5}}
+  - box: {{material: stone, group: cap, min: [0, 0, 1], max: [1.6, 0.3, 1.3]}}
+contacts: {{joint: dry}}
+supports: [{{ground: {{z: 0}}}}]
+ties:
+{ties}
+load_cases:
+  push: {{live: [{{acceleration: {way}}}]}}
+analysis: {{flow_rule: associative, accuracy: reference, sensitivity: true}}
+"""
+
+
+def tied_text(seed: int) -> str:
+    """A wall with ties of all kinds; the parameters s0, s1, ... are a strength of each."""
+    rng, ties = Random(seed), list[str]()
+
+    def within(low: float, high: float) -> float:
+        return round(rng.uniform(low, high), 3)
+
+    for number in range(rng.choice([1, 2, 3])):
+        forms = ('capacity: "={}"', 'area: 1e-5, strength: "=1e5*{}"', 'diameter: 0.01, strength: "=1e4*{}"')
+        keys = rng.choice(forms).format(f"s{number}")
+        side, z = rng.choice([-1, 1]), within(1.03, 1.27)
+        end, away = (0.0, -within(0.5, 3)) if side < 0 else (1.6, 1.6 + within(0.5, 3))
+        to_ground = f"through: [[{end}, 0.15, {z}], [{away}, 0.15, {within(0, 2)}]], on: [cap, ground]"
+        kinds = {
+            "rod": to_ground,
+            "prestressed": f"{to_ground}, prestress: 1",
+            "strut": f"{to_ground}, acts: compression",
+            "bar": f"{to_ground}, acts: both",
+            "passes": f"through: [[{within(0.05, 0.3)}, 0, 1.1], [{within(0.5, 0.7)}, 0, 0.5], [3, 0, {z}]], "
+            "on: [cap, wall, ground]",
+            "fixed": f"through: [[{within(0.05, 0.3)}, 0, 1.1], [{within(0.5, 0.7)}, 0, 0.5], [3, 0, {z}]], "
+            f"on: [cap, wall, ground], points: fixed, acts: {rng.choice(['tension', 'both'])}",
+            "strip": f"strip: [[{within(0.2, 0.3)}, 0, 0.03], [{within(0.5, 0.55)}, 0, {z}]]",
+            "repeated": f"{to_ground}, acts: both, repeat: [{{count: 2, translate: [0, 0.05, 0]}}]",
+        }  # fmt: skip
+        kind = rng.choice(sorted(kinds))
+        ties.append(f"  - {{name: t{number}, {kinds[kind]}, {keys}}}")
+    return TIED.format(
+        values=", ".join(f"s{number}: {within(50, 800)}" for number in range(len(ties))),
+        mu=within(0.3, 0.9),
+        crush=rng.choice(["", ", compressive_strength: 4e5"]),
+        ties="\n".join(ties),
+        way=rng.choice([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0.8, 0.6, 0]]),
+    )

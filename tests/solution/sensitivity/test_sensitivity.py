@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -11,7 +13,7 @@ from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import Status
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, WALL, case_of
-from tests.solution.sensitivity.differences import differences, random_text
+from tests.solution.sensitivity.differences import differences, random_text, tied_text
 
 LAW, OF_GAP = 1e-5, 5.0
 """Share of the load factor over the parameter, or of the slope, that is exact; in space and where joints crush
@@ -133,6 +135,38 @@ def test_ties() -> None:
     assert near(own["parameters.ht"], rods / moment, 1.8 * rods / moment / factor)
     assert near(own["parameters.d"], 2 / 0.012 * rods * 1.8 / moment, 2 * rods * 1.8 / moment / factor)
     assert near(own["ties.1.capacity"], 1 / moment, 5000 / moment / factor)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_bar_that_takes_both(way: int) -> None:
+    """λ W h/2 = W b/2 + C z whichever way it overturns: both limits of a bar are its capacity."""
+    bar = "{name: bar, through: [[1, 0.5, 1.6], [3, 0.5, 1.6]], on: [block, ground], capacity: 800, acts: both}"
+    text = BLOCK.replace("load_cases:", f"ties: [{bar}]\nload_cases:")
+    text = text.replace("acceleration: [1, 0, 0]", f"acceleration: [{way}, 0, 0]")
+    weight = 2000 * 9.81 * 4
+    factor = 1 / 4 + 800 * 1.6 / (weight * 2)
+    found = slopes_of(text, "parameters.h=4", "parameters.mu=2")["tie bar[0]"]
+    assert near(found, 1.6 / (weight * 2), 1 - 1 / 4 / factor)
+    assert found.side is Side.BOTH
+
+
+@pytest.mark.parametrize(
+    "seed", [2, *(pytest.param(seed, marks=pytest.mark.trust if seed % 8 else pytest.mark.long) for seed in range(64))]
+)
+def test_random_ties(seed: int) -> None:
+    """Slopes by the strength of each tie, summed up over its lines, lie between the differences to both sides."""
+    text = tied_text(seed)
+    _, case = case_of(text)
+    assert case.status is Status.SOLVED
+    assert case.solution.associative is not None
+    factor = case.solution.associative.load_factor
+    for number, value in enumerate(re.findall(r"s\d: ([\d.]+)", text)):
+        own = [each for each in case.solution.sensitivity if each.parameter.startswith(f"tie t{number}[")]
+        share = sum(each.elasticity for each in own)
+        found = differences(text, replace(own[0], parameter=f"parameters.s{number}", value=float(value)), factor)
+        if found is not None:
+            least, most = sorted(side * float(value) / factor for side in (found.below, found.above))
+            assert least - LAW <= share <= most + LAW
 
 
 def test_without_dilatancy_they_are_of_the_associative_factor() -> None:
