@@ -66,8 +66,9 @@ def test_pairs_that_may_not_go_on_say_how_far_they_came(wall: Wall, monkeypatch:
     result = solve_by_alternation(*wall, replace(SETTINGS, residual=0.0), lambda record: None)
     assert "did not converge in 3 iterations" in " ".join([result.reason, *map(str, result.remarks)])
     assert result.state is not None
-    found = result.state.load_factor  # every start leads to it, with a residual of 4e-10
-    assert result.spread == pytest.approx((found, found), rel=1e-8)
+    assert result.state.residual < 1e-8
+    found = result.state.load_factor  # every start leads to it: to 3e-8 by one kernel of OpenBLAS, to 1e-9 by others
+    assert result.spread == pytest.approx((found, found), rel=1e-6)
 
 
 @pytest.mark.parametrize("name", OUTLINES)
