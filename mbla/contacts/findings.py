@@ -1,6 +1,7 @@
 """Faults of the deck that only its contacts show: bent faces that touch, and what glue takes from loads and supports.
 
-Contacts need planes, so that a block is refused if it touches another with a face that was split because it is bent.
+Contacts need planes, so that a block is refused if it touches another with a face that was split because it is bent,
+unless the other has the same face, split alike.
 """
 
 from __future__ import annotations
@@ -181,6 +182,7 @@ def bent_contacts(model: Model, contacts: Contacts, tolerance: float) -> tuple[I
     outward = np.where(side < n, 1.0, -1.0)[:, None] * contacts.normals[side % n]
     reach = _APART * tolerance * model.blocks.sizes[body[side]]
     on = _lies_on(contacts.centroids[side % n], outward, bent.triangles[triangle], reach)
+    on &= other[side] != bent.twins[bent.row[triangle]]  # split alike
     rows, at = np.unique(bent.row[triangle[on]], return_index=True)
     return rows, other[side[on]][at]
 

@@ -270,7 +270,8 @@ class Model:
     interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
                   files, which have the contacts that were made of them
     ties        : what holds blocks together or apart beside joints
-    bent        : faces that were split into triangles; none of them may be in contact, and none is in result files
+    bent        : faces that were split into triangles, in contact with the same one of another block at most; in no
+                  result file
     fill        : soil that blocks carry, counted among their added masses; None for none
     """
 

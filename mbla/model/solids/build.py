@@ -24,6 +24,7 @@ from mbla.model.solids.defects import (
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces, can_be_split, find_facets, split_faces
 from mbla.model.solids.measures import (
     Edges,
+    FaceGeometry,
     count_pieces,
     face_geometry,
     faces_to_turn,
@@ -38,6 +39,7 @@ from mbla.model.solids.polyhedra import (
     turn_faces,
 )
 from mbla.model.solids.self_intersection import intersection_defects
+from mbla.model.solids.shared_faces import shared_faces
 from mbla.model.wording import counted, named, with_count
 
 PLANAR = 1e-9
@@ -110,7 +112,7 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     defects.add(_self_intersections(polyhedra, np.flatnonzero(defects.sound & ~convex)))
     facets = np.arange(len(polyhedra.block_of_face))
     if not defects.found:
-        facets = find_facets(polyhedra, edges, faces, tolerance * sizes)
+        facets = find_facets(polyhedra, edges, faces, _allowed(bent, tolerance * sizes))
     blocks = Blocks(
         **{each.name: getattr(polyhedra, each.name) for each in fields(Polyhedra)},
         facet_of_face=facets,
@@ -131,15 +133,26 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     number, share = rough - polyhedra.face_start[owner], faces.deviations[rough] / sizes[owner]
     fitted = "planar only within the tolerance, each taken as the plane fitted to its corners"
     split_share = bent.deviations / sizes[bent.blocks]
+    split_words = "not planar and split into triangles"
+    if shared := int((bent.twins >= 0).sum()) // 2:
+        split_words += f", {counted(shared, 'pair')} with the same corners in two blocks alike"
     notices = (
         *_counted("vertices-unused", unused, "vertex", "left out, used by no face,", labels),
         *_counted("faces-turned-outwards", turned_faces, "face", "turned outwards", labels),
         *_worst("faces-not-quite-planar", owner, number, share, fitted, labels),
-        *_worst(
-            "bent-faces-split", bent.blocks, bent.faces, split_share, "not planar and split into triangles", labels
-        ),
+        *_worst("bent-faces-split", bent.blocks, bent.faces, split_share, split_words, labels),
     )
     return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
+
+
+def _allowed(bent: BentFaces, allowed: FloatArray) -> FloatArray:
+    """Departures from the plane of a facet, (n,), no greater for a block than for those with which it shares bent
+    faces: what is split for one stays so for both.
+    """
+    shared = bent.twins >= 0
+    least = allowed.copy()
+    np.minimum.at(least, bent.blocks[shared], allowed[bent.twins[shared]])
+    return least
 
 
 def _oriented(polyhedra: Polyhedra, edges: Edges, defects: Defects) -> tuple[Polyhedra, BoolArray]:
@@ -167,12 +180,29 @@ def _without_bent_faces(
     bent = bent[defects.sound[polyhedra.block_of_face[bent]]]
     if not len(bent):
         return polyhedra, NO_BENT_FACES
+    bent, twins = _with_twins(polyhedra, faces, bent, tolerance * sizes)
     convex = can_be_split(polyhedra, faces, bent)
     block = polyhedra.block_of_face[bent]
     number, departure = bent - polyhedra.face_start[block], faces.deviations[bent]
     defects.add(planarity_defects(block[~convex], number[~convex], departure[~convex], sizes, tolerance))
-    chosen = bent[defects.sound[block]]
-    return split_faces(polyhedra, faces, chosen) if len(chosen) else (polyhedra, NO_BENT_FACES)
+    sound = defects.sound[block]
+    if not sound.any():
+        return polyhedra, NO_BENT_FACES
+    return split_faces(polyhedra, faces, bent[sound], twins[sound])
+
+
+def _with_twins(
+    polyhedra: Polyhedra, faces: FaceGeometry, bent: IntArray, allowed: FloatArray
+) -> tuple[IntArray, IntArray]:
+    """Bent faces (n,) and those of other blocks with the same corners, ascending, and that of each; -1 for none.
+
+    A face may be bent for a small block, and planar within the tolerance for the large one that has the same.
+    """
+    twins = shared_faces(polyhedra, faces, bent, allowed[polyhedra.block_of_face[bent]])
+    twin_of = dict(zip(bent.tolist(), twins.tolist(), strict=True))
+    twin_of |= {twin: face for face, twin in twin_of.items() if twin >= 0 and twin not in twin_of}
+    chosen = np.array(sorted(twin_of), dtype=np.int64)
+    return chosen, np.array([twin_of[face] for face in chosen.tolist()], dtype=np.int64)
 
 
 def _self_intersections(polyhedra: Polyhedra, blocks: IntArray) -> list[Defect]:

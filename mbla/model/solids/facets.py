@@ -5,16 +5,19 @@ into triangles or quadrilaterals, and contacts are found between complete facets
 
 Bent faces have corners that leave their plane by more than the tolerance. Outlines of free faces (a rubble face, a
 doubly curved extrados) decide volume and mass only, and two triangles in place of a bent quadrilateral are as good.
-Common surfaces need planes: where a bent face turns out to touch something, the search for contacts refuses it
-(:mod:`mbla.contacts.findings`). Two bent faces with the same corners are split along the same diagonal, so that they
-are found to touch.
+Common surfaces need planes. Two bent faces with the same corners are split alike, so that their triangles touch, and
+what one block loses the other gains. Where another bent face turns out to touch something, the search for contacts
+refuses it (:mod:`mbla.contacts.findings`).
+
+A quadrilateral is folded along its shorter diagonal. Where both are equally long, as in a ruled surface on a rectangle,
+and with more corners, triangles lead from each edge to the centre: nothing depends on axes or on the order of corners.
 
 The triangles of a face take its number and numbers behind those of all other faces of its block, which keep theirs.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +25,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.measures import Edges, FaceGeometry, connected_labels
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import items_of_rows, ranges, row_maxima
+from mbla.model.solids.shared_faces import face_corners, matched_corners
 
 STEEPEST = 0.99
 """cosine of the greatest angle between neighbouring faces of one facet, about 8 degrees"""
@@ -88,9 +92,6 @@ def _planar_parts(polyhedra: Polyhedra, faces: FaceGeometry, parts: IntArray, al
 
 EVEN = 1e-3
 """relative difference of two diagonals that are equally long up to what files round"""
-_ODD_DIRECTION = np.array([0.5403023, 0.2919266, 0.7892347])
-"""no building is likely to be square to it: of equal diagonals the one that reaches farthest along it is taken"""
-
 
 _NO_NUMBERS = np.zeros(0, dtype=np.int64)
 
@@ -105,6 +106,7 @@ class BentFaces:
     triangles  : (n, 3, 3) corners, counter-clockwise seen from outside
     row        : (n,) face of each triangle, ascending
     items      : (m,) item of the deck that each block comes from, 0 where there is no deck
+    twins      : (m,) block that has a face with the same corners, split alike; -1 for none
     """
 
     blocks: IntArray
@@ -113,12 +115,15 @@ class BentFaces:
     triangles: FloatArray
     row: IntArray
     items: IntArray
+    twins: IntArray
 
     def __len__(self) -> int:
         return len(self.blocks)
 
 
-NO_BENT_FACES = BentFaces(_NO_NUMBERS, _NO_NUMBERS, np.zeros(0), np.zeros((0, 3, 3)), _NO_NUMBERS, _NO_NUMBERS)
+NO_BENT_FACES = BentFaces(
+    _NO_NUMBERS, _NO_NUMBERS, np.zeros(0), np.zeros((0, 3, 3)), _NO_NUMBERS, _NO_NUMBERS, _NO_NUMBERS
+)
 
 
 def can_be_split(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> BoolArray:
@@ -131,9 +136,23 @@ def can_be_split(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) ->
     return convex
 
 
-def split_faces(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> tuple[Polyhedra, BentFaces]:
-    """The same polyhedra with triangles in place of the chosen faces, (n,) ascending, and these."""
-    fans = [_fan(polyhedra, face) for face in chosen.tolist()]
+def split_faces(
+    polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray, twins: IntArray
+) -> tuple[Polyhedra, BentFaces]:
+    """The same polyhedra with triangles in place of the chosen faces, (n,) ascending, and these.
+
+    twins : (n,) face of another polyhedron with the same corners, -1 for none
+    """
+    about = np.array(
+        [_about(polyhedra, face, twin) for face, twin in zip(chosen.tolist(), twins.tolist(), strict=True)]
+    )
+    hubs = chosen[about < 0]
+    polyhedra, hub = _with_hubs(polyhedra, faces, hubs)
+    of_face = dict(zip(hubs.tolist(), hub.tolist(), strict=True))
+    fans = [
+        _fan(polyhedra, face, first) if first >= 0 else _star(polyhedra, face, of_face[face])
+        for face, first in zip(chosen.tolist(), about.tolist(), strict=True)
+    ]
     counts = np.array([len(fan) for fan in fans], dtype=np.int64)
     triangles, row = np.concatenate(fans), np.repeat(np.arange(len(chosen)), counts)
     others = np.setdiff1d(np.arange(len(polyhedra.block_of_face)), chosen)
@@ -153,9 +172,51 @@ def split_faces(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> 
         triangles=polyhedra.vertices[triangles],
         row=row,
         items=np.zeros(len(chosen), dtype=np.int64),
+        twins=np.where(twins < 0, -1, polyhedra.block_of_face[twins]),
     )
     split = Polyhedra(polyhedra.vertices, polyhedra.vertex_start, loops, starts(length[order]), face_start)
     return split, bent
+
+
+def _about(polyhedra: Polyhedra, face: int, twin: int) -> int:
+    """Corner about which a fan of triangles takes the place of a convex face; -1 for a star about its centre.
+
+    A quadrilateral is folded along its shorter diagonal. Where neither is shorter, nothing but the axes of coordinates
+    could tell one from the other; so it is with more corners. Of two faces with the same corners the mean decides.
+    """
+    corners = face_corners(polyhedra, face)
+    if twin >= 0:
+        corners = (corners + face_corners(polyhedra, twin)[matched_corners(polyhedra, face, twin)]) / 2
+    if len(corners) != 4:
+        return -1
+    diagonals = np.linalg.norm(corners[:2] - corners[2:], axis=1)
+    uneven = abs(diagonals[0] - diagonals[1]) > EVEN * diagonals.max()
+    return int(np.argmin(diagonals)) if uneven else -1
+
+
+def _with_hubs(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> tuple[Polyhedra, IntArray]:
+    """The polyhedra with the centres of the chosen faces, (n,), as vertices behind their own, and their rows, (n,)."""
+    if not len(chosen):
+        return polyhedra, np.zeros(0, dtype=np.int64)
+    block = polyhedra.block_of_face[chosen]
+    order = np.argsort(block, kind="stable")
+    centres = polyhedra.origins[block] + faces.centres[chosen]
+    more = np.bincount(block, minlength=len(polyhedra))
+    before = starts(more.astype(np.int64))
+    moved = np.arange(len(polyhedra.vertices)) + before[polyhedra.block_of_vertex]
+    vertices = np.insert(polyhedra.vertices, polyhedra.vertex_start[1:][block[order]], centres[order], axis=0)
+    hub = np.empty(len(chosen), dtype=np.int64)
+    hub[order] = polyhedra.vertex_start[1:][block[order]] + np.arange(len(chosen))
+    extended = replace(
+        polyhedra, vertices=vertices, vertex_start=polyhedra.vertex_start + before, loops=moved[polyhedra.loops]
+    )
+    return extended, hub
+
+
+def _star(polyhedra: Polyhedra, face: int, hub: int) -> IntArray:
+    """Triangles from each edge of a face to its centre, (n, 3) rows of vertices."""
+    loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]]
+    return np.stack([loop, np.roll(loop, -1), np.full(len(loop), hub)], axis=1)
 
 
 def _corners(polyhedra: Polyhedra, face: int) -> FloatArray:
@@ -164,19 +225,7 @@ def _corners(polyhedra: Polyhedra, face: int) -> FloatArray:
     return np.asarray(polyhedra.local_vertices[loop])
 
 
-def _fan(polyhedra: Polyhedra, face: int) -> IntArray:
-    """Triangles of a convex face about one of its corners, (n - 2, 3) rows of vertices.
-
-    That of a quadrilateral lies on its shorter diagonal, of equal ones on that which reaches farther along an odd
-    direction; that of any other face lies farthest along it.
-    """
-    loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]]
-    corners = _corners(polyhedra, face)
-    along = corners @ _ODD_DIRECTION
-    about = int(np.argmax(along))
-    if len(loop) == 4:
-        diagonals = np.linalg.norm(corners[:2] - corners[2:], axis=1)
-        uneven = abs(diagonals[0] - diagonals[1]) > EVEN * diagonals.max()
-        about = int(np.argmin(diagonals)) if uneven else about
-    fan = np.roll(loop, -about)
+def _fan(polyhedra: Polyhedra, face: int, about: int) -> IntArray:
+    """Triangles of a convex face about one of its corners, (n - 2, 3) rows of vertices."""
+    fan = np.roll(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]], -about)
     return np.stack([np.broadcast_to(fan[0], len(fan) - 2), fan[1:-1], fan[2:]], axis=1)
