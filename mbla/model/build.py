@@ -20,7 +20,9 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.text.tree import KeyPath
+from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.model.block_sizes import unusual_sizes
 from mbla.model.fill import Fill, build_fill
 from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
@@ -28,9 +30,10 @@ from mbla.model.items import collect_items, defects_in_words, density_of
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
+from mbla.model.outside import outside
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
-from mbla.model.solids.blocks import PointMasses, distance_outside, joined_masses
+from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
@@ -183,14 +186,15 @@ def _build(deck: Deck) -> Structure:
     if not deck.content.symmetry:  # else images count among what they choose
         check_overrides(deck.contacts.overrides, roster)
     interfaces = read_interfaces(deck, roster, supports.grounds)
-    masses = [point_masses(deck.content.masses, roster, supports.fixed)]
+    masses = [point_masses(deck.content.masses, roster, supports.fixed, deck.units)]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
     fill = build_fill(deck, densities, roster, supports.fixed)
     if fill is not None:
         masses.append(fill.parts)
     carried = joined_masses(masses)
     roster = replace(roster, blocks=carried.added_to(roster.blocks))
-    first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []))
+    sizes = () if faults else unusual_sizes(roster.blocks, supports.fixed, deck.units)
+    first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
     placeless = roster.of_deck(unplaced)  # places are those of one deck
     return Structure(placeless, supports, interfaces, bent, fill, carried, first)
@@ -228,7 +232,7 @@ def build_joint(name: str, law: JointLaw) -> Joint:
     )
 
 
-def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) -> PointMasses:
+def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray, units: Units) -> PointMasses:
     """The masses of the deck, shared in proportion to the volumes of the blocks selected.
 
     Each share is at the centroid of its block; that of a mass on one block is where the deck says. Refuses points
@@ -251,12 +255,13 @@ def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray) 
         points = blocks.centroids[chosen] if added.at is None else np.array([added.at])
         found.append(PointMasses(chosen, shares, points))
         if added.at is not None:
-            off = distance_outside(np.array(added.at), int(chosen[0]), blocks)
-            name = blocks.name(int(chosen[0]))
-            words = f"the mass at {vector(added.at)} on {name} lies {off:.4g} outside that block, with which it moves"
-            if off:
-                roster.remark(Notice("notice", "mass-outside-block", words))
+            off = outside(np.array(added.at), int(chosen[0]), roster.blocks, units)
+            if off is not None:
+                where = f"{vector(added.at)} {units.length} on {blocks.name(int(chosen[0]))}"
+                words = f"the mass of {added.mass:g} {units.mass} at {where} lies {off.words}; it moves with the block"
+                roster.remark(Notice("warning" if off.far else "notice", "mass-outside-block", words))
         if fixed[chosen].all() and not fixed.all():
-            words = f"the mass of {added.mass:g} on {named(chosen, blocks.name)} has no effect: nothing of it moves"
+            where = f"{added.mass:g} {units.mass} on {named(chosen, blocks.name)}"
+            words = f"the mass of {where} has no effect: nothing of it moves"
             roster.remark(Notice("warning", "mass-on-support", words))
     return joined_masses(found)

@@ -131,3 +131,17 @@ def test_masses_that_look_wrong_are_remarked_on(
 ) -> None:
     found = model(tmp_path, f"[{mass}]", supports=supports)
     assert [notice.identifier for notice in found.notices] == identifiers
+
+
+@pytest.mark.parametrize(
+    ("at", "severity", "words"),
+    [
+        ("[500, 500, 2000]", "warning", "large; in mm it would be at (0.5, 0.5, 2) m; it moves with the block"),
+        ("[0.5, 0.5, 9000]", "warning", "m outside that block, of a structure that is"),
+        ("[3, 0, 0]", "notice", "the mass of 5 kg at (3, 0, 0) m on base[0] lies 2 m outside that block; it moves"),
+    ],
+)
+def test_where_a_mass_far_from_its_block_may_be_meant(tmp_path: Path, at: str, severity: str, words: str) -> None:
+    (notice,) = model(tmp_path, f"[{{mass: 5, on: base, at: {at}}}]").notices
+    assert (notice.severity, notice.identifier) == (severity, "mass-outside-block")
+    assert words in notice.message

@@ -10,21 +10,27 @@ from pydantic import Field
 
 from mbla.deck.quantities import Count, NonNegativeLength, NonNegativeNumber, PositiveLength, Quantity, Time
 from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.units import STANDARD_GRAVITY
 from mbla.errors import Finding
 
 LIMIT_STATES = ("SLD", "SLV", "SLC")
 """damage, life safety and near collapse, by the names of the Italian code"""
 
-GroundAcceleration: TypeAlias = Annotated[float, Quantity("number", gt=0, le=3)]
+GREATEST, LONGEST = 1.0, 2.0
+"""a_g in g and T_C* in s, above what maps of any country have: 0.3 and 0.6 in Italy for a return period of 475 years"""
+
+GroundAcceleration: TypeAlias = Annotated[float, Quantity("number", gt=0)]
 Soil: TypeAlias = Literal["A", "B", "C", "D", "E"]
 
 
 class NtcSpectrum(Section):
     """Spectrum of NTC 2018, 3.2.3.2.1, from the parameters of a site and of a return period."""
 
-    a_g: GroundAcceleration = Field(description="greatest acceleration of rock, in g")
+    a_g: GroundAcceleration = Field(description="greatest acceleration of rock, in g, at most 1")
     F_0: Annotated[float, Quantity("number", ge=2.2, le=5)] = Field(description="greatest amplification")
-    T_C_star: Time = Field(description="period, s, at which the spectrum of rock begins to fall with constant velocity")
+    T_C_star: Time = Field(
+        description="period, s, at most 2, at which the spectrum of rock begins to fall with constant velocity"
+    )
     soil: Soil = Field(description="category of the ground")
     topography: Literal["T1", "T2", "T3", "T4"] = Field("T1", description="category of the site")
 
@@ -32,9 +38,26 @@ class NtcSpectrum(Section):
 class EurocodeSpectrum(Section):
     """Spectrum of EN 1998-1:2004, 3.2.2.2, with the recommended values."""
 
-    a_g: GroundAcceleration = Field(description="design acceleration of rock with its factor of importance, in g")
+    a_g: GroundAcceleration = Field(
+        description="design acceleration of rock with its factor of importance, in g, at most 1"
+    )
     type: Literal[1, 2] = Field(description="1, or 2 where earthquakes have a surface-wave magnitude up to 5.5")
     soil: Soil = Field(description="type of the ground")
+
+
+@rule(NtcSpectrum)
+@rule(EurocodeSpectrum)
+def of_the_ground(spectrum: NtcSpectrum | EurocodeSpectrum) -> Iterator[Finding]:
+    """An acceleration in g and a period in seconds."""
+    if spectrum.a_g > GREATEST:
+        metric = f"{spectrum.a_g:g} m/s^2 would be {spectrum.a_g / STANDARD_GRAVITY:.3g}"
+        words = f"must be <= {GREATEST:g}: it is in units of g = {STANDARD_GRAVITY:g} m/s^2; {metric}"
+        yield Finding("out-of-bounds", words, "a_g")
+    if isinstance(spectrum, NtcSpectrum) and spectrum.T_C_star > LONGEST:
+        words = (
+            f"must be <= {LONGEST:g}: it is in seconds; {spectrum.T_C_star:g} ms would be {spectrum.T_C_star / 1e3:.3g}"
+        )
+        yield Finding("out-of-bounds", words, "T_C_star")
 
 
 @exactly_one_of()

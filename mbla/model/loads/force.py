@@ -12,7 +12,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.load_kind import AppliedLoad, LoadSite, without_levers, wrenches_of
-from mbla.model.solids.blocks import distance_outside
+from mbla.model.outside import outside
 from mbla.model.wording import vector
 
 
@@ -27,10 +27,9 @@ def force_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     point = centroid if load.at is None else np.array(load.at)
     if load.at is not None:
         words += f" at {vector(load.at)} {site.units.length}"
-        off = distance_outside(point, block, site.blocks)
-        if off:
-            message = f"the {words} acts {off:.4g} {site.units.length} outside that block; its moment is kept"
-            site.warn("force-outside-block", message)
+        off = outside(point, block, site.blocks, site.units)
+        if off is not None:
+            site.warn("force-outside-block", f"the {words} acts {off.words}; its moment is kept")
     else:
         words += " at its centroid"
     return AppliedLoad(np.array([block]), wrenches_of(np.array([load.force]), point[None], centroid[None]), words)

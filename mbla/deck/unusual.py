@@ -1,0 +1,190 @@
+"""Values of a deck that are far from those of masonry: mostly meant in another unit, or an angle for a coefficient.
+
+Limits lie well beyond what is built, tested at a small scale or found in the ground, in SI units, whatever those of the
+deck: a value between them is not remarked on. What is beyond them is used as it is given.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mbla.deck.content import DeckContent
+from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
+from mbla.deck.sections.loads import Load
+from mbla.deck.text.tree import KeyPath, Tree
+from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
+from mbla.errors import Message, Notice
+
+GRAVITY_TOLERANCE = 0.02
+"""Covers 9.8, 9.80665 and the variation over the earth."""
+
+MOST_ACCELERATION = 5.0
+"""g, of a live load: beyond what brings masonry down"""
+MOST_GROUND, OF_GROUND = 0.6, "is in units of g = 9.81 m/s^2, and maps of earthquakes rarely have as much"
+"""g, of the ground, and what to say of more"""
+LONGEST_PERIOD = 20.0
+"""s, of spectra and buildings"""
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Between what a value is not remarked on.
+
+    least, most : in the unit of the words; texts are converted
+    words       : what it is, or is not
+    dimension   : see :data:`mbla.deck.units.DIMENSIONS`; empty for a number whose words say all
+    meant       : units in which such a number may be meant where it is far off: the one that brings it closest to
+    typical     : a value as it mostly is
+    """
+
+    least: float | str
+    most: float | str
+    words: str
+    dimension: str = ""
+    meant: tuple[str, ...] = ()
+    typical: str = ""
+
+    def remark(self, value: float, units: Units) -> str:
+        """What is odd about a value; nothing where it is between the limits."""
+        low, high = (units.convert(end, self.dimension) if isinstance(end, str) else end for end in self.ends)
+        if low <= value <= high:
+            return ""
+        if not self.meant:
+            return self.words
+        remark = f"is {value:.6g} {units.unit(self.dimension)}, {self.words}"
+        typical = units.convert(self.typical, self.dimension)
+        others = {unit: units.convert(f"{value:.15g} {unit}", self.dimension) for unit in self.meant}
+        unit = min(others, key=lambda unit: abs(math.log(others[unit] / typical)))
+        return f'{remark}; "{value:.6g} {unit}" may be meant' if low <= others[unit] <= high else remark
+
+    @property
+    def ends(self) -> tuple[float | str, float | str]:
+        """Both limits."""
+        return self.least, self.most
+
+
+STRESSES = ("MPa", "kPa", "Pa")
+WEAK = "and that of mortar joints is some 10 kPa to 1 MPa"
+
+USUAL: dict[str, dict[str, Usual]] = {
+    "materials": {
+        "density": Usual(
+            "200 kg/m^3", "20000 kg/m^3", "is not that of masonry, 1500 to 3000 kg/m^3", dimension="density"
+        ),
+        "unit_weight": Usual(
+            "2 kN/m^3", "200 kN/m^3", "is not that of masonry, 15 to 30 kN/m^3", dimension="unit_weight"
+        ),
+    },
+    "joints": {
+        "friction": Usual(0.0, 5.0, "is more than masonry has; an angle is given as friction_angle, in degrees"),
+        "friction_angle": Usual(1.0, 90.0, "is less than masonry has; a coefficient is given as friction"),
+        "cohesion": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+        "tensile_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+        "compressive_strength": Usual(
+            "10 kPa",
+            "10 GPa",
+            "and that of masonry is 0.5 to 200 MPa; without the key it is unlimited",
+            "stress",
+            STRESSES,
+            "5 MPa",
+        ),
+    },
+    "ties": {
+        "strength": Usual("100 kPa", "100 GPa", "and that of steel is 200 to 2000 MPa", "stress", STRESSES, "300 MPa"),
+        "area": Usual("0.01 mm^2", "2 m^2", "which no tie or strut has", "area", ("mm^2", "cm^2", "m^2"), "400 mm^2"),
+        "diameter": Usual("0.1 mm", "1 m", "which no bar has", "length", ("mm", "cm", "m"), "24 mm"),
+    },
+    "plate": {
+        "diameter": Usual("1 mm", "5 m", "which no anchor plate has", "length", ("mm", "cm", "m"), "200 mm"),
+        "wall": Usual("1 mm", "20 m", "which no wall has", "length", ("mm", "cm", "m"), "0.5 m"),
+        "shear_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+        "tensile_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+    },
+    "pushover": {
+        "step": Usual(0.0, "10 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
+        "until": Usual(0.0, "100 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
+    },
+    "settlement": {
+        "step": Usual(0.0, "10 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
+        "amount": Usual(0.0, "100 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
+    },
+    "height": {"period": Usual(0.0, LONGEST_PERIOD, "is in seconds, and no building's first period is so long")},
+    "spectrum": {"a_g": Usual(0.0, MOST_GROUND, OF_GROUND)},
+}
+"""By section and key."""
+
+
+def unusual_values(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
+    """A warning for each value that is far from usual."""
+    for path, section, item in _places(content):
+        for key, usual in USUAL[section].items():
+            value = getattr(item, key)
+            remark = usual.remark(value, units) if value else ""
+            if remark:
+                yield _notice(tree, (*path, key), remark)
+    for path, load in _loads(content):
+        if load.acceleration is not None and math.hypot(*load.acceleration) > MOST_ACCELERATION:
+            yield _notice(tree, (*path, "acceleration"), "is in units of g = 9.81 m/s^2")
+    for path, spectrum in _spectra(content):
+        if spectrum.table is not None and spectrum.table[0][1] > MOST_GROUND:
+            yield _notice(tree, (*path, "table", 0, 1), OF_GROUND)
+        if spectrum.table is not None and spectrum.table[-1][0] > LONGEST_PERIOD:
+            yield _notice(tree, (*path, "table", len(spectrum.table) - 1, 0), "is in seconds, and spectra end before")
+
+
+def _notice(tree: Tree, path: KeyPath, words: str) -> Notice:
+    return Notice("warning", "value-unusual", str(tree.fault(path, Message("value-unusual", words))))
+
+
+def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
+    """Places with values that are held against those of :data:`USUAL`, under which name, and what is there."""
+    for section in ("materials", "joints"):
+        for name, item in getattr(content, section).items():
+            yield (section, name), section, item
+    for number, tie in enumerate(content.ties):
+        yield ("ties", number), "ties", tie
+        if tie.plate is not None:
+            yield ("ties", number, "plate"), "plate", tie.plate
+    for name, case in content.load_cases.items():
+        for key in ("pushover", "settlement"):
+            if getattr(case, key) is not None:
+                yield ("load_cases", name, key), key, getattr(case, key)
+        if case.assessment is not None and case.assessment.height is not None:
+            yield ("load_cases", name, "assessment", "height"), "height", case.assessment.height
+    for path, spectrum in _spectra(content):
+        for key in ("ntc_2018", "en_1998"):
+            if getattr(spectrum, key) is not None:
+                yield (*path, key), "spectrum", getattr(spectrum, key)
+
+
+def _spectra(content: DeckContent) -> Iterator[tuple[KeyPath, SpectrumSection]]:
+    assessed = {name: case.assessment for name, case in content.load_cases.items() if case.assessment is not None}
+    for name, assessment in assessed.items():
+        for state in LIMIT_STATES:
+            spectrum = getattr(assessment.spectra, state)
+            if spectrum is not None:
+                yield ("load_cases", name, "assessment", "spectra", state), spectrum
+
+
+def unusual_gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
+    """Gravity far from 9.81 m/s2: mostly a deck in mm whose gravity is still in m."""
+    for path, load in _loads(content):
+        if load.gravity is None or load.gravity == "none" or not any(load.gravity):
+            continue
+        size = math.hypot(*load.gravity) * METRES[units.length]
+        if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:
+            fault = tree.fault((*path, "gravity"), Message("gravity-unusual", f"is {size:.4g} m/s^2, not 9.81"))
+            words = f"{fault}: its numbers are in {units.unit('acceleration')}"
+            yield Notice("warning", "gravity-unusual", words)
+
+
+def _loads(content: DeckContent) -> Iterator[tuple[KeyPath, Load]]:
+    for name, named in content.loads.items():
+        yield from ((("loads", name, number), load) for number, load in enumerate(named))
+    for name, case in content.load_cases.items():
+        for key, loads in (("dead", case.dead or []), ("live", case.live or [])):
+            for number, load in enumerate(loads):
+                yield ("load_cases", name, key, number), load
