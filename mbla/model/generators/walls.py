@@ -27,6 +27,7 @@ from mbla.model.generators.masonry.bonds import random_levels
 from mbla.model.generators.masonry.courses import units_of
 from mbla.model.generators.masonry.leg import Leg, Passage, Slopes
 from mbla.model.generators.masonry.plan import Line, check_plan, lines_of, passages_of
+from mbla.model.generators.masonry.unspanned import unspanned
 
 
 def generate_wall(item: WallItem, site: Site) -> Generated:
@@ -94,7 +95,9 @@ def _generate(item: WallItem | WallsItem, lines: Sequence[Line], gables: Mapping
         raise ItemRefused(*findings)
     levels = random_levels(item, _fixed_levels(walls))
     legs = [_leg(item, number, wall, levels, gables.get(number), plan) for number, wall in enumerate(walls)]
-    return Generated(tuple(_parts(walls, legs, numbered=plan)))
+    name = item.group or ("walls" if plan else "wall")
+    notices = [each for leg, wall in zip(legs, walls, strict=True) for each in unspanned(leg, wall.openings, name)]
+    return Generated(tuple(_parts(walls, legs, numbered=plan)), notices=tuple(notices))
 
 
 def _fixed_levels(walls: Sequence[_Wall]) -> list[int]:
