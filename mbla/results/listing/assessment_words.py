@@ -21,6 +21,18 @@ OF_2019 = (
 OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
 
 
+def code_verdict(model: Model, contacts: Contacts, case: CaseResult) -> str:
+    """What a code says at every limit state, in a line: met or not, capacity over demand; empty where none is asked."""
+    found, asked = assessment_of(model, contacts, case), case.load_case.assessment
+    if found is None or asked is None:
+        return ""
+    said = {name: f"{name} no verdict" for name in LIMIT_STATES if getattr(asked.spectra, name) is not None}
+    for name, ratio in found.ratios.items():
+        met = "met" if ratio.value >= 1.0 else "NOT MET"
+        said[name] = f"{name} {met}, capacity/demand {number(ratio.value)}"
+    return f"{found.code}: {'; '.join(said.values())}"
+
+
 def assessment_words(model: Model, contacts: Contacts, case: CaseResult) -> str:
     """Capacity over demand at every limit state; empty where no assessment is asked for."""
     found, asked = assessment_of(model, contacts, case), case.load_case.assessment

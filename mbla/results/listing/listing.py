@@ -16,7 +16,7 @@ from mbla.results.collapse.force_freedom import enough_of, force_freedom
 from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import objective_lines, range_words, series_lines, worst_words
-from mbla.results.listing.assessment_words import assessment_lines
+from mbla.results.listing.assessment_words import assessment_lines, code_verdict
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
     enough_lines,
@@ -68,7 +68,8 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     solution, held, model = case.solution, model, model.of_case(case.load_case)
     mechanics, load_case, how = solution.mechanics, case.load_case, description_of(model, contacts, case)
     summary = "" if how is None or mechanics is None else mechanism_summary(model, how.collapse, how.failure)
-    sections = [Section("Verdict", _verdict_lines(model, case, summary, [] if how is None else how.sentences))]
+    code, sentences = code_verdict(model, contacts, case), [] if how is None else how.sentences
+    sections = [Section("Verdict", _verdict_lines(model, case, summary, code, sentences))]
     if how is not None:
         sections.append(Section("Mechanism", mechanism_lines(model, contacts, how.failure)))
     if mechanics is not None and how is not None:
@@ -106,13 +107,13 @@ def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
         force_freedom(model, contacts, mechanics, dimension_of((case,)))
 
 
-def _verdict_lines(model: Model, case: CaseResult, summary: str, sentences: Sequence[str]) -> list[str]:
-    """How it collapses and how well that is known; of a structure that does not stand, how it falls."""
+def _verdict_lines(model: Model, case: CaseResult, summary: str, code: str, sentences: Sequence[str]) -> list[str]:
+    """How it collapses, what a code says of it and how well it is known; of what does not stand, how it falls."""
     says = verdict(model, case)
     if summary:
         says += "" if result_of(case) is not None else "; its mechanism, not verified"
         says += f": {summary}"
-    lines = sentence(full_sentence(says)) + sentence(full_sentence(case.solution.reason))
+    lines = [line for text in (says, code, case.solution.reason) for line in sentence(full_sentence(text))]
     lines += spaced([line for text in sentences for line in sentence(text)])
     known = [full_sentence(text) for text in (bound_words(model, case), *known_words(model, case))]
     return lines + spaced([line for text in known for line in sentence(text)])
@@ -170,6 +171,8 @@ def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
     for case in detailed_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
+        code = code_verdict(results.model.of_case(case.load_case), results.contacts, case)
+        lines += sentence(code, "    ") if code else []
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     for found in force_ranges_of(results.cases):
         lines += sentence(range_words(results.model, found))

@@ -9,7 +9,7 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.force_range import force_ranges_of
 from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
-from mbla.results.listing.assessment_words import assessment_words
+from mbla.results.listing.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
@@ -63,7 +63,7 @@ def summary_lines(results: Results) -> list[str]:
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
     detailed = detailed_cases(results.cases)
-    lines = [counts, *_table(results.model, detailed)]
+    lines = [counts, *_table(results.model, detailed), *_codes(results, detailed)]
     for case in detailed:
         lines += _in_words(results, case)
     for series in series_of(results.cases):
@@ -86,6 +86,15 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
         for case, row in zip(cases, rows, strict=True)
     ]
     return table(["load case", "status", *heads], rows, left=2)
+
+
+def _codes(results: Results, cases: Sequence[CaseResult]) -> list[str]:
+    """What codes say, a line for each case that asks for it."""
+    lines = []
+    for case in cases:
+        says = code_verdict(results.model.of_case(case.load_case), results.contacts, case)
+        lines += sentence(f"{case.load_case.name}: {says}") if says else []
+    return lines
 
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:

@@ -6,10 +6,14 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
+from mbla.results.assessment.assessment import Assessment, assessment_of
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
+from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
@@ -133,6 +137,26 @@ class Case:
         return collapse_of(self.model, self.results.contacts, self.record.load_case, found)
 
     @property
+    def curve(self) -> FloatArray | None:
+        """Steps of the pushover, the structure as built first: displacement of the control point (of the support, where
+        one gives way) and load factor (its reaction), (n_steps + 1, 2); None where none was asked for or made.
+
+        ``record.solution.curve`` has all that is known of each step, ``curve_end`` why it ends.
+        """
+        rows, settles = self.record.solution.curve, self.record.load_case.settlement is not None
+        if not rows:
+            return None
+        return np.array([[row.displacement, row.reaction if settles else row.load_factor] for row in rows])
+
+    @property
+    def assessment(self) -> Assessment | None:
+        """What a code says: ``assessment.ratios["SLV"].value`` is capacity over demand; None where none was asked for.
+
+        ``figures`` has every figure on the way with its article, ``remarks`` what stands against them.
+        """
+        return assessment_of(self.model, self.results.contacts, self.record)
+
+    @property
     def thrust(self) -> Thrust | None:
         """Resultant of each interface, where it acts, its eccentricity and use of friction."""
         found = result_of(self.record)
@@ -163,7 +187,8 @@ class Case:
         if found is not None and collapse is not None:
             failure = failure_of(self.model, self.results.contacts, collapse, found)
             how = f": {mechanism_summary(self.model, collapse, failure)}"
-        return f"{self.name}: {self.verdict}{how}"
+        code = code_verdict(self.model, self.results.contacts, self.record)
+        return f"{self.name}: {self.verdict}{how}{f'. {code}' if code else ''}"
 
     def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:
         """A picture of the mechanism, of the structure at rest where there is none, or of another kind.

@@ -23,6 +23,7 @@ from mbla.results.pictures.page import (
     GUIDED_BLOCK,
     REST,
     SLAB,
+    SLOW,
     Page,
     add_axes,
     add_bar,
@@ -86,7 +87,8 @@ def _parts(scene: Scene) -> list[tuple[str, str]]:
     if not scene.motion.any():
         return []
     count = int(scene.clusters.max(initial=0))
-    legend = [("at rest", REST)] * bool(((scene.clusters == 0) & ~scene.model.fixed).any())
+    legend = [("at rest", REST)] * bool(((scene.clusters == 0) & ~scene.slow & ~scene.model.fixed).any())
+    legend += [("moves less", SLOW)] * bool(scene.slow.any())
     if count <= len(GROUPS):
         legend += [(f"part {part + 1}", GROUPS[part]) for part in range(count)]
     return [*legend, ("before it moves", GHOST)]

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
@@ -20,7 +20,7 @@ from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import ground_slab
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import FIXED_BLOCK, REST
+from mbla.results.pictures.page import FIXED_BLOCK, REST, SLOW
 from mbla.results.record.scene import Scene as RecordScene
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -85,6 +85,13 @@ class Scene(RecordScene):
     def clusters(self) -> IntArray:
         """Part of the listing that each block is in, 0 at rest, (n_blocks,)."""
         return np.zeros(len(self.model.blocks), dtype=np.int64) if self.failure is None else self.failure.clusters
+
+    @property
+    def slow(self) -> BoolArray:
+        """Blocks that move although they are in no part of the listing, (n_blocks,): less than the few parts there."""
+        if self._moving is None:
+            return np.zeros(len(self.model.blocks), dtype=bool)
+        return (self.clusters == 0) & (self._moving[0].parts > 0)
 
     @property
     def joint_motion(self) -> InterfaceMotion | None:
@@ -191,9 +198,10 @@ def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: 
 
 
 def part_colours(scene: Scene, palette: Sequence[str]) -> list[str]:
-    """Colour of each block by the part of the listing that it moves with: stone at rest, grey if fixed."""
-    parts, fixed = scene.clusters.tolist(), scene.model.fixed.tolist()
-    moving = [palette[(part - 1) % len(palette)] if part else REST for part in parts]
+    """Colour of each block by the part of the listing that it moves with; stone at rest, grey if fixed."""
+    parts, slow, fixed = scene.clusters.tolist(), scene.slow.tolist(), scene.model.fixed.tolist()
+    still = [SLOW if moves else REST for moves in slow]
+    moving = [palette[(part - 1) % len(palette)] if part else rest for part, rest in zip(parts, still, strict=True)]
     return [FIXED_BLOCK if held else colour for held, colour in zip(fixed, moving, strict=True)]
 
 

@@ -26,7 +26,7 @@ from mbla.results.pictures.geometry import SLAB_FACES, block_edges
 from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, group_colours, rgb
+from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, SLOW, group_colours, rgb
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.pictures.ties import tie_marks
@@ -143,18 +143,22 @@ def colourings(scene: Scene) -> list[Colouring]:
     if scene.motion.any():
         farthest = largest_displacements(scene.model.blocks, scene.motion)
         share = farthest / (farthest.max() or 1.0)
-        found = [by_part(scene, scene.clusters), _by_value(scene, "displacement", share, "none", "largest"), *found]
+        found = [
+            by_part(scene, np.where(scene.slow, -1, scene.clusters)),
+            _by_value(scene, "displacement", share, "none", "largest"),
+            *found,
+        ]
     if scene.thrust is not None and len(scene.contacts):
         found.append(_by_value(scene, "eccentricity", _block_eccentricity(scene), "0, central", "1, at the edge"))
     return found
 
 
 def by_part(scene: Scene, parts: IntArray) -> Colouring:
-    """Parts that move together, (n_blocks,) from 1; what rests, 0, is pale, what is fixed grey."""
-    count = int(parts.max(initial=0))
-    names = ["fixed", "at rest", *(f"part {part + 1}" for part in range(count))]
-    colours = [FIXED_BLOCK, REST, *(GROUPS[part % len(GROUPS)] for part in range(count))]
-    used, rows = np.unique(np.where(scene.model.fixed, 0, parts + 1), return_inverse=True)
+    """Parts that move together, (n_blocks,) from 1; what rests, 0, is pale, what is fixed grey; -1: moves less."""
+    count = max(int(parts.max(initial=0)), 0)
+    names = ["fixed", "moves less", "at rest", *(f"part {part + 1}" for part in range(count))]
+    colours = [FIXED_BLOCK, SLOW, REST, *(GROUPS[part % len(GROUPS)] for part in range(count))]
+    used, rows = np.unique(np.where(scene.model.fixed, 0, parts + 2), return_inverse=True)
     return _by_name("part", rows, [names[i] for i in used], tuple(colours[i] for i in used.tolist()))
 
 

@@ -13,6 +13,7 @@ from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import Design, Dimension
 from mbla.sweeps.design.design import SweepColumn as SweepColumn
 from mbla.sweeps.plan import Outcome, Plain
+from mbla.sweeps.tables.display import sweep_html, sweep_lines
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,12 @@ class SweepTable:
             if column.name == name:
                 return values
         raise KeyError(name)
+
+    def __repr__(self) -> str:
+        return "\n".join(sweep_lines(self))
+
+    def _repr_html_(self) -> str:
+        return sweep_html(self)
 
     def of_role(self, *roles: str) -> tuple[SweepColumn, ...]:
         """Columns with one of these roles."""

@@ -170,3 +170,24 @@ def test_a_case_without_load_factor_has_no_assessment() -> None:
     found = assessed(TEXT, "by_circular_of_2009", parameters__t=0.6, joints__bed__friction=0.0)
     assert found.figures == ()
     assert [text.identifier for text in found.remarks] == ["assessment-not-done"]
+
+
+def test_the_verdict_of_a_code_is_among_the_first_lines() -> None:
+    run = mbla.run(TEXT, cases="by_circular_of_2009")
+    case = run.case("by_circular_of_2009")
+    says = "Circolare 617/2009: SLV NOT MET, capacity/demand 0.462963"
+    assert f"  {case.name}: {says}" in run.summary.splitlines()[:5]
+    verdict = run.listing.splitlines()
+    assert verdict.index(f"  {says}.") <= verdict.index(f"Load case {case.name}") + 4
+    assert case.summary.endswith(says)
+    assert case.assessment is not None
+    assert case.assessment.ratios["SLV"].value == pytest.approx(0.462963, rel=1e-5)
+    assert case.curve is None
+
+
+def test_the_curve_of_a_pushover_as_an_array() -> None:
+    case = mbla.run(TEXT, cases="outwards", set=QUICK).case("outwards")
+    assert case.curve is not None
+    assert case.curve[0] == pytest.approx([0.0, 0.075], abs=1e-9)
+    assert case.curve.shape == (len(case.record.solution.curve), 2)
+    assert case.curve[:, 1] == pytest.approx(0.075 * (1 - case.curve[:, 0] / 0.3), abs=1e-3)

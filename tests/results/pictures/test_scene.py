@@ -9,7 +9,8 @@ import pytest
 from mbla.model.model import Model
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks, front_axis, ground_slab
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.scene import scene_of
+from mbla.results.pictures.page import GROUPS, SLOW
+from mbla.results.pictures.scene import part_colours, scene_of
 from mbla.solution.solution import Standing, StandingResult, Status
 from tests.results.shapes import BRICK, TETRA, WEDGE, blocks_of
 from tests.results.synthetic import full_results, tower_contacts, tower_mechanics, tower_model, tower_results
@@ -99,3 +100,20 @@ def test_slab_lies_behind_the_ground(model: Model) -> None:
 )
 def test_thin_structures_are_seen_from_the_front(extents: list[float], travel: list[float], axis: int | None) -> None:
     assert front_axis(np.array(extents, float), np.array(travel, float)) == axis
+
+
+def test_what_moves_in_no_part_of_the_listing_is_not_drawn_at_rest() -> None:
+    """Few parts stand for many: what moves less than these is of none, and moves all the same."""
+    results = tower_results()
+    scene = scene_of(results, results.cases[0], PictureOptions(), "mechanism")
+    none = np.zeros(len(scene.model.blocks), dtype=np.int64)
+    assert scene._moving is not None
+    assert scene.failure is not None
+    moves = scene._moving[0].parts > 0
+    assert moves.any()
+    assert not scene.slow.any()
+    object.__setattr__(scene, "failure", replace(scene.failure, clusters=none))
+    assert np.array_equal(scene.slow, moves)
+    colours = np.array(part_colours(scene, GROUPS))
+    assert (colours[moves] == SLOW).all()
+    assert SLOW not in colours[~moves]

@@ -259,3 +259,15 @@ def test_keys_and_types_of_the_record() -> None:
         assert (value is None and kind.endswith("?")) or isinstance(value, TYPES[kind.rstrip("?")]), path
         seen.add(path)
     assert seen == set(described)
+
+
+def test_a_table_shows_itself() -> None:
+    lines = repr(table()).splitlines()
+    assert lines[0] == "Wände: 5 points"
+    assert lines[1].split()[:5] == ["point", "mu", "t", "[m]", "seed"]
+    assert [line.split()[0] for line in lines[2:7]] == ["1", "2", "3", "4", "5"]
+    assert all(len(line) < 100 for line in lines[:-1])
+    html = table()._repr_html_()
+    assert html.count("<tr>") == 6
+    assert "<td>no_equilibrium</td>" in html
+    assert "not shown: " in lines[-1]
