@@ -7,6 +7,7 @@ import json
 import shlex
 from typing import Any
 
+from mbla.cli.starters import KINDS
 from mbla.process.collector import loading
 
 
@@ -65,9 +66,15 @@ def schema(options: argparse.Namespace) -> int:
 
 def add_new(commands: Any) -> None:
     """``mbla new``."""
-    command = commands.add_parser("new", help="write a commented starter deck")
+    kinds = "; ".join(f"{kind}: {words}" for kind, words in KINDS.items())
+    command = commands.add_parser(
+        "new",
+        help="write a commented starter deck",
+        description=f"Write a commented deck to begin with, which runs as it stands. {kinds}.",
+    )
     command.set_defaults(action=new)
     command.add_argument("name", metavar="NAME")
+    command.add_argument("--kind", choices=tuple(KINDS), default="wall", help="of structure; wall unless given")
     command.add_argument("--force", action="store_true", help="replace an existing file")
 
 
@@ -76,6 +83,6 @@ def new(options: argparse.Namespace) -> int:
     with loading():
         from mbla.cli.starter import write_starter
 
-    path = write_starter(options.name, replace=options.force)
+    path = write_starter(options.name, kind=options.kind, replace=options.force)
     print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")
     return 0

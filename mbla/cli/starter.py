@@ -1,16 +1,17 @@
-"""The deck that ``mbla new`` begins a structure with."""
+"""The decks that ``mbla new`` begins a structure with, one of each kind."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
+from mbla.cli import starters
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import file_errors, write_complete
 
 
-def write_starter(name: str, *, replace: bool) -> Path:
-    """Write the starting deck under a name, with or without its ending; the path.
+def write_starter(name: str, *, kind: str, replace: bool) -> Path:
+    """Write the starting deck of a kind under a name, with or without its ending; the path.
 
     Raises
     ------
@@ -25,14 +26,15 @@ def write_starter(name: str, *, replace: bool) -> Path:
     if not replace and os.path.lexists(path):
         raise FileError("result-exists", f"{path}: exists already; --force replaces it")
     with file_errors(path):
-        write_complete(path, starter_text(path).encode("utf-8"))
+        write_complete(path, starter_text(path, kind).encode("utf-8"))
     return path
 
 
-def starter_text(path: Path) -> str:
-    """The starting deck as it stands at a path, with the address of its schema."""
-    starter = (Path(__file__).parent / "starter.yaml").read_text(encoding="utf-8")
+def starter_text(path: Path, kind: str = "wall") -> str:
+    """The starting deck of a kind as it stands at a path, with the address of its schema."""
+    starter = (Path(starters.__file__).parent / f"{kind}.yaml").read_text(encoding="utf-8")
     text = starter.replace("NAME.yaml", path.name).replace("NAME.out", f"{path.stem}.out")
+    text = text.replace("NAME_positions", f"{path.stem}_positions")
     return text.replace("schemas/deck.schema.json", _schema_address())
 
 

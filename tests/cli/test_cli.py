@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from mbla.cli import main
+from mbla.cli.starters import KINDS
 from tests.line import BLOCK
 
 TWO_CASES = BLOCK.replace("load_cases:\n", "load_cases:\n  down: {live: [{acceleration: [0, 0, -1]}]}\n", 1)
@@ -236,6 +237,23 @@ def test_new_writes_a_deck_that_runs(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert main(["new", "house"]) == 6
     assert main(["run", "house.yaml", "-q"]) == 0
     assert (tmp_path / "house.out" / "house.h5").is_file()
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_new_of_every_kind_writes_a_sound_model(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "house", "--kind", kind]) == 0
+    assert "NAME" not in Path("house.yaml").read_text()
+    assert main(["check", "house.yaml"]) == 0
+
+
+@pytest.mark.parametrize(
+    "kind", ["arch", "vault", *(pytest.param(kind, marks=pytest.mark.long) for kind in ("facade", "bridge", "tower"))]
+)
+def test_new_of_every_kind_runs(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "house", "--kind", kind]) == 0
+    assert main(["run", "house.yaml", "-q"]) == 0
 
 
 def test_new_points_editors_to_the_schema(
