@@ -116,11 +116,12 @@ def weaken_springs(
 
     Both ratios of stiffness must say the same; a load that is zero is carried.
 
-    live : multiple of the live load that acts as well; the springs are those of ``load``
+    live : multiple of the live load that acts as well, and by which the springs are sized too: a light block that is
+           pushed with many times its weight moves far on a spring of its weight, which nothing holds it back from
     """
     if not np.any(getattr(program, load)):
         return Weakening(Outcome.CARRIED, None, 0.0)
-    blocks = _Blocks(*springs_of(program, load))
+    blocks = _Blocks(*springs_of(program, load, live))
     acting = getattr(program, load) + live * program.live_load
     basis = spring_problem(program.equilibrium_matrix, acting, limits, blocks.springs, settings.deadline)
     if program.n_points and is_diagonal(blocks.springs):
@@ -172,8 +173,10 @@ class _Blocks:
         return np.asarray(kappa * np.linalg.norm((self.way_back @ u).reshape(-1, 6), axis=1))
 
 
-def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
+def springs_of(program: Program, load: Load, live: float = 0.0) -> tuple[sp.csr_array, sp.csr_array, IntArray]:
     """W by the size of each block's load, the mean of the others' where it has none; see ``_Blocks``.
+
+    live : multiple of the live load that acts as well; sizes are added, so that opposite loads leave no block without
 
     Returned are W, (n_rows, n_rows), the way back to velocities of the model's free blocks, (6 n_free, n_rows), and the
     numbers of these blocks, (n_free,).
@@ -183,6 +186,8 @@ def springs_of(program: Program, load: Load) -> tuple[sp.csr_array, sp.csr_array
         way_back = sp.csr_array(program.reduction.velocities @ way_back)
         program = program.reduction.full
     sizes = np.linalg.norm(getattr(program, load).reshape(-1, 6), axis=1)
+    if live != 0.0:
+        sizes = sizes + abs(live) * np.linalg.norm(program.live_load.reshape(-1, 6), axis=1)
     sizes = np.where(sizes > 0, sizes, sizes[sizes > 0].mean())
     springs = way_back.T @ sp.diags_array(np.repeat(sizes, 6)) @ way_back
     squares = way_back.power(2)
