@@ -23,7 +23,8 @@ from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import PartResult, solve_part
 from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import WITH_VALUE, IterationRecord, Mechanics, ProgramRecord, Solution, Standing, Status
+from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Status
+from mbla.solution.standing.claim import as_it_stands
 from mbla.solution.standing.standing import worst_standing
 
 FAILED = (
@@ -41,8 +42,6 @@ LOCK_NOT_PROVED = (
     "the solver finds no mechanism in which the live load does work, but no forces that carry every multiple of it "
     "were found to prove that"
 )
-
-ONLY_BY_SELF_STRESS = "it stands only in a self-stressed state: without knowing that state there is no collapse load"
 
 
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
@@ -96,8 +95,8 @@ def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = No
     solution = _combined(stage, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
-    if standing is not None and standing.verdict is Standing.SELF_STRESS:
-        solution = _without_claim(solution)
+    if standing is not None:
+        solution = as_it_stands(solution, standing.verdict)
     return replace(
         solution,
         standing=standing,
@@ -242,15 +241,6 @@ def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution
         iterations=(),
         seconds=0.0,
     )
-
-
-def _without_claim(solution: Solution) -> Solution:
-    """What stands only in a self-stressed state has no load factor without it, save the associative upper value."""
-    if solution.flow_rule == "associative":
-        return solution
-    claims = (*WITH_VALUE, Status.UNBOUNDED)
-    status = Status.NOT_VERIFIED if solution.status in claims else solution.status
-    return replace(solution, status=status, reason=ONLY_BY_SELF_STRESS)
 
 
 def _renumbered(records: Sequence[ProgramRecord]) -> tuple[ProgramRecord, ...]:

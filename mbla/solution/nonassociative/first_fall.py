@@ -21,13 +21,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.default_scheme import state_near
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import ProgramRecord, Status
-from mbla.solution.standing.standing_path import GROWTH, SMALL, StandingPath
+from mbla.solution.standing.standing_path import GROWTH, SMALL, PathState, StandingPath
+from mbla.solution.standing.weak_spring_continuation import Outcome
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 PEAK = 1e-3
@@ -63,22 +65,55 @@ def judged_by_path(
     peak          : whether the path is followed beyond the load factor where it gets there
     """
     state, started = sequence.state, time.perf_counter()
-    if state is None or not path.last.stands:
-        return PathVerdict(sequence, remark=None if state is None else NOT_STANDING)
+    if state is None:
+        return PathVerdict(sequence)
+    if not path.last.stands:
+        return PathVerdict(_lower_in_doubt(path, sequence, log), remark=NOT_STANDING)
     margin = _margin(path, state)
     if most - state.load_factor <= margin:
         return PathVerdict(sequence)
     if state.load_factor > margin:
         path.follow(state.load_factor - margin)
-    if path.fall is not None and path.fall.load_factor <= state.load_factor - margin:
-        sequence = _from_the_end(path, sequence, margin, log)
-        margin = margin if sequence.state is None else _margin(path, sequence.state)
-    elif path.goes_on and (peak or state.load_factor <= 0.0):
+    above = path.fall is not None and path.fall.load_factor <= state.load_factor - margin
+    if not above and path.goes_on and (peak or state.load_factor <= 0.0):
         path.follow(state.load_factor + margin, within=2.0 * margin)
         path.follow_on(max(GROWTH * state.load_factor, SMALL * path.unit), most)
-    verdict = _verdict(path, sequence, most, margin)
+    beyond = path.stands_beyond(most)
+    if beyond is not None:
+        verdict = _contradicted(path, sequence, beyond)
+    else:
+        if above:
+            sequence = _from_the_end(path, sequence, margin, log)
+            margin = margin if sequence.state is None else _margin(path, sequence.state)
+        verdict = _verdict(path, sequence, most, margin)
     sequence = replace(verdict.sequence, path=path.points())
     return replace(verdict, sequence=sequence, programs=(_record(path, first_program, time.perf_counter() - started),))
+
+
+def _lower_in_doubt(path: StandingPath, sequence: SequenceResult, log: Log) -> SequenceResult:
+    """A lower state in the motion in which a structure whose standing is in doubt falls; in the plane, else none.
+
+    Columns that topple down a slope fall with joints of one stiffness and stand with another: the state that belongs to
+    their fall may be a tenth of what a search from other states comes to.
+    """
+    program, found, last = path.program, sequence.state, path.last.weakening
+    assert found is not None
+    if program.components != 2 or last.outcome is not Outcome.UNDECIDED or last.forces is None:
+        return sequence
+    records = list(sequence.programs)
+    there = state_near(program, _moving_from(path, last.forces, 0.0), found.load_factor, path.settings, log, records)
+    lower = there is not None and there.residual <= SOLVED_RESIDUAL and 0.0 <= there.load_factor < found.load_factor
+    return replace(sequence, state=there if lower else found, programs=tuple(records))
+
+
+def _contradicted(path: StandingPath, sequence: SequenceResult, beyond: PathState) -> PathVerdict:
+    """No load factor where the structure stands above the load at which the path is seen to fall."""
+    assert sequence.state is not None
+    assert path.fall is not None
+    factors = (path.last, path.fall, beyond, sequence.state)
+    up_to, falls, again, rest = (f"{each.load_factor * path.program.scaling.live:.6g}" for each in factors)
+    reason = CONTRADICTED.format(up_to, falls, again, rest)
+    return PathVerdict(replace(sequence, status=Status.NOT_VERIFIED, reason=reason), peak=_peak(path))
 
 
 def _margin(path: StandingPath, state: LawState) -> float:
@@ -113,15 +148,24 @@ def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: 
         return PathVerdict(sequence, peak=_peak(path))
     if path.end is not None and last < state.load_factor - 2.0 * margin:
         why = path.end.weakening.reason or "it falls there"
-        return PathVerdict(sequence, remark=NOT_SEEN.format(height, why))
+        remark = NOT_SEEN.format(height, why)
+        return PathVerdict(_at_most_approximate(sequence, remark), remark=remark)
     if last <= state.load_factor + margin:
         return PathVerdict(sequence)
     if state.load_factor <= 0.0:
         reason = NO_LOAD.format(rest, height)
         return PathVerdict(replace(sequence, status=Status.NOT_VERIFIED, reason=reason), peak=_peak(path))
     if path.fall is None and last < most:
-        return PathVerdict(sequence, remark=STANDS_ON.format(height, rest))
+        remark = STANDS_ON.format(height, rest)
+        unknown = replace(sequence, status=Status.NOT_VERIFIED, reason=remark)
+        return PathVerdict(unknown, peak=_peak(path), remark=remark)
     return PathVerdict(sequence, peak=_peak(path), remark=FALLS.format(height, rest))
+
+
+def _at_most_approximate(sequence: SequenceResult, reason: Message) -> SequenceResult:
+    """A sequence that is not solved for a reason of the path."""
+    solved = sequence.status is Status.SOLVED
+    return replace(sequence, status=Status.APPROXIMATE, reason=reason) if solved else sequence
 
 
 def _peak(path: StandingPath) -> LawState:
@@ -130,6 +174,12 @@ def _peak(path: StandingPath) -> LawState:
     assert last.forces is not None  # it stands
     repaired = repaired_forces(program, last.forces, path.last.load_factor)  # of what the springs carry
     forces, load_factor = repaired or (last.forces, path.last.load_factor)
+    return _moving_from(path, forces, load_factor)
+
+
+def _moving_from(path: StandingPath, forces: FloatArray, load_factor: float) -> LawState:
+    """Forces, (n_points, components), with the motion in which the structure falls, or else that of the live load."""
+    program = path.program
     for state in (path.fall, path.last):
         way = None if state is None else state.weakening.displacements
         power = 0.0 if way is None else float(program.live_load @ way)
@@ -161,6 +211,10 @@ LOWER = Message(
 NO_STATE = (
     "forces and mechanism fit the joint law at {}, but from the dead load on the structure no longer stands at {}; "
     "it stands up to {:.6g}, and no mechanism that fits the law was found there"
+)
+CONTRADICTED = (
+    "the load path is in doubt: from the dead load on the structure stands up to {} and is seen to fall at {}, but it "
+    "stands at {}; forces and mechanism fit the joint law at {}"
 )
 NO_LOAD = (
     "forces and mechanism fit the joint law at {}, which is no load of a structure that stands under its dead load: "

@@ -19,8 +19,9 @@ from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
 from mbla.solution.resultants.convex_units import unit_at_collapse
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ContactMode, Mechanics, Solution, Standing, Status
-from mbla.solution.solve import ONLY_BY_SELF_STRESS, recorded
+from mbla.solution.solution import ContactMode, Mechanics, Solution, Status
+from mbla.solution.solve import recorded
+from mbla.solution.standing.claim import as_it_stands
 from mbla.solution.standing.standing import assess_dead_load, standing_on_model, standing_without_equilibrium
 
 LOCKED = (
@@ -97,10 +98,7 @@ def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSe
     decided = answered or solution.status is Status.UNBOUNDED
     state = assess_dead_load(convex.points, settings, True if decided else None)
     standing = standing_on_model(convex.points, state)
-    claimed = solution.status in (Status.SOLVED, Status.APPROXIMATE) and solution.flow_rule != "associative"
-    if claimed and standing.verdict is Standing.SELF_STRESS:
-        solution = replace(solution, status=Status.NOT_VERIFIED, reason=ONLY_BY_SELF_STRESS)
-    return replace(solution, standing=standing)
+    return replace(as_it_stands(solution, standing.verdict), standing=standing)
 
 
 def convex_mechanics(convex: ConvexProgram, state: LawState, dilatancy: FloatArray) -> Mechanics:

@@ -2,6 +2,8 @@
 
 At a load factor λ the structure stands where f_D + λ f_L is carried from the stress-free assembly, as its dead load is
 (``weak_spring_continuation``): the exact law without dilatancy on joints of two stiffness ratios, which must agree.
+Springs are sized by both loads: on springs of its weight alone a light block that is pushed with many times its weight
+was seen to fall at half the load at which it falls, and that by position.
 The first λ at which it no longer does is where the path ends. No state above it is reached from the dead load, however
 well it fits the law, and standing above it, or under the live load alone, proves nothing of the way there.
 
@@ -39,6 +41,9 @@ SMALL = 0.1
 FINE, ROUGH = 1e-6, 1e-3
 """Share of the load factor to which the end of the path is found: where it falls with joints of every stiffness, and
 where that depends on the stiffness or is not known, which takes several times as long to see."""
+
+BEYOND = (1.03, 1.1, 1.25, 1.5, 2.0)
+"""Load factors over the one at which the path is seen to fall, at which a structure that stands contradicts the path."""
 
 AT_LIMIT = 1e-7
 """Share of the largest force within which a joint is at a limit of its law."""
@@ -136,6 +141,17 @@ class StandingPath:
         if state.falls and (self.fall is None or load_factor < self.fall.load_factor):
             self.fall = state
         return state
+
+    def stands_beyond(self, most: float) -> PathState | None:
+        """A state that stands above the one at which the path is seen to fall, which puts that in doubt; else None.
+
+        most : load factor up to which there can be one
+        """
+        if self.fall is None:
+            return None
+        fall = self.fall.load_factor
+        states = (self.look(ratio * fall) for ratio in BEYOND if ratio * fall < most)
+        return next((state for state in states if state.stands), None)
 
     def points(self) -> tuple[PathPoint, ...]:
         """The states that it went through, as results list them; nothing where it was not followed."""

@@ -14,7 +14,7 @@ from mbla.solution.resultants import solve_convex as convex
 from mbla.solution.resultants.convex_associative import solve_convex_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.solve import ONLY_BY_SELF_STRESS
+from mbla.solution.standing.claim import ONLY_BY_SELF_STRESS
 from mbla.solution.standing.standing import DeadLoadState
 from tests.line import BLOCK, line_of
 from tests.solution.convex_structures import DECKS
