@@ -30,6 +30,9 @@ LOCKED = ("benchmarks/closed_forms/groove_steep_friction", "regressions/block_un
 LOCKED_IN = ("benchmarks/closed_forms/bar_between_walls",)
 """Held by forces that somebody must have locked in."""
 
+DOUBTFUL = ("regressions/toppling_slope",)
+"""Whether it stands depends on the stiffness of joints."""
+
 
 def cases_of(path: Path) -> Iterator[tuple[dict[str, Any], Expectation]]:
     """Each load case as the JSON has it, with what is expected of it; of a travelling load the worst position."""
@@ -108,6 +111,7 @@ def check_standing(path: Path) -> None:
     """It stands before its live load, save where it has no equilibrium, or one by self-stress only."""
     for case, expectation in cases_of(path):
         stands = "only by self-stress" if name_of(path) in LOCKED_IN else "yes"
+        stands = "doubtful" if name_of(path) in DOUBTFUL else stands
         falls = expectation.status == "no_equilibrium"
         assert case["standing"]["verdict"] == ("no" if falls else stands), case["name"]
 

@@ -16,6 +16,7 @@ from mbla.results.outcome import (
     extent_of,
     law_residual,
     locked_in,
+    presumes_standing,
     range_is_a_point,
     range_of,
     result_of,
@@ -59,10 +60,17 @@ def verdict(model: Model, case: CaseResult) -> str:
         figure = f"{number(answer_value(case.load_case, mechanics.load_factor))} {model.units.force}"
         return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
     moves = "follows its support" if case.load_case.settlement is not None else "collapses"
+    if presumes_standing(case):
+        return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law {_at(known)}"
     if np.isfinite(case.checks.peak_load_factor):
         peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
         return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
-    return f"{moves} at {known}" if extent_of(model, case) is None else f"{moves} {known}"
+    return f"{moves} {_at(known)}"
+
+
+def _at(known: str) -> str:
+    """Words for a load factor, or for several, after a verb."""
+    return known if known.startswith(("between", "from")) else f"at {known}"
 
 
 def _with_extent(model: Model, case: CaseResult, known: str) -> str:

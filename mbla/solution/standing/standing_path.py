@@ -45,6 +45,10 @@ where that depends on the stiffness or is not known, which takes several times a
 BEYOND = (1.03, 1.1, 1.25, 1.5, 2.0)
 """Load factors over the one at which the path is seen to fall, at which a structure that stands contradicts the path."""
 
+FAR_BEYOND = 1.1, 1e-3
+"""From such a ratio on, and so far beyond in live over dead load, a structure that stands with joints of one stiffness
+contradicts it as well: next to an end both disagree, as they do on a share of the load of a few hundredths."""
+
 AT_LIMIT = 1e-7
 """Share of the largest force within which a joint is at a limit of its law."""
 
@@ -149,9 +153,12 @@ class StandingPath:
         """
         if self.fall is None:
             return None
-        fall = self.fall.load_factor
-        states = (self.look(ratio * fall) for ratio in BEYOND if ratio * fall < most)
-        return next((state for state in states if state.stands), None)
+        fall, (ratio, apart) = self.fall.load_factor, FAR_BEYOND
+        far = max(ratio * fall, fall + apart * self.unit)
+        for state in (self.look(share * fall) for share in BEYOND if share * fall < most):
+            if state.stands or (state.weakening.depends_on_stiffness and state.load_factor >= far):
+                return state
+        return None
 
     def points(self) -> tuple[PathPoint, ...]:
         """The states that it went through, as results list them; nothing where it was not followed."""

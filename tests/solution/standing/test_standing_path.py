@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.standing import standing_path
 from mbla.solution.standing.standing_path import FARTHEST, FINE, StandingPath
 from mbla.solution.standing.weak_spring_continuation import DEPENDS_ON_STIFFNESS, Outcome, Weakening, weaken_springs
-from tests.line import BLOCK, line_of
+from tests.line import BLOCK, line_of, line_of_file
 
 SETTINGS = SolverSettings(1e-8)
 
@@ -101,3 +102,27 @@ def test_what_depends_on_the_stiffness_is_a_fall_and_what_is_not_known_is_none()
     assert end("", Outcome.FALLS).falls
     assert not end("no state on weak springs was found").falls
     assert not end("", Outcome.CARRIED).falls
+
+
+SHARES = (0.3, 0.6, 0.9)
+"""Of the associative load factor of the deck below, 1.04333, with 0.95 of which as dead load it stands."""
+
+
+@pytest.mark.parametrize("turn", ["", "blocks.0.mesh.transform"], ids=["as drawn", "turned"])
+def test_a_light_block_pushed_with_many_times_its_weight_stands(turn: str) -> None:
+    """As it does with the same loads given as dead load; turned about the vertical with its live load alike."""
+    deck = "decks/regressions/light_block_pushed.yaml"
+    line = line_of_file(Path(deck))
+    program = line.program
+    if turn:
+        live = "load_cases.c.live.0"
+        x, y, z = 3941.69167416901, 3158.265336659025, -1094.6279638010606
+        a, b, c = 0.09795671800399358, 0.7591685872581575, 1.5423040003046864
+        over = (f"{turn}={{rotate: {{axis: [0, 0, 1], angle: 90}}}}", f"{live}.force=[{-y}, {x}, {z}]", f"{live}.at=[{-b}, {a}, {c}]")
+        program = line_of_file(Path(deck), *over).program
+    path = StandingPath.from_dead_load(program, SETTINGS)
+    for share in SHARES:
+        load_factor = 1.04333 * share / program.scaling.live
+        given = replace(program, dead_load=program.dead_load + load_factor * program.live_load)
+        assert path.look(load_factor).stands
+        assert weaken_springs(given, "dead_load", given.limits, SETTINGS).outcome is Outcome.CARRIED
