@@ -61,7 +61,9 @@ def verdict(model: Model, case: CaseResult) -> str:
         return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
     moves = "follows its support" if case.load_case.settlement is not None else "collapses"
     if presumes_standing(case):
-        return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law {_at(known)}"
+        return (
+            f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law {_at(known)}"
+        )
     if np.isfinite(case.checks.peak_load_factor):
         peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
         return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"

@@ -213,8 +213,8 @@ NO_STATE = (
     "it stands up to {:.6g}, and no mechanism that fits the law was found there"
 )
 CONTRADICTED = (
-    "the load path is in doubt: from the dead load on the structure stands up to {} and is seen to fall at {}, but with "
-    "joints of one stiffness at least it stands at {}; forces and mechanism fit the joint law at {}"
+    "the load path is in doubt: from the dead load on the structure stands up to {} and is seen to fall at {}, but "
+    "with joints of one stiffness at least it stands at {}; forces and mechanism fit the joint law at {}"
 )
 NO_LOAD = (
     "forces and mechanism fit the joint law at {}, which is no load of a structure that stands under its dead load: "

@@ -139,6 +139,7 @@ class LawProblem:
         return np.append(balance, program.live_load @ u - 1.0), state
 
 
+@np.errstate(over="ignore", invalid="ignore")  # steps that diverge are seen and given up
 def exact_step(
     problem: LawProblem, velocities: FloatArray, load_factor: float, most_steps: int, *, balanced: float = CONVERGED
 ) -> LawStep:

@@ -34,6 +34,7 @@ MOST_UPHILL = 2
 """Steps in a row of Newton's method that need not come nearer to balance than any before."""
 
 
+@np.errstate(over="ignore", invalid="ignore")  # steps that diverge are seen and given up
 def newtons_method(problem: SpringProblem, kappa: float, u: FloatArray) -> tuple[bool, FloatArray]:
     """Newton's method on the full law; whether it converged, and the iterate nearest to balance.
 

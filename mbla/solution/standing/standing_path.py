@@ -43,7 +43,7 @@ FINE, ROUGH = 1e-6, 1e-3
 where that depends on the stiffness or is not known, which takes several times as long to see."""
 
 BEYOND = (1.03, 1.1, 1.25, 1.5, 2.0)
-"""Load factors over the one at which the path is seen to fall, at which a structure that stands contradicts the path."""
+"""Load factors over that at which the path is seen to fall, at which a structure that stands contradicts the path."""
 
 FAR_BEYOND = 1.1, 1e-3
 """From such a ratio on, and so far beyond in live over dead load, a structure that stands with joints of one stiffness

@@ -21,7 +21,7 @@ from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
-from mbla.results.outcome import least_and_greatest, result_of
+from mbla.results.outcome import least_and_greatest, locked_in, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
@@ -29,7 +29,7 @@ from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
 from mbla.solution.sensitivity.sensitivity import slope_by
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Checks, StandingResult, Status
+from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.sweeps.find.question import Question
@@ -128,6 +128,8 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
         side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
         return Answer(x, math.nan, side, math.nan, status, verified, case.solution.reason)
     own = result_of(case)
+    if locked_in(case):  # from the stress-free assembly it falls under no live load at all
+        return Answer(x, math.nan, -math.inf, math.nan, Standing.SELF_STRESS.value, verified, case.solution.reason)
     if own is None:
         return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
     result = least_and_greatest(model, case)[0] if question.kind == "least_load_factor" else own.load_factor

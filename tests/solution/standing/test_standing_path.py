@@ -118,7 +118,11 @@ def test_a_light_block_pushed_with_many_times_its_weight_stands(turn: str) -> No
         live = "load_cases.c.live.0"
         x, y, z = 3941.69167416901, 3158.265336659025, -1094.6279638010606
         a, b, c = 0.09795671800399358, 0.7591685872581575, 1.5423040003046864
-        over = (f"{turn}={{rotate: {{axis: [0, 0, 1], angle: 90}}}}", f"{live}.force=[{-y}, {x}, {z}]", f"{live}.at=[{-b}, {a}, {c}]")
+        over = (
+            f"{turn}={{rotate: {{axis: [0, 0, 1], angle: 90}}}}",
+            f"{live}.force=[{-y}, {x}, {z}]",
+            f"{live}.at=[{-b}, {a}, {c}]",
+        )
         program = line_of_file(Path(deck), *over).program
     path = StandingPath.from_dead_load(program, SETTINGS)
     for share in SHARES:

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from mbla import cli
@@ -224,3 +225,41 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert cli.main(["find", str(deck), *options[:-2], "5", "8", "-q"]) == 5
     assert capsys.readouterr().out == ""
     assert list(tmp_path.iterdir()) == [deck]
+
+
+WEDGE = """mbla: 1
+parameters: {s: 1.0}
+materials: {rock: {unit_weight: 25000}}
+joints: {a: {friction: "=s*tan(20)"}, b: {friction: "=s*tan(30)"}}
+blocks:
+  - polyhedron:
+      group: wedge
+      material: rock
+      vertices:
+        - [0, 0, 0]
+        - [-25.6897543, 15.77392112, 28.89698835]
+        - [3.7380141, 13.76396059, 30.10324559]
+        - [-23.50769217, 57.41014703, 37.56552641]
+      faces: [[0, 1, 3], [0, 2, 3], [0, 1, 2], [1, 2, 3]]
+contacts: {joint: a}
+supports:
+  - {ground: {point: [0, 0, 0], normal: [0.6830127019, -0.1830127019, 0.7071067812]}, joint: a}
+  - {ground: {point: [0, 0, 0], normal: [-0.7697511314, -0.5389855446, 0.3420201433]}, joint: b}
+load_cases:
+  slide: {live: [{acceleration: [0.37893279, -0.92542420, 0]}]}
+"""
+"""A wedge of rock on two planes; between the friction that carries it at all and that with which it stands from the
+stress-free assembly it stands only by self-stress."""
+
+
+def test_what_stands_only_by_self_stress_lies_below_a_load_factor() -> None:
+    """Closed form without dilatancy: sliding along the line of intersection, T = s (tan 20 N_a + tan 30 N_b)."""
+    a = np.array([0.6830127019, -0.1830127019, 0.7071067812])
+    b = np.array([-0.7697511314, -0.5389855446, 0.3420201433])
+    along = np.cross(a, b) / np.linalg.norm(np.cross(a, b))
+    n_a, n_b, t = np.linalg.solve(np.column_stack([a, b, along]), [0.0, 0.0, 1.0])
+    limit = abs(t) / (math.tan(math.radians(20)) * n_a + math.tan(math.radians(30)) * n_b)
+    found = asked(WEDGE, "parameters.s", "load_factor", 0.0, (0.9, 1.2))
+    assert found.scanned[0].status == "only by self-stress"
+    assert found.exit_code == 0
+    assert found.zeros[0].best.x == pytest.approx(limit, rel=1e-5)
