@@ -55,6 +55,9 @@ LOWER = 1e-9
 """Share of the load factor by which the least for its mechanism must lie below it to take its place; pairs of programs
 ended as much as 4e-8 above it."""
 
+SEARCHED = 1e-4
+"""Share by which a figure known before a search must lie below what the search came to, to take its place."""
+
 SAME = 1e-3
 """Share of the associative load factor within which another one is next to it."""
 
@@ -163,6 +166,40 @@ def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResu
     ------
     numpy.linalg.LinAlgError where a system of equations on the way to the load factor is singular
     """
+    if not (looks_lower(program, settings) and program.components == 3):
+        return _solved_part(program, settings, log)
+    unasked = replace(settings, analysis=settings.analysis.model_copy(update={"search": None}))
+    slope = _slope_by(program, settings.analysis.flow_rule)
+    return _lower_of(_solved_part(program, unasked, log), _solved_part(program, settings, log), slope)
+
+
+def _slope_by(program: Program, flow_rule: str) -> FloatArray | float:
+    """Tangent of the dilatancy angle, (n_points,), or 0 without."""
+    return program.limits.dilatancy if flow_rule == "dilatancy" else 0.0
+
+
+def _lower_of(plain: PartResult, searched: PartResult, slope: FloatArray | float) -> PartResult:
+    """What a search in space came to, or what is found without one where that has the lower figure.
+
+    The load path and the range of the state that it leads to may know a lower one than all descents.
+    """
+    known, found = _least(plain), _least(searched)
+    if plain.status not in WITH_VALUE or not known < (1.0 - SEARCHED) * found:
+        return searched
+    lower = None if plain.range is None else plain.range.lower
+    return replace(_at_lower_end(plain, lower, slope), more=(*plain.more, *searched.programs))
+
+
+def _least(result: PartResult) -> float:
+    """The least load factor of a part's answer and its range; inf where there is none."""
+    if result.state is None or result.status not in WITH_VALUE:
+        return np.inf
+    lower = None if result.range is None else result.range.lower
+    return min(result.state.load_factor, np.inf if lower is None else lower.load_factor)
+
+
+def _solved_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+    """The same with one search or without."""
     result = _by_flow_rule(program, settings, log)
     certificate = result.associative.certificate
     if certificate is not None:  # of what does not stand, only that moves
@@ -286,17 +323,44 @@ def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartR
         return result
     if state.residual > RANGE_RESIDUAL:
         return result.with_remark(NO_RANGE.format(state.residual)) if settings.range else result
-    slope = result.program.limits.dilatancy if settings.analysis.flow_rule == "dilatancy" else 0.0
+    slope = _slope_by(result.program, settings.analysis.flow_rule)
     try:
         found = factor_range(result.program, state, settings, log, len(result.programs) + 1, slope)
     except np.linalg.LinAlgError as error:
         return result.with_remark(RANGE_BROKE_DOWN.format(str(error).lower()))
-    above = result.associative.state
-    if found.lower is not None and is_needless(result.program, found.lower, above.load_factor if above else np.inf):
-        found = replace(found, lower=None, reason=Message("range-not-found", NEEDS_NOTHING))
-    lowers = looks_lower(result.program, settings)
-    result = _at_lower_end(result, found.lower, slope) if lowers else result
+    found = _without_needless(result, found)
+    if looks_lower(result.program, settings):
+        result, found = _no_higher_than_before(result, found, settings, log, slope)
+        result = _at_lower_end(result, found.lower, slope)
     return replace(result, range=found) if settings.range else replace(result, more=(*result.more, *found.programs))
+
+
+def _without_needless(result: PartResult, found: FactorRange) -> FactorRange:
+    """A range without a lower end that needs no live load."""
+    above = result.associative.state
+    if found.lower is None or not is_needless(result.program, found.lower, above.load_factor if above else np.inf):
+        return found
+    return replace(found, lower=None, reason=Message("range-not-found", NEEDS_NOTHING))
+
+
+def _no_higher_than_before(
+    result: PartResult, found: FactorRange, settings: SolverSettings, log: Log, slope: FloatArray | float
+) -> tuple[PartResult, FactorRange]:
+    """The state from which lower ones were looked for, where its mechanism has a lower end than what that came to.
+
+    found : range of the state that was found
+    """
+    program, sequence, state = result.program, result.sequence, result.state
+    before = None if sequence is None else sequence.before
+    if before is None or before is state or state is None or sequence is None or before.residual > RANGE_RESIDUAL:
+        return result, found
+    number = len(result.programs) + len(found.programs) + 1
+    other = _without_needless(result, factor_range(program, before, settings, log, number, slope))
+    programs, least = (*found.programs, *other.programs), (found.lower or state).load_factor
+    lower = other.lower
+    if lower is None or lower.load_factor > (1.0 - SEARCHED) * least or misfit(program, lower) > EXACT_RESIDUAL:
+        return result, replace(found, programs=programs)
+    return replace(result, sequence=replace(sequence, state=before)), replace(other, programs=programs)
 
 
 def _at_lower_end(result: PartResult, lower: LawState | None, slope: FloatArray | float) -> PartResult:

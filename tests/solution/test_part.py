@@ -18,10 +18,10 @@ from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, NOT_REACHED, solve_nonassociative
-from mbla.solution.part import NEEDS_NOTHING, PartResult, solve_part
+from mbla.solution.part import NEEDS_NOTHING, PartResult, _lower_of, solve_part
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
-from tests.line import BLOCK, line_of, line_of_file
+from tests.line import BLOCK, line_of, line_of_file, solution_of
 from tests.solution.standing_structures import deck, plane, prism
 
 KERB = Path(__file__).parents[2] / "decks" / "regressions" / "block_at_a_kerb.yaml"
@@ -171,3 +171,51 @@ def test_a_state_of_the_law_is_kept_though_a_sharper_one_was_asked_for(monkeypat
     result = solve_nonassociative(line.program, nothing, settings, lambda record: None)
     assert result.state is state
     assert result.remarks == (NOT_REACHED.format(4e-8, 1e-9),)
+
+
+CORNER = """mbla: 1
+materials: {stone: {density: 2200}}
+joints: {dry: {friction: 0.7}}
+blocks:
+  - walls: {group: a, material: stone, unit: [0.5, 0.25, 0.25], courses: 4, plan: [[0, 0], [2, 0], [2, 1.5]]}
+  - wall:
+      group: b
+      material: stone
+      unit: [0.5, 0.25, 0.25]
+      length: 1.5
+      courses: 4
+      transform: [{translate: [2, 0, 0]}]
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases: {c: {live: [{acceleration: [-1, 0, 0]}]}}
+analysis: {flow_rule: non_associative}
+"""
+"""Three walls that meet at a corner; one that falls by itself does at t/H = 0.25."""
+
+
+@pytest.mark.long
+def test_a_search_in_space_comes_to_no_more_than_was_known_without_it() -> None:
+    """The load path leads to a state whose mechanism has 0.25; a search from higher ones came to 0.2564."""
+    plain, searched = (
+        solution_of(line_of(CORNER, *more)) for more in ((), ("analysis.search=2",))
+    )
+    assert plain.lower is not None
+    assert searched.lower is not None
+    assert plain.lower.load_factor == pytest.approx(0.25, rel=1e-4)
+    assert searched.lower.load_factor <= plain.lower.load_factor * (1.0 + 1e-4)
+
+
+def test_the_lower_of_two_results_counts() -> None:
+    """Whichever of state and lower end of its range is the least; sharper or not."""
+    program = line_of(BLOCK, "parameters.h=0.5").program
+    state = LawState(np.zeros((program.n_points, 3)), np.zeros(len(program.dead_load)), 0.5, 0.0)
+    associative = AssociativeResult(Status.SOLVED, state, None, "", ())
+
+    def found_at(load_factor: float, lower: float | None = None) -> PartResult:
+        sequence = SequenceResult(Status.SOLVED, replace(state, load_factor=load_factor), "", ())
+        end = None if lower is None else replace(state, load_factor=lower, residual=1.0)
+        return PartResult(program, associative, sequence, loaded=True, range=FactorRange(end, None, ()))
+
+    assert _lower_of(found_at(0.4, 0.2), found_at(0.3), 0.0).range.lower.load_factor == 0.2  # type: ignore[union-attr]
+    for plain, searched in ((found_at(0.4, 0.3), found_at(0.3)), (found_at(0.4), found_at(0.35, 0.2))):
+        assert _lower_of(plain, searched, 0.0) is searched

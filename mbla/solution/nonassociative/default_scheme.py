@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -88,8 +88,9 @@ def solve_by_default(
         if start is not None:
             scheme.keep(law_state(program, slope, start.forces, start.velocities, start.load_factor))
     elif looks_lower(program, settings) and scheme.answer is not None and scheme.answer.residual <= SOLVED_RESIDUAL:
+        scheme.known = scheme.answer
         scheme.lower([*normals[1:], *_uneven(gravity)])
-    return scheme.result()
+    return replace(scheme.result(), before=scheme.known)
 
 
 def looks_lower(program: Program, settings: SolverSettings) -> bool:
@@ -128,6 +129,17 @@ def _uneven(gravity: FloatArray) -> Iterator[FloatArray]:
 class _Scheme(Search):
     """A search with what leads to its first states, and with its answer in words."""
 
+    known: LawState | None = None
+    """The answer before lower ones were looked for; None where none were."""
+
+    def _no_higher_than_known(self, answer: LawState | None) -> LawState | None:
+        """The answer, or the one before the search where that is lower: what a search finds may fit the law better."""
+        known = self.known
+        if known is None or answer is None:
+            return answer
+        sure = float(np.sqrt(known.residual)) * abs(known.load_factor)
+        return known if known.load_factor < answer.load_factor - sure else answer
+
     def interior_run(self, gravity: FloatArray) -> list[FloatArray]:
         """The interior-point run from forces under the dead load; the forces it ends with, if it came to any."""
         started, number = time.perf_counter(), len(self.records) + 1
@@ -160,7 +172,7 @@ class _Scheme(Search):
 
     def result(self) -> SequenceResult:
         """The answer, judged by its residual."""
-        state, records = self.answer, tuple(self.records)
+        state, records = self._no_higher_than_known(self.answer), tuple(self.records)
         first = next((near.load_factor for near in self.found if near.residual <= APPROXIMATE_RESIDUAL), None)
         if state is None:
             status = Status.TIME_LIMIT if self.late else Status.NOT_VERIFIED

@@ -54,6 +54,7 @@ class SequenceResult:
     path    : the load path, where one was followed, load factors of the model
     tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
     first   : load factor of the first state near the law that was found, before lower ones were looked for
+    before  : the answer as it was before lower ones were looked for; None where none were
     """
 
     status: Status
@@ -65,6 +66,7 @@ class SequenceResult:
     path: tuple[PathPoint, ...] = ()
     tolerance_requested: float | None = None
     first: float | None = None
+    before: LawState | None = None
 
 
 def as_asked(
