@@ -196,9 +196,7 @@ analysis: {flow_rule: non_associative}
 @pytest.mark.long
 def test_a_search_in_space_comes_to_no_more_than_was_known_without_it() -> None:
     """The load path leads to a state whose mechanism has 0.25; a search from higher ones came to 0.2564."""
-    plain, searched = (
-        solution_of(line_of(CORNER, *more)) for more in ((), ("analysis.search=2",))
-    )
+    plain, searched = (solution_of(line_of(CORNER, *more)) for more in ((), ("analysis.search=2",)))
     assert plain.lower is not None
     assert searched.lower is not None
     assert plain.lower.load_factor == pytest.approx(0.25, rel=1e-4)

@@ -3,6 +3,7 @@
 Kinematic blocks are the clusters of the mechanism, stones that move as one: P is the weight of each, δ the velocity of
 its centre of mass along the live load. By single stones a wall that overturns would have e* = 3/4 in place of 1, and an
 activation acceleration a third higher; both are shown. Added masses rest on their blocks and count in P, so that Q = 0.
+alpha_0 is by the least load factor that was found, which may be that of other forces or of another mechanism.
 Names, units and articles of the figures: ``figures.csv``.
 """
 
@@ -45,8 +46,8 @@ from mbla.solution.thresholds import SOLVED_RESIDUAL
 OLD = "circolare_617_2009"
 NAMES = {"ntc_2018": "NTC 2018 with Circolare 7/2019", OLD: "Circolare 617/2009"}
 """of the codes, in words"""
-LOWER = 1e-3
-"""share by which the least load factor that was found may lie below the one assessed"""
+LOWER = 1e-6
+"""share by which the least load factor that was found lies below that of the state shown where it is another figure"""
 PARTS = 12
 """kinematic blocks that are listed one by one"""
 RATIO = "zeta"
@@ -121,12 +122,13 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     asked, mechanics = case.load_case.assessment, result_of(case)
     if asked is None:
         return None
-    if mechanics is None or case.status is not Status.SOLVED or not mechanics.load_factor > 0.0:
+    least = least_and_greatest(model, case)[0]
+    if mechanics is None or case.status is not Status.SOLVED or not least > 0.0:
         words = "there is no assessment: the load case has no verified load factor above 0"
         return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))
     rows, mechanism = _Rows(asked.code, model.units), kinematic_blocks_of(model, contacts, case.load_case, mechanics)
-    capacity = _capacity(rows, model, contacts, asked, mechanism, mechanics.load_factor)
-    _doubts(rows, model, case, mechanism)
+    capacity = _capacity(rows, model, contacts, asked, mechanism, _Factor(least, mechanics.load_factor))
+    _doubts(rows, case, mechanism, _Factor(least, mechanics.load_factor))
     for state in given(asked.spectra, LIMIT_STATES):
         rows.state = state
         _assess(rows, getattr(asked.spectra, state), case, capacity)
@@ -146,13 +148,29 @@ def with_remarks(model: Model, contacts: Contacts, case: CaseResult) -> CaseResu
 # --- The mechanism in numbers ---------------------------------------------------------------------------------------
 
 
-def _doubts(rows: _Rows, model: Model, case: CaseResult, mechanism: KinematicBlocks) -> None:
+@dataclass(frozen=True)
+class _Factor:
+    """The least load factor that was found, by which everything is assessed, and that of the state shown."""
+
+    least: float
+    shown: float
+
+    @property
+    def differs(self) -> bool:
+        """Whether these are two figures."""
+        return self.least < (1.0 - LOWER) * self.shown
+
+
+def _doubts(rows: _Rows, case: CaseResult, mechanism: KinematicBlocks, factor: _Factor) -> None:
     """What makes the figures less than they seem."""
     if case.solution.flow_rule == "associative":
         rows.doubt("the load factor of associative flow is unsafe as alpha_0, for sliding joints lift in it")
-    least, factor = least_and_greatest(model, case)[0], rows.figures[0].value / mechanism.acceleration
-    if least < (1.0 - LOWER) * factor:
-        rows.doubt(f"alpha_0 is of the state shown, the least load factor that was found is {least:.6g}")
+    if factor.differs:
+        words = (
+            f"alpha_0 is by the least load factor that was found, {factor.least:.6g}; kinematic blocks are those of "
+        )
+        words += f"the state shown, at {factor.shown:.6g}"
+        rows.doubt(words + (", from which the capacity curve starts" if case.solution.curve else ""))
     if not mechanism.in_plane:
         rows.doubt("the mechanism moves in space, where the code limits itself to those parallel to one vertical plane")
     if mechanism.explained < 1.0:
@@ -180,7 +198,7 @@ def _capacity(
     contacts: Contacts,
     asked: AssessmentSection,
     mechanism: KinematicBlocks,
-    load_factor: float,
+    factor: _Factor,
 ) -> _Capacity:
     laws = [model.joints[contacts.joint_names[number]] for number in np.unique(contacts.joints).tolist()]
     crushes = all(np.isfinite(law.compressive_strength) for law in laws)
@@ -188,9 +206,9 @@ def _capacity(
     confidence = coefficients()["confidence"][level]
     weights, delta, (of_stones, delta_stones) = mechanism.weights, mechanism.delta, mechanism.stones
     share, stones = codes.participating_share(weights, delta), codes.participating_share(of_stones, delta_stones)
-    alpha = load_factor * mechanism.acceleration
+    alpha = factor.least * mechanism.acceleration
     activation = codes.spectral_acceleration(alpha, share, confidence)
-    rows.add("alpha_0", alpha)
+    rows.add("alpha_0", alpha, "least load factor that was found" if factor.differs else "load factor")
     for number, (weight, moved) in enumerate(zip(weights.tolist(), delta.tolist(), strict=True), 1):
         if number <= PARTS:
             rows.add(f"P_{number}", weight, number)

@@ -197,7 +197,10 @@ class OutputSection(Section):
 class FragilitySection(Section):
     """Probability that a result lies below a demand, from a random design."""
 
-    result: str = Field("load_factor", description="result column")
+    result: str = Field(
+        "load_factor",
+        description="result column; without dilatancy `least_load_factor`, also among `results`, is the one to design with",
+    )
     demand: Annotated[list[Number], Field(min_length=1)] = Field(description="demands")
     confidence: Annotated[float, Quantity("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
 

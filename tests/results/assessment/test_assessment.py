@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -191,3 +192,20 @@ def test_the_curve_of_a_pushover_as_an_array() -> None:
     assert case.curve[0] == pytest.approx([0.0, 0.075], abs=1e-9)
     assert case.curve.shape == (len(case.record.solution.curve), 2)
     assert case.curve[:, 1] == pytest.approx(0.075 * (1 - case.curve[:, 0] / 0.3), abs=1e-3)
+
+
+def test_the_verdict_is_of_the_least_load_factor_that_was_found() -> None:
+    """As the README says that the least is the one to design with; blocks and curve are those of the state shown."""
+    run = mbla.run(TEXT, cases="outwards", set=QUICK)
+    record = run.case("outwards").record
+    own = record.solution.mechanics
+    assert own is not None
+    least = 0.8 * own.load_factor
+    spread = replace(record, solution=replace(record.solution, spread=(least, own.load_factor)))
+    plain, lower = (assessment_of(run.model, run.contacts, case) for case in (record, spread))
+    assert plain is not None
+    assert lower is not None
+    assert values(lower)["alpha_0"] == pytest.approx(0.8 * values(plain)["alpha_0"])
+    assert values(lower, "SLV")["a_g,0"] < values(plain, "SLV")["a_g,0"]
+    assert "least load factor that was found" in lower.figures[0].words
+    assert "from which the capacity curve starts" in lower.remarks[0]
