@@ -19,8 +19,7 @@ def command() -> int:
 
 
 NUMBERS = "ignore::RuntimeWarning"
-"""numpy's remarks on numbers beyond what a double holds: an iteration that diverges is seen and given up, and the answer
-is verified"""
+"""numpy's remarks on numbers beyond what a double holds: what diverges is given up, and answers are verified"""
 
 
 def _say_nothing_of_numbers() -> None:

@@ -199,7 +199,7 @@ class FragilitySection(Section):
 
     result: str = Field(
         "load_factor",
-        description="result column; without dilatancy `least_load_factor`, also among `results`, is the one to design with",
+        description="result column; without dilatancy `least_load_factor`, named in `results`, is that to design with",
     )
     demand: Annotated[list[Number], Field(min_length=1)] = Field(description="demands")
     confidence: Annotated[float, Quantity("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
