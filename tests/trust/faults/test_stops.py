@@ -42,6 +42,8 @@ def check_killed(scene: Scene, told: object) -> None:
     refused = scene.run()
     assert refused.status == 6, (told, refused)
     now = without_partial(content(scene.out))
+    if (left := scene.out / "block.partial.h5").exists():
+        assert not read_results_hdf5(left).complete, told
     if now != scene.earlier:
         check_whole(scene, now, told)
         assert all(now[name] != scene.earlier[name] for name in ("block.sta", "block.lst", "block.h5")), told
