@@ -112,11 +112,12 @@ class Compared:
     @cached_property
     def proved(self) -> list[float]:
         """How far associative figures lie apart."""
-        return [
-            apart([found[way][name] for way in self.ways])
+        figures = [
+            [found[way][name] for way in self.ways]
             for found in self.cases.values()
             for name in (PROVED, *(OWN if found[self.ways[0]]["normal"] else ()))
         ]
+        return [apart(values) for values in figures if any(value is not None for value in values)]
 
     @cached_property
     def others(self) -> list[tuple[str, str, list[float | None], float]]:
@@ -149,11 +150,13 @@ def apart(values: Sequence[float | None]) -> float:
 
 def table(found: Compared) -> str:
     """Figures without a proof that differ, a line for each, those that lie farthest apart first."""
-    rows = sorted(found.others, key=lambda row: -row[3])
-    lines = [f"| load case | figure | {' | '.join(found.ways)} | apart |", "|---" * (len(found.ways) + 3) + "|"]
-    for case, name, values, far in rows:
-        shown = " | ".join("none" if value is None else f"{value:.6g}" for value in values)
-        lines.append(f"| {case} | {name.replace('_', ' ')} | {shown} | {far:.1e} |")
+    rows: dict[tuple[str, tuple[float | None, ...]], list[str]] = {}
+    for case, name, values, _ in sorted(found.others, key=lambda row: -row[3]):
+        rows.setdefault((case, tuple(values)), []).append(name.replace("_", " "))
+    lines = [f"| load case | figures | {' | '.join(found.ways)} | apart |", "|---" * (len(found.ways) + 3) + "|"]
+    for (case, values), names in rows.items():
+        shown = " | ".join("none" if value is None else f"{value:.7g}" for value in values)
+        lines.append(f"| {case} | {', '.join(names)} | {shown} | {apart(values):.1e} |")
     return "\n".join(lines) + "\n"
 
 
