@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -33,13 +32,12 @@ from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
 from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
-from mbla.solution.pushover.steps import Pushover, Step, history_after
+from mbla.solution.pushover.steps import Pushover, Step, history_after, work_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.case import Case, InterfaceTerms
 from mbla.solution.verification.residuals import residuals_of
-from mbla.solution.verification.statics import LoadScale, load_scale
 
 BY_ITSELF, MOST_DROPPING = 100.0, 50
 """Power of the dead load over that of the live load in a mechanism by which a structure goes on whatever the live load,
@@ -57,6 +55,9 @@ be made shorter than asked for."""
 SUDDEN = 0.2
 """Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there."""
 
+WHOLE = 1.0 - 1e-6
+"""Share of the live work of a whole step that counts as all of it."""
+
 ALIKE = 0.9
 """Cosine between the motions of two steps below which they are two mechanisms."""
 
@@ -72,11 +73,9 @@ class MovedCase(Case):
     gaps: FloatArray
     greatest: float
 
-    @cached_property
-    def scale(self) -> LoadScale:
-        """Sizes of the loads, and of the load factors of the curve."""
-        own = load_scale(self.model, self.contacts, self.load_case, self.limits)
-        return _CurveScale(**vars(own), greatest=self.greatest)
+    def balance(self, live_power: float, dead_power: float, frictional: float, mechanism: FloatArray) -> float:
+        """The greatest load factor of the curve: power that blocks lose as they drop excuses nothing."""
+        return max(abs(live_power), self.greatest, self.scale.least_factor(mechanism))
 
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """Velocities at the contact points, opening from where they touch, (n_points, 3)."""
@@ -87,15 +86,6 @@ class MovedCase(Case):
     def interface_terms(self, mechanics: Mechanics) -> InterfaceTerms:
         """The work that normal forces do while gaps close."""
         return InterfaceTerms(dissipated=float(mechanics.contact_forces[:, 0] @ self.gaps))
-
-
-@dataclass(frozen=True)
-class _CurveScale(LoadScale):
-    greatest: float
-
-    def least_factor(self, mechanism: FloatArray) -> float:
-        """The greatest load factor of the curve, which falls to nothing."""
-        return max(super().least_factor(mechanism), self.greatest)
 
 
 def _greatest(case: LoadCase, steps: PushedSteps) -> float:
@@ -270,24 +260,28 @@ def curve_of(
 
     model : as it may move under the load case
 
-    A step whose forces are not those of the contact points of its pose has residuals of nan.
+    A step whose forces are not those of the contact points of its pose has residuals of nan. Gaps close over no less
+    than a whole step from the pose before, whatever that is said to be for which it was solved.
     """
     steps = solution.pushed
     assert solution.mechanics is not None  # else there is no curve
     assert steps is not None
+    assert case.pushover is not None
     first, built = _as_built(model, contacts, solution.mechanics)
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
     greatest = _greatest(case, steps)
     work, before = np.zeros(4), np.zeros(4)
-    history, last = TieHistory.at_rest(model.ties), Pose.at_rest(len(model.blocks))
+    history, last, whole = TieHistory.at_rest(model.ties), Pose.at_rest(len(model.blocks)), np.inf
     for number, pose in enumerate(steps.poses):
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
+            whole = min(work_of(model, control, case.pushover.step, last, steps.mechanisms[number - 1]), whole)
+            scale = steps.scale[number] if steps.scale[number] >= WHOLE * whole else whole
             history = history_after(model, history, last, steps.work[number] * steps.mechanisms[number - 1], pose)
             ties = ties_left(model, pose, fallen, history)
             solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, *ties)
-            gaps = found.gaps / steps.scale[number]
+            gaps, whole = found.gaps / scale, scale
         else:
             solids, gaps = built, np.zeros(len(first.contact_forces))
             loads = solids.load_case(case)

@@ -37,7 +37,7 @@ from mbla.solution.pushover.step_program import Normals, StepProgram, moved_soli
 from mbla.solution.solution import Mechanics
 
 OFF, MOST_WORKS = 0.2, 3
-"""Share by which the live work of a step may differ from that for which it was solved before it is solved again, and
+"""Share by which the live work of a step may be more than that for which it was solved before it is solved again, and
 how many times it is."""
 
 DEEP = 0.01
@@ -68,7 +68,8 @@ class Step:
     fallen       : (n_blocks,) blocks that are debris
     led          : live work of the step that led here
     scale        : live work for which it was solved, inf without gaps: those of its contacts close by no more in it
-    work         : live work of the step that goes on from here, at most that
+    whole        : live work of a whole step that goes on from here, at most that
+    work         : live work of the step that goes on from here: less where less is left to the displacement asked for
     history      : of ties
     """
 
@@ -81,6 +82,7 @@ class Step:
     led: float
     scale: float
     history: TieHistory
+    whole: float = 0.0
     work: float = 0.0
 
 
@@ -119,7 +121,7 @@ class Pushover:
         pose, normals = Pose.at_rest(len(still)), Normals.of(self.contacts, first.contact_forces)
         history = TieHistory.at_rest(self.model.ties)
         step = Step(0.0, first.load_factor, first.mechanism, first.contact_forces, pose, still, 0.0, np.inf, history)
-        step = replace(step, work=self.work_of(step))
+        step = self._going_on(step, self.work_of(step))
         speed = np.linalg.norm(first.mechanism[:, :3], axis=1)
         self.carried = np.where(speed > MOVES * speed.max(), self.model.blocks.masses, 0.0)
         self.carried[self.control.blocks] = 0.0
@@ -138,21 +140,22 @@ class Pushover:
         for share in SHORTER:
             solved = self._with_debris(step, share * step.work, normals)
             if solved is not None:
-                whole = share == 1.0 and solved[0].work > 0.5 * self.work_of(solved[0])
+                whole = share == 1.0 and solved[0].whole > 0.5 * self.work_of(solved[0])
                 self.short = 0 if whole else self.short + 1
                 return solved
         return None
 
     def work_of(self, step: Step) -> float:
-        """Live work of the step from there: as far as the control point shall go, and no block goes too far."""
+        """Live work of a whole step from there."""
+        return work_of(self.model, self.control, self.step, step.pose, step.mechanism, self.most)
+
+    def _going_on(self, step: Step, whole: float) -> Step:
+        """With the live work of a whole step, and of the one that ends at the displacement asked for."""
         assert self.case.pushover is not None  # else nothing is pushed
-        left = self.case.pushover.until - step.displacement
-        far = min(self.step, left) if left > 0.0 else self.step
-        moved = np.linalg.norm(step.mechanism[:, :3], axis=1) / self.model.blocks.sizes
-        turned = np.linalg.norm(step.mechanism[:, 3:], axis=1)
-        most = min(LARGEST_MOTION / max(moved.max(), 1e-300), LARGEST_TURN / max(turned.max(), 1e-300)) * self.most
+        far = self.case.pushover.until - step.displacement
         speed = self.control.speed(self.model, step.pose, step.mechanism)
-        return float(min(far / speed, most) if speed > 0.0 else most)
+        left = far / speed if far > 0.0 and speed > 0.0 else np.inf
+        return replace(step, whole=whole, work=min(whole, left))
 
     def _with_debris(self, step: Step, led: float, normals: Normals) -> tuple[Step, Normals] | None:
         """The step by a live work from another one, without the blocks that fall meanwhile."""
@@ -169,7 +172,7 @@ class Pushover:
                 fallen = fallen | hanging
                 continue
             solids, case, found = moved_solids(self.model, found, self.case, pose, fallen, left, slack)
-            reached = self._reached(pose, fallen, led, solids, case, found, normals, history)
+            reached = self._reached(pose, fallen, led, step.whole, solids, case, found, normals, history)
             carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
             falling = fallen if carried else fallen | self.program.falling(solids, case)
             if reached is not None and carried:
@@ -188,14 +191,21 @@ class Pushover:
         pose: Pose,
         fallen: BoolArray,
         led: float,
+        whole: float,
         solids: Solids,
         case: LoadCase,
         found: MovedContacts,
         normals: Normals,
         history: TieHistory,
     ) -> Step | None:
-        """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are."""
-        work, best = led, None
+        """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are.
+
+        whole : live work of a whole step from the pose before
+
+        Gaps that steps have left are spread over a step that is not shorter than a whole one: over a short one, before
+        the displacement asked for, their work would be more than that of the live load, and the forces theirs.
+        """
+        work, best = whole, None
         for _ in range(MOST_WORKS):
             solved = self.program.solved(solids, case, found, work, normals)
             if solved is None:  # what overlaps on two sides cannot be pushed apart: then it may not overlap more
@@ -206,8 +216,8 @@ class Pushover:
             there, moved = solids.block_motions(solved.mechanism), self.control.displacement(self.model, pose)
             best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work, history)
             asked, normals = self.work_of(best), Normals.of(found.contacts, best.forces)
-            best = replace(best, work=min(asked, work))
-            if abs(asked / work - 1.0) <= OFF:
+            best = self._going_on(best, min(asked, work))
+            if asked <= (1.0 + OFF) * work:
                 break
             work = asked
         return best
@@ -217,6 +227,21 @@ class Pushover:
         if self.case.settlement is None:
             return float(self.control.weights[fallen[self.control.blocks]].sum()) > TAKEN
         return float(self.carried[fallen].sum()) > TAKEN * float(self.carried.sum())
+
+
+def work_of(
+    model: Model, control: Control, length: float, pose: Pose, mechanism: FloatArray, most: float = 1.0
+) -> float:
+    """Live work of a whole step: its length as far as the control point goes, m, and no block too far.
+
+    mechanism : (n_blocks, 6) for a live power of 1
+    most      : multiple of the greatest motion and rotation
+    """
+    moved = float((np.linalg.norm(mechanism[:, :3], axis=1) / model.blocks.sizes).max())
+    turned = float(np.linalg.norm(mechanism[:, 3:], axis=1).max())
+    far = min(LARGEST_MOTION / max(moved, 1e-300), LARGEST_TURN / max(turned, 1e-300)) * most
+    speed = control.speed(model, pose, mechanism)
+    return min(length / speed, far) if speed > 0.0 else far
 
 
 def _drops(case: LoadCase, load_factor: float, mechanism: FloatArray) -> BoolArray:

@@ -104,6 +104,10 @@ class Case:
         """How blocks and interfaces move."""
         return mechanics.mechanism, None
 
+    def balance(self, live_power: float, dead_power: float, frictional: float, mechanism: FloatArray) -> float:
+        """What shares of the power are relative to, from the powers of loads and of friction in a mechanism."""
+        return max(abs(live_power), abs(dead_power), frictional, self.scale.least_factor(mechanism))
+
     def interface_velocities(self, motions: FloatArray | None) -> tuple[FloatArray, FloatArray]:
         """Velocities that the points have with their interfaces, and those of them by crushing, (n_points, 3)."""
         none = np.zeros((len(self.contacts.points), 3))

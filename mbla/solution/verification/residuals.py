@@ -75,7 +75,7 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     strength = limits.friction * x[:, 0] + limits.cohesion
     flow = flow_power(limits, dilatancy, x, v, sliding, strength)
     frictional = float(np.abs(strength * sliding).sum()) + interfaces.frictional
-    balance = max(abs(factor * live_power), abs(dead_power), frictional, scale.least_factor(u))
+    balance = case.balance(factor * live_power, dead_power, frictional, u)
     lost = dead_power + factor * live_power - flow.dissipated - interfaces.dissipated
     block_scale = case.block_scale(x, factor)
     point_scale = scale.of_lighter(contacts, block_scale)
