@@ -112,3 +112,28 @@ def test_what_is_brittle_breaks_in_either_sense(acts: str, ends: tuple[float, fl
     first, *others = case.solution.curve
     assert first.load_factor > 0.25
     assert [row.broken for row in others] == [1] * len(others)
+
+
+STRIP = DECK.replace(
+    '  - {through: [[0, 0.5, "=ht"], [-3, 0.5, "=ht"]], on: [block, ground],',
+    "  - {strip: [[0, 0.5, -0.4], [0, 0.5, 0.4]],",
+).replace(
+    "supports: [{ground: {z: 0}}]",
+    "  - box: {group: base, material: stone, min: [0, 0, -0.5], max: [0.6, 1, 0]}\nsupports: [{blocks: base}]",
+)
+"""The wall on a base, with a strip over the joint that opens."""
+
+
+def test_a_strip_comes_off_as_it_slips_unless_the_deck_says_otherwise() -> None:
+    """It counts in the load factor at rest: F b = W b/2; from there on the wall is alone, or held by F as it turns."""
+    for more, held in (("", 0.0), ("breaks_at: never, ", 1.0)):
+        _, case = case_of(STRIP.replace("capacity:", f"{more}capacity:"), "load_cases.push.pushover.steps=3")
+        first, *rows = case.solution.curve
+        assert first.load_factor == pytest.approx(0.2 + 3000 * 0.4 / WEIGHT, rel=1e-5)
+        for row in rows:
+            turned = np.arctan(0.2) - np.arcsin(np.sin(np.arctan(0.2)) - row.displacement / np.hypot(0.2, 1.0))
+            height = 0.2 * np.sin(turned) + np.cos(turned)
+            # the strip stays along the base, and acts where it leaves the wall: the lower corner of that
+            expected = np.tan(np.arctan(0.2) - turned) + held * 3000 * 0.4 * np.cos(turned) / (WEIGHT * height)
+            assert row.load_factor == pytest.approx(expected, abs=2e-3)
+        assert rows[-1].broken == (0 if held else 1)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from mbla.deck.items.item import Repeat
 from mbla.deck.quantities import (
@@ -24,6 +24,12 @@ from mbla.errors import Finding
 
 FORMS = ("through", "ring", "strip")
 """what lays out a tie"""
+
+
+BreaksAt: TypeAlias = Annotated[
+    Annotated[Literal["never"], Tag("name")] | Annotated[NonNegativeNumber, Tag("number")],
+    Discriminator(lambda value: "name" if value == "never" else "number"),
+]
 
 
 class Plate(Section):
@@ -80,10 +86,11 @@ class TieSection(Section):
         description="force that it is given when it is fitted: it counts in whether the structure stands, and in no "
         "load factor, which is that of all forces that it can have",
     )
-    breaks_at: NonNegativeNumber | None = Field(
+    breaks_at: BreaksAt | None = Field(
         None,
         description="in a pushover: elongation over length, or shortening of what is pushed, at which it breaks; 0: "
-        "brittle, as soon as it yields. It yields without end unless given",
+        "brittle, as soon as it yields; `never`: it yields without end, as all but strips do unless given. A strip is "
+        "brittle unless it is `never`: what is glued comes off by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
     )
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 
@@ -116,8 +123,8 @@ def tie(item: TieSection) -> Iterator[Finding]:
     if sections and item.strength is None:
         yield Finding("key-of-another-choice", "applies with strength only", sections[0])
     yield from blocks_of_points(item)
-    if item.strip is not None and item.breaks_at:
-        words = "must be 0, or left out, for a strip, which has no length across a joint"
+    if item.strip is not None and isinstance(item.breaks_at, float) and item.breaks_at > 0.0:
+        words = "must be 0, or never, for a strip, which has no length across a joint"
         yield Finding("tie-misfit", words, "breaks_at")
     if item.points == "fixed" and item.strip is not None:
         yield Finding("key-of-another-choice", "does not apply to a strip, which is glued all along", "points")

@@ -81,8 +81,15 @@ def _ties(section: TieSection, lines: Sequence[Line], counts: dict[str, int]) ->
         least=np.full(n, 0.0 if section.acts == "tension" else -capacity),
         greatest=np.full(n, 0.0 if section.acts == "compression" else capacity),
         prestress=np.full(n, section.prestress or 0.0),
-        breaks_at=np.full(n, math.inf if section.breaks_at is None else section.breaks_at),
+        breaks_at=np.full(n, _breaks_at(section)),
     )
+
+
+def _breaks_at(section: TieSection) -> float:
+    """Elongation over length at which ties break, inf: never; what is glued is brittle unless the deck says so."""
+    if section.breaks_at is None:
+        return 0.0 if section.strip is not None else math.inf
+    return math.inf if section.breaks_at == "never" else section.breaks_at
 
 
 def ties_of(form: str, name: str, lines: Sequence[Line], counts: dict[str, int]) -> Ties:
