@@ -284,3 +284,27 @@ def test_a_half_with_its_plane_of_symmetry_moves_as_the_whole() -> None:
     half = pushed_case(head + item.format(1.6) + f"symmetry: [{{x: 1.6, halves: {cut}}}]\n").solution
     assert columns(half.curve)[0] == pytest.approx(columns(whole.curve)[0], rel=1e-6)
     assert columns(half.curve)[1] == pytest.approx(columns(whole.curve)[1], rel=1e-6)
+
+
+def test_fill_pushes_on_the_way_it_pushes_as_built() -> None:
+    """A block that rocks away from soil on its sloping side: weights act straight down, the active push is level."""
+    text = (
+        f"{HEAD}joints: {{dry: {{friction: 3}}}}\ncontacts: {{joint: dry}}\nsupports: [{{ground: {{z: 0}}}}]\nblocks:\n"
+        "  - polyhedron:\n      group: a\n      material: stone\n"
+        "      vertices: [[0, 0, 0], [1, 0, 0], [0, 0, 2], [0, 0.5, 0], [1, 0.5, 0], [0, 0.5, 2]]\n"
+        "      faces: [[0, 1, 2], [3, 5, 4], [0, 3, 4, 1], [1, 4, 5, 2], [2, 5, 3, 0]]\n"
+        "load_cases: {c: {live: [{acceleration: [-1, 0, 0], on: a}], pushover: {step: 0.01, until: 0.1}}}\n"
+        "fill: {f: {on: a, material: soil, level: 2, passive: {}}}\n"
+    ).replace("stone: {density: 2000}", "stone: {density: 2000}, soil: {density: 1500}")
+    model, case = case_of(text)
+    asked, loads = case.load_case.pushover, case.load_case
+    assert asked is not None
+    weight, push = -float(loads.dead_load[0, 2]), -float(model.ties.greatest[0])
+    place = model.ties.places[0]
+    x, _, z = model.blocks.centroids[0] - asked.dead_levers[0].reshape(3, 3)[:, 2] / weight  # of block and soil
+    for row in case.solution.curve:
+        turned = np.linspace(0.0, 0.5, 50001)  # about the edge at the origin
+        turn = float(np.interp(row.displacement, x - (x * np.cos(turned) - z * np.sin(turned)), turned))
+        cos, sin = np.cos(turn), np.sin(turn)
+        holds = weight * (x * cos - z * sin) - push * (place[0] * sin + place[2] * cos)
+        assert row.load_factor == pytest.approx(holds / (weight * (x * sin + z * cos)), rel=1e-4)

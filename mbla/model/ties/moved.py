@@ -2,8 +2,8 @@
 
 A tie that has yielded stays as long as it was at most, and carries nothing until it is that long again: its slack is
 the greatest length so far less the present one; a strut's the present one less the least. What takes both senses has
-none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks; the push of fill
-turns with the block too, and is never slack.
+none. A strip is as long as the joint that it crosses is open along it, as on the first of its blocks. The push of fill
+acts at the same point of its block and stays level, the way it pushes as built; it is never slack.
 
 A tie breaks when it has yielded by more than it can: the sum of its elongations over the steps, beyond its slack, each
 by its rate at the beginning of the step. A tie that turns as a rigid body does not get longer by rates. What is pushed
@@ -86,7 +86,7 @@ def moved_ties(ties: Ties, blocks: Blocks, pose: Pose) -> Ties:
         own = slice(int(ties.start[row]), int(ties.start[row + 1]))
         if lines[row]:
             pulls[own] = pulls_along(places[own], closed=bool(ties.closed[row]))
-        elif on[own][0]:
+        elif on[own][0] and not ties.of_fill[row]:
             pulls[own] = pulls[own] @ pose.rotation[ties.bodies[own][0]].T
     return replace(ties, places=places, pulls=pulls)
 
