@@ -190,6 +190,7 @@ class Pushing:
     dead_levers, live_levers : (n_blocks, 9) sums of arm times force, arms from the centroid by rows, of what keeps its
                   direction
     dead_following, live_following : (n_blocks, 6) the part of the loads that turns with its block
+    live_following_levers : (n_blocks, 9) levers of that part of the live load: where it acts
     """
 
     step: float
@@ -202,6 +203,7 @@ class Pushing:
     live_levers: FloatArray
     dead_following: FloatArray
     live_following: FloatArray
+    live_following_levers: FloatArray
 
 
 @dataclass(frozen=True)

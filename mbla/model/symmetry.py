@@ -245,9 +245,9 @@ def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArr
         np.add.at(total, mirror.image_of, mirror.motions(moved))
         return total
 
-    def both_levers(levers: FloatArray, load: FloatArray, following: FloatArray) -> FloatArray:
-        keeps, matrix = load[:, :3] - following[:, :3], mirror.reflection.matrix
-        moved = levers.reshape(-1, 3, 3) + (own - centroids[:count])[:, :, None] * keeps[:, None, :]
+    def both_levers(levers: FloatArray, load: FloatArray) -> FloatArray:
+        matrix = mirror.reflection.matrix
+        moved = levers.reshape(-1, 3, 3) + (own - centroids[:count])[:, :, None] * load[:, None, :3]
         total = np.zeros((len(centroids), 3, 3))
         total[:count] = moved
         np.add.at(total, mirror.image_of, matrix @ moved @ matrix.T)
@@ -258,10 +258,11 @@ def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArr
         push = replace(
             push,
             blocks=np.concatenate([push.blocks, mirror.image_of[push.blocks[~mirror.halves[push.blocks]]]]),
-            dead_levers=both_levers(push.dead_levers, case.dead_load, push.dead_following),
-            live_levers=both_levers(push.live_levers, case.live_load, push.live_following),
+            dead_levers=both_levers(push.dead_levers, case.dead_load - push.dead_following),
+            live_levers=both_levers(push.live_levers, case.live_load - push.live_following),
             dead_following=both(push.dead_following),
             live_following=both(push.live_following),
+            live_following_levers=both_levers(push.live_following_levers, push.live_following),
         )
     mirrored = replace(case, dead_load=both(case.dead_load), live_load=both(case.live_load), pushover=push)
     if case.settlement is None:

@@ -84,11 +84,14 @@ def test_the_control_point_does_the_work_of_the_live_load() -> None:
 
 
 def test_a_load_that_follows_turns_with_its_block() -> None:
-    """A force on its top that stays normal to its side has the arm h: F h = W (b/2 cos - h/2 sin)."""
+    """A force on its top that stays normal to its side has the arm h: F h = W (b/2 cos - h/2 sin).
+
+    The control point is where it acts.
+    """
     force = "{force: [100, 0, 0], on: block, at: [0.1, 0.25, 1.0], follows: true}"
     solution = pushover_of(ROCKING, f"load_cases.push={{live: [{force}], pushover: {{step: 0.005}}}}")
     moved, factors = columns(solution.curve)
-    turned = math.atan(0.2) - np.arcsin(np.sin(math.atan(0.2)) - moved / (math.hypot(0.2, 1.0) / 2))
+    turned = math.atan(0.1) + np.arcsin((moved - 0.1) / math.hypot(0.1, 1.0))
     weight = 2000 * 0.2 * 0.5 * 9.81
     assert 100 * factors == pytest.approx(weight * (0.1 * np.cos(turned) - 0.5 * np.sin(turned)), abs=1e-5 * weight)
 

@@ -38,7 +38,7 @@ STEPS_OF_SETTLEMENT, MOST_OF_SETTLEMENT = 50, 2000
 class _Sum:
     """Loads added up: ``total`` (n_blocks, 15), ``gross`` (n_blocks, 15) without signs, and each in words.
 
-    following : (n_blocks, 6) the part of the total that turns with the blocks
+    following : (n_blocks, 15) the part of the total that turns with the blocks, whose levers are not in the total
     complete  : none of them left a fault
     """
 
@@ -59,9 +59,10 @@ class _Sum:
         total, gross, following, words = self.total.copy(), self.gross.copy(), self.following.copy(), self.words
         applied = [load for load in loads if load is not None]
         for load in applied:
-            total[load.blocks] += load.wrenches
-            gross[load.blocks] += np.abs(load.wrenches)
-            following[load.blocks] += load.follows * load.wrenches[:, :6]
+            keeps = without_levers(load.wrenches[:, :6]) if load.follows else load.wrenches
+            total[load.blocks] += keeps
+            gross[load.blocks] += np.abs(keeps)
+            following[load.blocks] += load.follows * load.wrenches
             words = (*words, load.words)
         return _Sum(total, gross, following, words, self.complete and len(applied) == len(loads))
 
@@ -126,7 +127,7 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
     None, and a fault, where the blocks of the control point are not found; those of a settlement are not known yet.
     """
     asked, settlement = section.pushover, section.settlement
-    levers = (dead.total[:, 6:], live.total[:, 6:], dead.following, live.following)
+    levers = (dead.total[:, 6:], live.total[:, 6:], dead.following[:, :6], live.following[:, :6], live.following[:, 6:])
     none = np.zeros(0, dtype=np.int64)
     blocks: IntArray | None = none
     if settlement is not None and settlement.amount is not None:
@@ -171,7 +172,7 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
     nothing = np.zeros((len(site.fixed), 15))
     sums = [entry for entry in entries if not given(entry.load, LIVE_ONLY)]
-    return _Sum(nothing, nothing, nothing[:, :6]).plus(*(_apply(entry, site, live) for entry in sums))
+    return _Sum(nothing, nothing, nothing).plus(*(_apply(entry, site, live) for entry in sums))
 
 
 def kind_of(load: Load) -> str:
@@ -191,7 +192,7 @@ def _apply(entry: Entry, site: LoadSite, live: bool) -> AppliedLoad | None:
         words = f"{entry.factor:.6g} times {applied.words}"
         applied = AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
     if applied is not None and load.follows:
-        applied = replace(applied, wrenches=without_levers(applied.wrenches[:, :6]), follows=True)
+        applied = replace(applied, follows=True)
     if applied is not None:
         _judge_effect(entry, applied, site, live)
     return applied

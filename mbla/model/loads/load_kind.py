@@ -74,7 +74,7 @@ class AppliedLoad:
     wrenches : (n, 15) force and moment about the centroid of each block, in the deck's units, and the lever a F of all
                forces that are not couples, arms from the centroid by rows: how the moment changes as the block turns
     words    : the load in words, for the listing
-    follows  : in a pushover it turns with its block; then it has no levers
+    follows  : in a pushover it turns with its block
     """
 
     blocks: IntArray

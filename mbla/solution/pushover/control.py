@@ -54,7 +54,8 @@ class Control:
             along = along / size
             shares = loads @ along
             acts = np.abs(shares) > NO_SHARE * size
-            levers = case.pushover.live_levers[moves].reshape(-1, 3, 3) @ along
+            every = case.pushover.live_levers + case.pushover.live_following_levers
+            levers = every[moves].reshape(-1, 3, 3) @ along
             arms = np.where(acts[:, None], levers / np.where(acts, shares, 1.0)[:, None], 0.0)
             return Control(moves, model.blocks.centroids[moves] + arms, shares / size, along)
         own = _centre(model, moves)
