@@ -90,7 +90,7 @@ class TieSection(Section):
         None,
         description="in a pushover: elongation over length, or shortening of what is pushed, at which it breaks; 0: "
         "brittle, as soon as it yields; `never`: it yields without end, as all but strips do unless given. A strip is "
-        "brittle unless it is `never`: what is glued comes off by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
+        "brittle unless it is `never`: glue lets go by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
     )
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 
