@@ -350,7 +350,7 @@ def full_model(model: Model) -> Model:
         True,
         *np.arange(54.0).reshape(2, 3, 9),
         *np.arange(36.0).reshape(2, 3, 6),
-        np.arange(27.0).reshape(3, 9),
+        live_following_levers=np.arange(27.0).reshape(3, 9),
     )
     not_run = replace(
         model.load_cases[2],
