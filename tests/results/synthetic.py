@@ -348,8 +348,10 @@ def full_model(model: Model) -> Model:
         np.array([1]),
         np.array([1.0, 0.0, 0.0]),
         True,
-        *np.arange(54.0).reshape(2, 3, 9),
-        *np.arange(36.0).reshape(2, 3, 6),
+        dead_levers=np.arange(27.0).reshape(3, 9),
+        live_levers=np.arange(27.0, 54.0).reshape(3, 9),
+        dead_following=np.arange(18.0).reshape(3, 6),
+        live_following=np.arange(18.0, 36.0).reshape(3, 6),
         live_following_levers=np.arange(27.0).reshape(3, 9),
     )
     not_run = replace(
