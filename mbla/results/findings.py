@@ -52,6 +52,7 @@ REMARKS_THAT_WARN = frozenset(
         "path-not-seen",
         "peak-not-seen",
         "peak-not-examined",
+        "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
@@ -214,6 +215,8 @@ class Solution:
     path        : states of the load path that was followed
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
+    curve_end_error, curve_last_error : change of the displacement there, m, and of the load factor there with steps of
+                  twice the size; nan where that is not known
     pushed      : forces and mechanisms of its steps
     sensitivity : slopes of the associative load factor, by the parameters that the deck asks for
     geometric_safety : of the dead load alone, on request
@@ -247,6 +250,8 @@ class Solution:
     path: tuple[PathPoint, ...] = ()
     curve: tuple[CurveRow, ...] = ()
     curve_end: CurveEnd = CurveEnd.NONE
+    curve_end_error: float = math.nan
+    curve_last_error: float = math.nan
     pushed: PushedSteps | None = field(default=None, compare=False)
     sensitivity: tuple[Slope, ...] = ()
     geometric_safety: GeometricSafety | None = field(default=None, compare=False)

@@ -286,6 +286,8 @@ def full_solution(solution: Solution) -> Solution:
             CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, new_mechanism=True, debris=1, broken=1),
         ),
         curve_end=CurveEnd.STEPS_DONE,
+        curve_end_error=1e-3,
+        curve_last_error=1e-2,
         pushed=PushedSteps(
             work=np.array([0.0, 0.01]),
             scale=np.array([np.inf, 0.02]),

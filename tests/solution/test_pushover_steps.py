@@ -7,8 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.results.listing.pushover import curve_words
+from mbla.results.listing.text import within
 from mbla.solution.pushover.curve import curve_of
 from tests.line import HEAD, case_of, line_of
+from tests.solution.test_pushover import columns
 
 WEDGE = (
     HEAD
@@ -78,3 +81,39 @@ def test_a_row_whose_gaps_close_in_less_than_a_step_is_not_verified() -> None:
     factors = np.append(steps.load_factors[:-1], steps.load_factors[-1] - 2.0 * friction / 1000.0)
     solution = replace(solution, pushed=replace(short, forces=forces, load_factors=factors))
     assert curve_of(line.model, line.contacts, line.deck.contacts, case.load_case, solution)[-1].residual > 0.1
+
+
+DIP = (
+    HEAD
+    + """\
+joints: {dry: {friction: 0.7}}
+supports: []
+blocks:
+  - arch:
+      {material: stone, springers: ground, shape: segmental, span: 2, rise: 0.6, thickness: 0.25, width: 0.5, voussoirs: 7}
+load_cases: {c: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.006, until: 0.03}}}
+"""
+)
+"""An arch in which a joint that was open closes within a step."""
+
+
+def test_rows_that_depend_on_the_step_are_not_called_verified() -> None:
+    model, case = case_of(DIP)
+    remarks = {remark.identifier: str(remark) for remark in case.solution.remarks}
+    assert "pushover-depends-on-step" in remarks
+    assert "not 0.006 as asked" in remarks["pushover-steps-shorter"]
+    assert curve_words(model, case).count("Approximate") == 1
+    fine = case_of(DIP, "load_cases.c.pushover.step=0.001", "load_cases.c.pushover.error=false")[1].solution.curve
+    off = [
+        row
+        for row in case.solution.curve
+        if abs(row.load_factor - np.interp(row.displacement, *columns(fine))) > 0.03 and not row.error > 0.01
+    ]
+    assert not off
+
+
+def test_figures_have_the_digits_that_their_error_leaves() -> None:
+    assert within(0.647123, 0.055) == "0.65 (+- 0.06)"
+    assert within(26.1234, 14.7) == "26 (+- 10)"
+    assert within(0.0998765, 1e-9) == "0.0998765"
+    assert within(0.0998765, np.nan) == "0.0998765"

@@ -18,7 +18,8 @@ from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
 STEPS_OF_TWICE_THE_SIZE = (
-    "make steps of twice the size as well: the difference is the error of each load factor, to first order"
+    "make steps of twice the size as well, which takes half as long again: the difference is the error of each load "
+    "factor, to first order, and of where the curve ends. Without them these errors are not known"
 )
 
 ASKED = ("live", "settlement", "objective")
@@ -40,7 +41,7 @@ class SettlementSection(Section):
         "it any more; with direction. Only the first movement unless given",
     )
     step: PositiveLength | None = Field(None, description="displacement in a step; a fiftieth of amount unless given")
-    error: bool = Field(False, description=STEPS_OF_TWICE_THE_SIZE)
+    error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
 
 
 class ControlSection(Section):
@@ -64,7 +65,7 @@ class PushoverSection(Section):
         None, description="displacement at which to end; the one at which the load factor is nothing unless given"
     )
     steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
-    error: bool = Field(False, description=STEPS_OF_TWICE_THE_SIZE)
+    error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
 
 
@@ -118,7 +119,7 @@ def followed_settlement(settlement: SettlementSection) -> Iterator[Finding]:
     """What is followed slides, and has an end."""
     if settlement.amount is not None and settlement.direction is None:
         yield Finding("settlement-not-followed", "goes with direction: a turn is not followed", "amount")
-    if settlement.amount is None and (settlement.step is not None or settlement.error):
+    if settlement.amount is None and (settlement.step is not None or "error" in settlement.model_fields_set):
         key = "error" if settlement.step is None else "step"
         yield Finding("settlement-not-followed", "goes with amount, how far the support is followed", key)
 

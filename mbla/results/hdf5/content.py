@@ -239,7 +239,8 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     if solution.pushed is not None:
         content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
     else:
-        del content["curve_end"]
+        for name in ("curve_end", "curve_end_error", "curve_last_error"):
+            del content[name]
     if solution.sensitivity:
         content |= _columns("sensitivity", Slope, solution.sensitivity)
     if solution.geometric_safety is not None:

@@ -8,10 +8,11 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.model.model import Model
-from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small
+from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
+from mbla.solution.pushover.followed import STEP_DEPENDENCE, step_dependence
 from mbla.solution.pushover.pushed import CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
@@ -24,11 +25,12 @@ def curve_words(model: Model, case: CaseResult) -> str:
     curve, length = case.solution.curve, model.units.length
     if not curve:
         return ""
-    last, words = curve[-1], case.solution.curve_end.value
+    last, words, end = curve[-1], case.solution.curve_end.value, case.solution.curve_end_error
     if case.load_case.settlement is not None:
         force = model.units.force
-        says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {number(last.reaction)} {force} where "
-        says += f"the support has moved by {number(last.displacement)} {length}, where {words}"
+        reaction = within(last.reaction, case.solution.curve_last_error * case.load_case.settlement.unit)
+        says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {reaction} {force} where "
+        says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:
         top = max(curve, key=lambda row: row.load_factor)
         highest = load_factor_words(model, case.load_case, top.load_factor)
@@ -37,10 +39,11 @@ def curve_words(model: Model, case: CaseResult) -> str:
         )
         ultimate = ultimate_displacement(case, sure=False)
         if last.load_factor <= 0.0:
-            says += f"nothing at {number(ultimate)} {length}"
+            says += f"nothing at {within(ultimate, end)} {length}"
         else:
             says += (
-                f"{load_factor_words(model, case.load_case, last.load_factor)} at {number(last.displacement)} {length}"
+                f"{load_factor_words(model, case.load_case, last.load_factor)} at {within(last.displacement, end)} "
+                f"{length}"
             )
             says += f", where {words}"
     errors = np.array([row.error for row in curve])
@@ -65,6 +68,9 @@ def curve_verdict(case: CaseResult, length: str) -> str:
     worst = curve_residual(case)
     if not residuals:
         return "No step could be made."
+    if not rough and (share := step_dependence(case.load_case, case.solution)) > STEP_DEPENDENCE:
+        says = f"Approximate: every step meets equilibrium and the joint law to {worst:.1g}, but figures depend on the "
+        return f"{says}size of the steps: with twice the size they change by up to {share:.2g} of the greatest."
     if not rough:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"

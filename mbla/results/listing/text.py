@@ -6,6 +6,7 @@ report asks for their blocks: neither can say what the other does not.
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -132,6 +133,14 @@ def shortened(text: str, width: int) -> str:
 def number(value: float) -> str:
     """Six significant digits; ``-`` where there is no number."""
     return "-" if np.isnan(value) else f"{value + 0.0:.6g}"
+
+
+def within(value: float, error: float) -> str:
+    """With the digits that an error leaves: ``0.65 (+- 0.05)``; six where that is less or not known."""
+    if not 5e-7 * abs(value) < error < np.inf:
+        return number(value)
+    digits = max(-math.floor(math.log10(error)), 0)
+    return f"{round(value, digits) + 0.0:.{digits}f} (+- {float(f'{error:.1g}'):g})"
 
 
 def percent(share: float) -> str:

@@ -160,6 +160,8 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "curve": as_json(solution.curve),
         "curve_end": solution.curve_end,
+        "curve_end_error": as_json(solution.curve_end_error),
+        "curve_last_error": as_json(solution.curve_last_error),
         "sensitivity": as_json(solution.sensitivity),
         "geometric_safety": _geometric_safety(solution),
         "assessment": as_json(assessment_of(model, scene.contacts, case)),

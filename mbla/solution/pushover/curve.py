@@ -4,14 +4,12 @@ Poses follow from the mechanisms, contacts from the poses, and with these every 
 (:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ for
 which it was solved. No matrix of the program stage is used for it and no solver called.
 
-The curve ends where the load factor is nothing, where the structure falls on without the live load, at the displacement
-asked for, or where no forces or no motion are found. The error of a load factor, which is of first order in the step,
-is its difference from the curve of steps twice as long.
+Where it ends, and how much it depends on the size of its steps: :mod:`mbla.solution.pushover.followed`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -24,36 +22,35 @@ from mbla.contacts.moved import MovedSearch
 from mbla.contacts.tied import tied
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase, Model, Pushing
 from mbla.model.pose import Pose, turns_and_slides
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
+from mbla.solution.pushover.followed import (
+    STEP_DEPENDENCE,
+    StepErrors,
+    followed,
+    greatest_value,
+    step_dependence,
+    step_errors,
+)
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
 from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
-from mbla.solution.pushover.steps import Pushover, Step, history_after, work_of
+from mbla.solution.pushover.steps import LARGEST_MOTION, LARGEST_TURN, Pushover, Step, history_after, work_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.case import Case, InterfaceTerms
 from mbla.solution.verification.residuals import residuals_of
 
-BY_ITSELF, MOST_DROPPING = 100.0, 50
-"""Power of the dead load over that of the live load in a mechanism by which a structure goes on whatever the live load,
-and steps that it may do so until its blocks come to rest on others: the curve goes on from there, or ends where the
-fall began."""
-
 BY_ITSELF_SHARE, NOTABLE_DROP = 3.0, 0.02
 """Energy that the dead load loses in a step over its live work from which blocks drop in it, and over the greatest live
 work of the curve from which that is said."""
 
-BLOCKED, MOST_SHORT = 100.0, 10
-"""Load factor over that of the structure as built from which something blocks its way, and steps on end that can only
-be made shorter than asked for."""
-
-SUDDEN = 0.2
-"""Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there."""
+SHORTER_THAN_ASKED = 0.9
+"""Median step over the one asked for from which steps are said to be shorter."""
 
 WHOLE = 1.0 - 1e-6
 """Share of the live work of a whole step that counts as all of it."""
@@ -86,14 +83,6 @@ class MovedCase(Case):
     def interface_terms(self, mechanics: Mechanics) -> InterfaceTerms:
         """The work that normal forces do while gaps close."""
         return InterfaceTerms(dissipated=float(mechanics.contact_forces[:, 0] @ self.gaps))
-
-
-def _greatest(case: LoadCase, steps: PushedSteps) -> float:
-    """Greatest load factor of a curve, or reaction of a support over the unit of load factors."""
-    settlement = case.settlement
-    if settlement is None:
-        return float(np.abs(steps.load_factors).max())
-    return float(np.abs([settlement.reaction(each) / settlement.unit for each in steps.load_factors]).max())
 
 
 def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
@@ -134,23 +123,35 @@ def pushed(
     push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
     done: list[Step] = []
 
-    def with_curve(steps: list[Step], errors: FloatArray, end: CurveEnd) -> Solution:
-        found = replace(solution, pushed=_record(steps, errors), curve_end=end)
-        curve = curve_of(model, contacts, section, case, found)
-        remarks = (*solution.remarks, *_control_remarks(model, control, first), *_curve_remarks(curve))
-        return replace(found, curve=curve, remarks=remarks)
-
-    tell(lambda: with_curve(done, np.full(len(done), np.nan), CurveEnd.STOPPED) if done else solution)
-    steps, end = _followed(push, first, done)
-    errors = np.full(len(steps), np.nan)
-    if case.pushover.error:
-        longer, _ = _followed(replace(push, step=2.0 * push.step, most=2.0), first, [])
-        moved, factors = (
-            np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor")
+    def with_curve(steps: list[Step], errors: StepErrors, end: CurveEnd) -> Solution:
+        found = replace(
+            solution,
+            pushed=_record(steps, errors.rows),
+            curve_end=end,
+            curve_end_error=errors.displacement,
+            curve_last_error=errors.load_factor,
         )
-        own = np.array([each.displacement for each in steps])
-        errors = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
-    return with_curve(steps, errors, end)
+        found = replace(found, curve=curve_of(model, contacts, section, case, found))
+        of_steps = (*_curve_remarks(found.curve), *_step_remarks(case, found, case.pushover))
+        return replace(found, remarks=(*solution.remarks, *_control_remarks(model, control, first), *of_steps))
+
+    tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED) if done else solution)
+    steps, end = followed(push, first, done)
+    return with_curve(steps, step_errors(push, first, steps, end), end)
+
+
+def _step_remarks(case: LoadCase, solution: Solution, asked: Pushing) -> Iterator[Message]:
+    """Remarks where the curve depends on its step, and where steps are shorter than asked for."""
+    curve, share, end = solution.curve, step_dependence(case, solution), solution.curve_end_error
+    if share > STEP_DEPENDENCE:
+        words = f"with steps of twice the size figures of the pushover change by up to {share:.2g} of the greatest"
+        words += f", and its end by {end:.2g} from {curve[-1].displacement:.3g}" if np.isfinite(end) else ""
+        yield Message("pushover-depends-on-step", words)
+    made = np.abs(np.diff([row.displacement for row in curve]))
+    if len(made) and (middle := float(np.median(made))) < SHORTER_THAN_ASKED * asked.step:
+        words = f"steps of the pushover are {middle:.3g} long in the middle, not {asked.step:.6g} as asked: a "
+        words += f"block moves by at most {LARGEST_MOTION:g} of its size and turns by {LARGEST_TURN:g} rad in one"
+        yield Message("pushover-steps-shorter", words)
 
 
 def _curve_remarks(curve: Sequence[CurveRow]) -> tuple[Message, ...]:
@@ -176,44 +177,6 @@ def _control_remarks(model: Model, control: Control, first: Mechanics) -> tuple[
         return ()
     words = "the control point of the pushover does not go the way in which its displacement counts at first"
     return (Message("control-point-at-rest", words),)
-
-
-def _followed(push: Pushover, first: Mechanics, steps: list[Step]) -> tuple[list[Step], CurveEnd]:
-    """Steps up to the end of the curve, and why it ends.
-
-    steps : none yet, gets each as soon as it is done
-    """
-    asked, settles = push.case.pushover, push.case.settlement is not None
-    assert asked is not None  # else nothing is pushed
-    dropping = 0
-    for step in push.steps(first):
-        if step.load_factor > BLOCKED * abs(first.load_factor) and not settles:
-            return steps, CurveEnd.BLOCKED
-        steps.append(step)
-        if step.load_factor <= 0.0 and not settles:
-            greatest = max(each.load_factor for each in steps)
-            if len(steps) > 1 and steps[-2].load_factor > SUDDEN * greatest:
-                return steps[:-1], CurveEnd.FALLS
-            return steps, CurveEnd.NOTHING_LEFT
-        if step.displacement >= asked.until * (1.0 - 1e-9):
-            return steps, CurveEnd.REACHED
-        if len(steps) > asked.steps:
-            return steps, CurveEnd.STEPS_DONE
-        if push.short > MOST_SHORT:
-            break
-        by_itself = float(np.vdot(push.case.dead_load, step.mechanism)) > BY_ITSELF * abs(step.load_factor)
-        dropping = dropping + 1 if by_itself and not settles else 0
-        if dropping > MOST_DROPPING:
-            break
-    if push.late:
-        return steps, CurveEnd.LATE
-    if dropping:
-        return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
-    if push.short > MOST_SHORT:
-        return steps, CurveEnd.BLOCKED
-    if push.deep:
-        return steps, CurveEnd.DEEP
-    return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.FALLS if push.falls else CurveEnd.STUCK
 
 
 def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
@@ -270,7 +233,7 @@ def curve_of(
     first, built = _as_built(model, contacts, solution.mechanics)
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
-    greatest = _greatest(case, steps)
+    greatest = greatest_value(case, steps.load_factors)
     work, before = np.zeros(4), np.zeros(4)
     history, last, whole = TieHistory.at_rest(model.ties), Pose.at_rest(len(model.blocks)), np.inf
     for number, pose in enumerate(steps.poses):
