@@ -90,7 +90,8 @@ joints: {dry: {friction: 0.7}}
 supports: []
 blocks:
   - arch:
-      {material: stone, springers: ground, shape: segmental, span: 2, rise: 0.6, thickness: 0.25, width: 0.5, voussoirs: 7}
+      {rise: 0.6, material: stone, springers: ground,
+      shape: segmental, span: 2, thickness: 0.25, width: 0.5, voussoirs: 7}
 load_cases: {c: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.006, until: 0.03}}}
 """
 )
