@@ -40,6 +40,7 @@ SELECTORS = (
     "fill.*.on",
     *(f"{loads}.#.on" for loads in LOADS),
     "load_cases.*.settlement.on",
+    "load_cases.*.settlement.#.on",
     "load_cases.*.objective.force.from",
     "load_cases.*.objective.force.on",
     "load_cases.*.pushover.control.on",

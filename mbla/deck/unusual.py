@@ -13,6 +13,7 @@ from typing import Any
 
 from mbla.deck.content import DeckContent
 from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
+from mbla.deck.sections.load_cases import supports_of
 from mbla.deck.sections.loads import Load
 from mbla.deck.text.tree import KeyPath, Tree
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
@@ -149,9 +150,11 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
         if tie.plate is not None:
             yield ("ties", number, "plate"), "plate", tie.plate
     for name, case in content.load_cases.items():
-        for key in ("pushover", "settlement"):
-            if getattr(case, key) is not None:
-                yield ("load_cases", name, key), key, getattr(case, key)
+        if case.pushover is not None:
+            yield ("load_cases", name, "pushover"), "pushover", case.pushover
+        for row, support in enumerate(supports_of(case)):
+            several = isinstance(case.settlement, list)
+            yield ("load_cases", name, "settlement", *((row,) if several else ())), "settlement", support
         if case.assessment is not None and case.assessment.height is not None:
             yield ("load_cases", name, "assessment", "height"), "height", case.assessment.height
     for path, spectrum in _spectra(content):

@@ -106,10 +106,7 @@ def _load_cases(
         guides = supports.guides
         return [end for each in load_cases for end in build_objective(section, path, each, site, guides, ties)]
     if section.settlement is not None:
-        settles = (*path, "settlement")
-        return [
-            build_settlement(section.settlement, settles, load_case, supports, site.roster) for load_case in load_cases
-        ]
+        return [build_settlement(section, path, load_case, supports, site.roster) for load_case in load_cases]
     for load_case in load_cases:
         if not site.roster.faults and does_nothing(load_case.live_load, supports):
             where = "" if load_case.travel is None else f" at position {load_case.travel.number}"

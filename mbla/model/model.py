@@ -125,7 +125,7 @@ class Settlement:
 
     blocks    : (m,)
     motions   : (m, 6) velocity and angular velocity about the centroid of each block; a unit velocity along the
-                direction of the settlement, or a unit rotation
+                direction of the settlement, less for supports that go less far than another, or a unit rotation
     turns     : the motion is a rotation, the reaction a moment
     words     : in words, for the listing
     reference : reaction of the structure at rest on the support that has not moved yet, nan where not known yet

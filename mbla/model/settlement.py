@@ -9,16 +9,21 @@ unknown q, the reaction R of the support against the motion balances what the st
 
 Posed with a load factor: R = R0 − λ U with R0 a reaction with which the structure is at rest, and U the weight of what
 can move. The greatest λ gives the least R. Loads on the settling blocks themselves are not part of R.
+
+Several supports that give way together by amounts a_i along unit directions d_i are one motion, m_b = d_i a_i / max a:
+q is the displacement of the one that goes farthest, and R = Σ_i R_i a_i / max a is conjugate to it, R_i the reaction of
+each against its direction.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.load_cases import SettlementSection
+from mbla.deck.sections.load_cases import LoadCaseSection, SettlementSection, supports_of
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import slide, turn
@@ -31,7 +36,7 @@ from mbla.model.wording import counted, named, vector
 
 
 def build_settlement(
-    section: SettlementSection,
+    section: LoadCaseSection,
     path: KeyPath,
     load_case: LoadCase,
     supports: Supports,
@@ -39,18 +44,11 @@ def build_settlement(
 ) -> LoadCase:
     """The load case with its settlement; the reference reaction is not known before there are contacts.
 
-    Refuses blocks that `supports` does not fix, and settlements under no dead load or of everything fixed.
+    Refuses blocks that `supports` does not fix or that give way twice, and settlements under no dead load or of
+    everything fixed.
     """
-    chosen = select_blocks(section.on, (*path, "on"), roster)
-    if chosen is None:
-        return load_case
-    loose = chosen[~supports.fixed[chosen]]
-    if len(loose):
-        message = (
-            f"not fixed: {named(loose, roster.blocks.name)}; a support that gives way is made of blocks that "
-            "`supports` fixes; in place of a ground plane give a block and fix it"
-        )
-        roster.refuse(Finding("settlement-not-fixed", message, *path, "on"))
+    giving = _giving_way(section, path, supports, roster)
+    if giving is None:
         return load_case
     free = ~supports.fixed
     size = size_of_loads(load_case.dead_load, roster.blocks, free)
@@ -59,18 +57,74 @@ def build_settlement(
     if not size > 0.0:
         if free.any() and not roster.partial:
             message = "there is no dead load on blocks that can move, or all of it cancels: no reaction is lost"
-            roster.refuse(Finding("settlement-without-effect", message, *path))
+            roster.refuse(Finding("settlement-without-effect", message, *path, "settlement"))
         return load_case
-    motions, words = _motion(section, chosen, roster.blocks)
-    if section.turn is not None:
-        size *= _distance_from(section, roster.blocks.centroids[free])
-    settlement = Settlement(chosen, motions, section.turn is not None, words, np.nan, size)
+    parts = [_motion(support, chosen, roster.blocks) for support, chosen in giving]
+    shares = _shares([support for support, _ in giving])
+    blocks = np.concatenate([chosen for _, chosen in giving])
+    order = np.argsort(blocks)
+    motions = np.vstack([share * motions for share, (motions, _) in zip(shares, parts, strict=True)])[order]
+    farthest, chosen = giving[int(np.argmax(shares))]
+    if farthest.turn is not None:
+        size *= _distance_from(farthest, roster.blocks.centroids[free])
+    words = _words(giving, [each for _, each in parts])
+    settlement = Settlement(blocks[order], motions, farthest.turn is not None, words, np.nan, size)
     pushover = load_case.pushover
-    if pushover is not None and section.direction is not None:
+    if pushover is not None and farthest.direction is not None:
         levers = pushover.dead_levers.copy()
-        levers[chosen] = 0.0  # the reaction acts on their centroids
-        pushover = replace(pushover, blocks=chosen, direction=unit(section.direction), dead_levers=levers)
+        levers[blocks] = 0.0  # the reaction acts on their centroids
+        pushover = replace(pushover, blocks=chosen, direction=unit(farthest.direction), dead_levers=levers)
     return with_reference(replace(load_case, settlement=settlement, pushover=pushover), np.nan)
+
+
+def _giving_way(
+    section: LoadCaseSection, path: KeyPath, supports: Supports, roster: Roster
+) -> list[tuple[SettlementSection, IntArray]] | None:
+    """Supports with their blocks; None where a fault was left."""
+    found: list[tuple[SettlementSection, IntArray]] = []
+    settles: KeyPath = (*path, "settlement")
+    owner = dict[int, int]()
+    for number, support in enumerate(supports_of(section)):
+        place: KeyPath = (*settles, number, "on") if isinstance(section.settlement, list) else (*settles, "on")
+        chosen = select_blocks(support.on, place, roster)
+        if chosen is None:
+            return None
+        loose = chosen[~supports.fixed[chosen]]
+        if len(loose):
+            message = (
+                f"not fixed: {named(loose, roster.blocks.name)}; a support that gives way is made of blocks that "
+                "`supports` fixes; in place of a ground plane give a block and fix it"
+            )
+            roster.refuse(Finding("settlement-not-fixed", message, *place))
+            return None
+        twice = np.array([block for block in chosen if int(block) in owner], dtype=np.int64)
+        if len(twice):
+            names = named(twice, roster.blocks.name)
+            message = f"{names}: settlement[{owner[int(twice[0])]}] moves that already; a support gives way in one way"
+            roster.refuse(Finding("settlement-twice", message, *place))
+            return None
+        owner |= {int(block): number for block in chosen}
+        found.append((support, chosen))
+    return found
+
+
+def _shares(supports: Sequence[SettlementSection]) -> list[float]:
+    """How far each goes over the one that goes farthest; as far without amounts."""
+    amounts = [1.0 if support.amount is None else support.amount for support in supports]
+    return [amount / max(amounts) for amount in amounts]
+
+
+def _words(giving: Sequence[tuple[SettlementSection, IntArray]], ways: Sequence[str]) -> str:
+    """Which supports give way, and what their reaction is where they are several."""
+    each = [f"{counted(len(chosen), 'block')} {way}" for (_, chosen), way in zip(giving, ways, strict=True)]
+    several = len(giving) > 1
+    if several:
+        amounts = [support.amount for support, _ in giving]
+        each = [way if amount is None else f"{way} by {amount:.6g}" for way, amount in zip(each, amounts, strict=True)]
+    words = f"prescribed settlement of {', and of '.join(each)}"
+    if several:
+        words += "; the reaction is the sum of theirs, each times its amount over the greatest"
+    return words
 
 
 def size_of_loads(loads: FloatArray, blocks: Blocks, chosen: BoolArray) -> float:
@@ -99,20 +153,19 @@ def with_reference(load_case: LoadCase, reference: float) -> LoadCase:
 
 
 def _forces_of_unit_reaction(settlement: Settlement) -> FloatArray:
-    """Forces, or moments, in equal shares on the blocks, that do unit work in the unit motion, (m, 6)."""
+    """Forces, or moments, on the blocks as they move, that do unit work in the unit motion, (m, 6)."""
     part = slice(3, 6) if settlement.turns else slice(0, 3)
     forces = np.zeros_like(settlement.motions)
-    forces[:, part] = settlement.motions[:, part] / len(settlement.blocks)
+    forces[:, part] = settlement.motions[:, part] / (settlement.motions[:, part] ** 2).sum()
     return forces
 
 
 def _motion(section: SettlementSection, chosen: IntArray, blocks: Blocks) -> tuple[FloatArray, str]:
-    subject = f"prescribed settlement of {counted(len(chosen), 'block')}"
     if section.direction is not None:
-        return slide(unit(section.direction), len(chosen)), f"{subject} along {vector(section.direction)}"
+        return slide(unit(section.direction), len(chosen)), f"along {vector(section.direction)}"
     assert section.turn is not None  # a rule of the deck: a direction, or a line to turn about
     axis, about = section.turn.axis, section.turn.about
-    words = f"{subject} turning about {vector(axis)} through {vector(about)}"
+    words = f"turning about {vector(axis)} through {vector(about)}"
     return turn(unit(axis), np.array(about), blocks.centroids[chosen]), words
 
 

@@ -160,7 +160,11 @@ def _first_movement(case: dict[str, Any]) -> dict[str, Any]:
     kept = {key: value for key, value in case.items() if key not in ("pushover", "assessment")}
     if "settlement" in kept:
         only_first = ("amount", "step", "error")
-        kept["settlement"] = {key: value for key, value in kept["settlement"].items() if key not in only_first}
+        several = isinstance(kept["settlement"], list)
+        left_out = ("step", "error") if several else only_first  # amounts of several are their proportion
+        supports = kept["settlement"] if several else [kept["settlement"]]
+        first = [{key: value for key, value in each.items() if key not in left_out} for each in supports]
+        kept["settlement"] = first if several else first[0]
     return kept
 
 

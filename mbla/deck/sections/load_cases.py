@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
 from mbla.deck.quantities import Direction, Integer, Number, PositiveLength
-from mbla.deck.section import Section, exactly_one_of, given, one_of, rule
+from mbla.deck.section import Section, exactly_one_of, given, one_of, rule, shape
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.sections.objective import ObjectiveSection
@@ -38,10 +38,19 @@ class SettlementSection(Section):
     amount: PositiveLength | None = Field(
         None,
         description="how far they go: the reaction is followed as the structure moves with them, until nothing carries "
-        "it any more; with direction. Only the first movement unless given",
+        "it any more; with direction. Only the first movement unless given. Of several supports all have it or none: "
+        "they go in proportion to their amounts, as far as each other without",
     )
     step: PositiveLength | None = Field(None, description="displacement in a step; a fiftieth of amount unless given")
     error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
+
+
+Settlements: TypeAlias = Annotated[
+    Annotated[SettlementSection, Tag("mapping")]
+    | Annotated[Annotated[list[SettlementSection], Field(min_length=1, max_length=1000)], Tag("list")],
+    Discriminator(lambda value: "list" if shape(value) == "list" else "mapping"),
+]
+"""One support that gives way, or several in proportion."""
 
 
 class ControlSection(Section):
@@ -84,12 +93,15 @@ class LoadCaseSection(Section):
         None, description="loads besides gravity, which is 9.81 m/s^2 along -z unless a load `gravity` is among them"
     )
     live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
-    settlement: SettlementSection | None = Field(
+    settlement: Settlements | None = Field(
         None,
-        description="in place of live: a support that gives way, free of other supports; the answer is the mechanism "
+        description="in place of live: a support that gives way, free of other supports, or a list of several that "
+        "give way together, each along its direction, in proportion to their amounts; the answer is the mechanism "
         "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
         "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
-        "from that of the structure at rest on, over the weight of the free blocks",
+        "from that of the structure at rest on, over the weight of the free blocks. Of several supports the "
+        "reaction is the sum of theirs, each against its direction and times its amount over the greatest amount: what "
+        "does the work of all of them in the displacement of the one that goes farthest",
     )
     objective: ObjectiveSection | None = Field(
         None,
@@ -122,6 +134,33 @@ def followed_settlement(settlement: SettlementSection) -> Iterator[Finding]:
     if settlement.amount is None and (settlement.step is not None or "error" in settlement.model_fields_set):
         key = "error" if settlement.step is None else "step"
         yield Finding("settlement-not-followed", "goes with amount, how far the support is followed", key)
+
+
+def supports_of(section: LoadCaseSection) -> list[SettlementSection]:
+    """The supports that give way in a load case; none where nothing settles."""
+    if section.settlement is None:
+        return []
+    return section.settlement if isinstance(section.settlement, list) else [section.settlement]
+
+
+@rule(LoadCaseSection)
+def several_settlements(case: LoadCaseSection) -> Iterator[Finding]:
+    """Supports that give way together slide, all with an amount or none, by one step."""
+    supports = supports_of(case)
+    if len(supports) < 2:
+        return
+    amounts = [support.amount for support in supports]
+    for number, support in enumerate(supports):
+        if support.turn is not None:
+            words = "cannot be one of several supports that give way in proportion: give each a direction"
+            yield Finding("settlement-not-followed", words, "settlement", number, "turn")
+        if support.amount is None and any(amount is not None for amount in amounts):
+            words = "needs amount, as the other supports have: the amounts are their proportion"
+            yield Finding("missing-key", words, "settlement", number)
+    for key in ("step", "error"):
+        for number in [row for row, support in enumerate(supports) if key in support.model_fields_set][1:]:
+            words = "is given once: the other supports go on in proportion"
+            yield Finding("one-of-several", words, "settlement", number, key)
 
 
 @rule(LoadCaseSection)

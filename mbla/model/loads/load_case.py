@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.section import given
-from mbla.deck.sections.load_cases import LoadCaseSection
+from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
 from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
@@ -126,13 +126,16 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
 
     None, and a fault, where the blocks of the control point are not found; those of a settlement are not known yet.
     """
-    asked, settlement = section.pushover, section.settlement
+    asked, supports = section.pushover, supports_of(section)
     levers = (dead.total[:, 6:], live.total[:, 6:], dead.following[:, :6], live.following[:, :6], live.following[:, 6:])
     none = np.zeros(0, dtype=np.int64)
     blocks: IntArray | None = none
-    if settlement is not None and settlement.amount is not None:
-        step = settlement.amount / STEPS_OF_SETTLEMENT if settlement.step is None else settlement.step
-        return Pushing(step, settlement.amount, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), settlement.error, *levers)
+    amounts = [support.amount for support in supports if support.amount is not None]
+    if amounts:
+        farthest = max(amounts)
+        steps = [each.step * farthest / each.amount for each in supports if each.step is not None and each.amount]
+        step, error = (steps or [farthest / STEPS_OF_SETTLEMENT])[0], all(each.error for each in supports)
+        return Pushing(step, farthest, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), error, *levers)
     if asked is None:
         return None
     if asked.control.on is not None:

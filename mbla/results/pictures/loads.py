@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -222,7 +223,12 @@ def arrow_steps(forces: FloatArray, size: float) -> FloatArray:
 
 
 def _of_settlement(scene: Scene, text: str, colour: str, settlement: Settlement) -> list[Mark]:
-    """An arrow from the box around what gives way, along its mean motion; a ring where it only turns."""
+    """Of each support an arrow from the box around it, along its mean motion; a ring where it only turns."""
+    ways = np.round(settlement.motions[:, :3], 9)
+    if not settlement.turns and len(kinds := np.unique(ways, axis=0)) > 1:
+        parts = [np.all(ways == kind, axis=1) for kind in kinds]
+        each = [replace(settlement, blocks=settlement.blocks[own], motions=settlement.motions[own]) for own in parts]
+        return [mark for part in each for mark in _of_settlement(scene, text, colour, part)]
     way, turn = settlement.motions[:, :3].mean(axis=0), settlement.motions[:, 3:].mean(axis=0)
     blocks, bodies = scene.model.blocks, np.full((1, 2), settlement.blocks[0])
     vertices = blocks.vertices[np.isin(blocks.block_of_vertex, settlement.blocks)]

@@ -125,6 +125,8 @@ class Pushover:
         speed = np.linalg.norm(first.mechanism[:, :3], axis=1)
         self.carried = np.where(speed > MOVES * speed.max(), self.model.blocks.masses, 0.0)
         self.carried[self.control.blocks] = 0.0
+        if self.case.settlement is not None:
+            self.carried[self.case.settlement.blocks] = 0.0
         while True:
             yield step
             if self.program.settings.deadline is not None and time.monotonic() > self.program.settings.deadline:
