@@ -22,7 +22,7 @@ from mbla.contacts.moved import MovedSearch
 from mbla.contacts.tied import tied
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model, Pushing
+from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, turns_and_slides
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -132,7 +132,7 @@ def pushed(
             curve_last_error=errors.load_factor,
         )
         found = replace(found, curve=curve_of(model, contacts, section, case, found))
-        of_steps = (*_curve_remarks(found.curve), *_step_remarks(case, found, case.pushover))
+        of_steps = (*_curve_remarks(found.curve), *_step_remarks(case, found))
         return replace(found, remarks=(*solution.remarks, *_control_remarks(model, control, first), *of_steps))
 
     tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED) if done else solution)
@@ -140,8 +140,10 @@ def pushed(
     return with_curve(steps, step_errors(push, first, steps, end), end)
 
 
-def _step_remarks(case: LoadCase, solution: Solution, asked: Pushing) -> Iterator[Message]:
+def _step_remarks(case: LoadCase, solution: Solution) -> Iterator[Message]:
     """Remarks where the curve depends on its step, and where steps are shorter than asked for."""
+    assert case.pushover is not None  # else there is no curve
+    asked = case.pushover
     curve, share, end = solution.curve, step_dependence(case, solution), solution.curve_end_error
     if share > STEP_DEPENDENCE:
         words = f"with steps of twice the size figures of the pushover change by up to {share:.2g} of the greatest"
