@@ -161,6 +161,12 @@ def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
             "contacts to be found"
         )
         yield Finding("symmetry-broken", words, "contacts", "table")
+    if deck.contacts.joint_thickness is not None and deck.symmetry:
+        words = (
+            "does not go with symmetry, for the joints at the plane have no other side yet: give the whole structure, "
+            "or leave this out"
+        )
+        yield Finding("symmetry-broken", words, "contacts", "joint_thickness")
 
 
 @rule(DeckContent)

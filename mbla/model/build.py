@@ -23,10 +23,11 @@ from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.block_sizes import unusual_sizes
+from mbla.model.drawn_joints import close_joints, joints_in_words
 from mbla.model.fill import Fill, build_fill
 from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
-from mbla.model.items import collect_items, defects_in_words, density_of
+from mbla.model.items import CollectedItems, collect_items, defects_in_words, density_of
 from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
@@ -34,7 +35,7 @@ from mbla.model.outside import outside
 from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import PointMasses, joined_masses
-from mbla.model.solids.build import build_blocks
+from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
@@ -172,6 +173,7 @@ def _build(deck: Deck) -> Structure:
     faults: list[Fault] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
+    built = _with_closed_joints(deck, built, items, faults)
     far = far_away(items.polyhedra, items.labels.name, deck.contacts.tolerance)
     if isinstance(far, Message):
         faults.append(deck.fault_at(("blocks",), far))
@@ -195,6 +197,30 @@ def _build(deck: Deck) -> Structure:
     bent = replace(built.bent, items=items.items[built.bent.blocks])
     placeless = roster.of_deck(unplaced)  # places are those of one deck
     return Structure(placeless, supports, interfaces, bent, fill, carried, first)
+
+
+def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:
+    """The blocks grown to the middle of the joints that are drawn as gaps; adds a fault where they cannot."""
+    thickness = deck.contacts.joint_thickness
+    if thickness is None or built.defects:
+        return built
+    path = ("contacts", "joint_thickness")
+    # which ground carries which blocks, with a record of its own: the grown blocks are checked against it after
+    supports = build_supports(
+        deck, Supports(items.fixed, items.grounds), Roster(built.blocks, items.partial, deck.fault_at)
+    )
+    closed = close_joints(built.blocks, supports.grounds, thickness, deck.contacts.tolerance)
+    if isinstance(closed, Message):
+        faults.append(deck.fault_at(path, closed))
+        return built
+    grown = build_blocks(closed.polyhedra, items.labels, deck.contacts.tolerance)
+    if grown.defects:
+        which = named(np.array([defect.block for defect in grown.defects]), built.blocks.name)
+        words = f"makes blocks that are none of those beside joints: {which}"
+        faults.append(deck.fault_at(path, Message("joint-not-closed", words)))
+        return built
+    notice = joints_in_words(closed, built.blocks, grown.blocks, thickness, deck.units.length)
+    return replace(grown, notices=(*built.notices, notice), bent=built.bent)
 
 
 UNLIMITED = 1e6

@@ -72,6 +72,8 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
+    if deck.contacts.joint_thickness is not None:
+        words["joint_thickness"] = f"{deck.contacts.joint_thickness:g} {deck.units.length}"
     if deck.contacts.overlap_tolerance is not None:
         words["overlap_tolerance"] = f"{deck.contacts.overlap_tolerance:g}"
     if analysis.flow_rule == "non_associative":

@@ -87,6 +87,13 @@ class ContactsSection(Section):
         "Faces that reach into each other by no more are in contact, midway; gaps above tolerance stay open. What two "
         "blocks share counts in the weight of both, and a notice says how much it is",
     )
+    joint_thickness: PositiveLength | None = Field(
+        None,
+        description="greatest thickness of joints that are drawn as gaps: faces that face each other across no more, "
+        "within 20 degrees of parallel, are moved to the plane in the middle of the joint, all of the way to a ground "
+        "plane; free faces stay. The blocks grow, with the density of their material, and a notice says by how much. "
+        "Not with symmetry, nor with table",
+    )
     table: str | None = Field(
         None,
         min_length=1,
@@ -118,6 +125,13 @@ def override_conditions(override: ContactOverride) -> Iterator[Finding]:
     """An override without condition would be the joint of the section."""
     if not given(override, CONDITIONS):
         yield Finding("missing-key", f"needs one of {listed(CONDITIONS)}: the joint of all contacts is contacts.joint")
+
+
+@rule(ContactsSection)
+def gaps_or_given(contacts: ContactsSection) -> Iterator[Finding]:
+    """Interfaces that are given lie on the faces as drawn."""
+    if contacts.joint_thickness is not None and contacts.table is not None:
+        yield Finding("one-of-several", "only one of joint_thickness or table may be given", "joint_thickness")
 
 
 @rule(ContactPoints)
