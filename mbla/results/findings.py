@@ -11,6 +11,7 @@ forces over the live load: one that is near zero relative to dead over live load
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -64,6 +65,21 @@ REMARKS_THAT_WARN = frozenset(
     }
 )
 """Remarks of a solver that are warnings; the others are notices."""
+
+FOUND_AGAIN = frozenset(
+    {
+        "assessment-in-doubt",
+        "assessment-not-done",
+        "brittle-ties",
+        "control-point-at-rest",
+        "pushover-drops",
+        "pushover-not-done",
+        "pushover-rough",
+        "sensitivity-not-done",
+        "tilt-between-not-proved",
+    }
+)
+"""Remarks that follow from deck, forces and mechanisms: verification finds them again. The others are the run's own."""
 
 
 def found_notices(case: CaseResult, *, harmless: bool = False) -> tuple[Notice, ...]:
@@ -210,3 +226,16 @@ def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list
     ratio = float((mu[known] * arm[known] / width[known]).max(initial=0.0))
     words = f"sliding on an interface takes {ratio:.0e} times the push that tips a block on it"
     return [words] if ratio > FAR_APART else []
+
+
+def remarks_of_run(cases: Sequence[CaseResult]) -> tuple[str, ...]:
+    """Remarks that are not verified, with the load cases that they are on, an identifier each."""
+    rows: dict[str, list[str]] = {}
+    for case in cases:
+        for remark in case.solution.remarks:
+            if remark.identifier not in FOUND_AGAIN:
+                rows.setdefault(remark.identifier, []).append(case.load_case.name)
+    return tuple(
+        f"the remark {identifier} is not verified ({', '.join(dict.fromkeys(names))})"
+        for identifier, names in rows.items()
+    )

@@ -56,6 +56,7 @@ class Results:
     files      : names of the files that were written for it, in its folder
     complete   : whether the run completed
     not_done   : requested load cases that it did not reach
+    unconfirmed : of a verification: what its deck asks for and it lacks, or states, and nothing in it shows; in words
     """
 
     deck: DeckRecord
@@ -71,6 +72,7 @@ class Results:
     files: tuple[str, ...] = ()
     complete: bool = True
     not_done: tuple[str, ...] = ()
+    unconfirmed: tuple[str, ...] = ()
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; raises KeyError if there is none."""

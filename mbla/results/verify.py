@@ -18,14 +18,13 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.contacts.findings import contacts_of
 from mbla.contacts.glue import held_model
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
-from mbla.model.model import LoadCase, Tilt
+from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.build import crushable_interfaces, takes_stress_blocks
 from mbla.results.diff.cases import least_factor
@@ -36,6 +35,8 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
+from mbla.results.verification.asked import Found, cases_left_out, held_against_deck
+from mbla.results.verification.remarks import differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
@@ -43,6 +44,7 @@ from mbla.solution.sensitivity.sensitivity import with_sensitivity
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.tilt import angle_of_load, found_angle, leads_across
 from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
@@ -57,15 +59,30 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     results = read_results_hdf5(path)
     deck, disagreements = rebuilt(results)
     again = _recomputed(results, deck)
+    unconfirmed: tuple[str, ...] = ()
     for case in again.cases:
-        found = (*_unproved(results.model, case), *(() if deck is None else _left_out(case, deck)))
-        disagreements += tuple(f"{case.load_case.name}: {text}" for text in found)
+        name, found = case.load_case.name, Found(_unproved(results.model, case))
+        if deck is not None:
+            found = _held_against(deck, results, case, found)
+        disagreements += tuple(f"{name}: {text}" for text in found.differences)
+        unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
+    if deck is not None:
+        unconfirmed += cases_left_out(results, [case.name for case in results.model.load_cases])
     disagreements += differences_of_file(path, write_results_hdf5(again))
     code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
-    proved = results.complete and not any(presumes_standing(case) for case in again.cases)
+    proved = results.complete and not unconfirmed and not any(presumes_standing(case) for case in again.cases)
     if (disagreements or not proved) and code in (0, 5):
         code = 4
-    return replace(again, exit_code=code), disagreements
+    return replace(again, exit_code=code, unconfirmed=unconfirmed), disagreements
+
+
+def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:
+    """What is found of a recomputed case beside what is known: its parts, its remarks, and what its state rests on."""
+    model = results.model.of_case(case.load_case)
+    found = held_against_deck(deck, model, results.contacts, case)
+    again = remarks_found_again(deck, model, results.contacts, case)
+    remarks = differences_of_remarks(case, again)
+    return Found([*known.differences, *found.differences, *remarks], [*known.unconfirmed, *found.unconfirmed])
 
 
 def _recomputed(results: Results, deck: Deck | None) -> Results:
@@ -85,18 +102,20 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
     solution = with_derived(model, contacts, load_case, solution)
-    if deck is not None and solution.pushed is not None and solution.mechanics is not None:
+    pushes = load_case.pushover is not None and solution.pushed is not None
+    if deck is not None and pushes and solution.mechanics is not None:
         solution = begun_by(model, contacts, solution)
         solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         upright = level_bound(model, contacts, load_case, solution)
-        load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright))
+        angle = found_angle(load_case.tilt, load_case.live_load, solution)
+        load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright, angle=angle))
     if solution.geometric_safety is not None:
         safety = solution.geometric_safety
         own = proved(model, contacts, load_case, safety)
         solution = replace(solution, geometric_safety=replace(safety, verified=own))
     checks = verify(model, contacts, load_case, solution)
-    if deck is not None and solution.sensitivity:
+    if deck is not None and deck.analysis.sensitivity is not False:
         solution = _with_slopes(results, model, load_case, solution, checks)
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
@@ -106,7 +125,8 @@ def _with_slopes(results: Results, model: Model, load_case: LoadCase, solution: 
     with tempfile.TemporaryDirectory() as name:
         deck = deck_of(results.deck, Path(name), expected=False)
         bare = replace(solution, sensitivity=())
-        return with_sensitivity(deck, model, results.contacts, load_case, bare, checks)
+        found = with_sensitivity(deck, model, results.contacts, load_case, bare, checks)
+        return replace(solution, sensitivity=found.sensitivity)
 
 
 def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crushable: bool) -> Solution:
@@ -143,37 +163,6 @@ def _unproved(model: Model, case: CaseResult) -> list[str]:
     if standing is not None and standing.verdict is Standing.YES and standing.block is not None:
         found.append("it cannot stand and have a block that falls")
     return found
-
-
-def _left_out(case: CaseResult, deck: Deck) -> list[str]:
-    """What the deck asks for and the file neither has nor explains."""
-    solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
-    claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
-    said = {remark.identifier for remark in solution.remarks}
-    pushed = case.load_case.pushover is None or solution.pushed is not None or "pushover-not-done" in said
-    missing = [] if pushed else ["pushover"]
-    slopes = bool(solution.sensitivity) or "sensitivity-not-done" in said
-    missing += ["sensitivity"] if deck.analysis.sensitivity is not False and not slopes else []
-    safe = solution.geometric_safety is not None or "geometric-safety-not-done" in said
-    missing += ["geometric factor of safety"] if deck.analysis.geometric_safety and not safe else []
-    missing += ["standing"] if knobs.standing and claims and solution.standing is None else []
-    if solution.mechanics is None or solution.conditions_on_interfaces:
-        return [_lacks(what) for what in missing]
-    if knobs.range and not said & {"range-not-computed", "range-not-found"} and not _by_normality(solution):
-        missing += [f"{end} end of the range" for end in ("lower", "upper") if getattr(solution, end) is None]
-    if knobs.analysis.force_ranges and solution.force_ranges is None:
-        missing.append("ranges of normal forces")
-    return [_lacks(what) for what in missing]
-
-
-def _by_normality(solution: Solution) -> bool:
-    """Whether the forces are those of associative flow: by that rule, or for want of joints that could flow."""
-    own, associative = solution.mechanics, solution.associative
-    return own is not None and associative is not None and np.array_equal(own.mechanism, associative.mechanism)
-
-
-def _lacks(what: str) -> str:
-    return f"the deck asks for the {what}, which the file does not have"
 
 
 SAME, SAME_OF_LARGEST = 1e-9, 1e-12
@@ -257,17 +246,9 @@ def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:
     if tilt is None or known is None:
         return case
     tilt = replace(tilt, angle=known.angle, tangent=known.tangent, upright=known.upright)
-    if known.tangent or of_file.live_load.shape != tilt.across.shape:
+    if known.tangent or of_file.live_load.shape != tilt.across.shape or leads_across(tilt, of_file.live_load):
         return replace(case, tilt=tilt)
-    return replace(case, tilt=tilt, live_load=chord(tilt, _angle(tilt, of_file.live_load)))
-
-
-def _angle(tilt: Tilt, live_load: FloatArray) -> float:
-    """Angle in radians to which a live load leads from the level table, whether it is that of collapse or not."""
-    size = max(float(np.abs(tilt.across).max(initial=0.0)), np.finfo(np.float64).tiny)
-    columns = np.column_stack([tilt.across.ravel(), -tilt.turning.ravel()]) / size
-    (across, lowered), *_ = np.linalg.lstsq(columns, live_load.ravel() / size)
-    return float(np.arctan2(across, 1.0 - lowered))
+    return replace(case, tilt=tilt, live_load=chord(tilt, angle_of_load(tilt, of_file.live_load)))
 
 
 def _differences(results: Results, built: Content) -> list[str]:

@@ -209,8 +209,8 @@ class Solution:
     level_lock  : the same where it bears every multiple: (n_points, 3) contact forces that balance that load alone
     spread      : least and greatest load factor of several tries that did not agree
     standing    : assessment of the dead load alone
-    lock        : unbounded: (n_points, 3) contact forces that balance the live load alone, so that any multiple is
-                  carried
+    lock        : unbounded, or without an associative answer: (n_points, 3) contact forces that balance the live load
+                  alone, so that any multiple is carried with associative flow
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the load path that was followed
     curve       : steps of the pushover, the structure as built first; empty where none was asked for

@@ -171,10 +171,12 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
     result, analysis = results[first], stage.settings.analysis
     solved = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
+    locked = all(state is None for state in solved)  # with normality alone
     solution = replace(
         _solution(stage.settings, *_claim(results, first)),
         tolerance_requested=_tolerance_requested(results),
         associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
+        lock=locking_forces(stage.parts, stage.settings, stage.log) if locked else None,
     )
     if analysis.force_ranges and result.state is not None:
         ranges, words = _force_ranges(stage, first, result.state)

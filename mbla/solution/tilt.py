@@ -20,12 +20,15 @@ from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.solution.solution import WITH_VALUE, Checks, Mechanics, Solution, Status
 from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
-from mbla.solution.verification.further_claims import only_direction_counts
+from mbla.solution.verification.further_claims import SAME_LOADS, only_direction_counts
 from mbla.solution.verification.verify import level_bound
 
 Angles: TypeAlias = Generator[LoadCase, "Answer", "Answer"]
@@ -48,6 +51,9 @@ BY_LINE = 1e-6
 1e-13, moves the arc cosine near 1 by 5e-7"""
 BETWEEN = 8
 """angles tried before the one found where nothing proves that the table gets there"""
+NOT_PROVED_BETWEEN = Message(
+    "tilt-between-not-proved", f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved"
+)
 
 
 @dataclass(frozen=True)
@@ -114,6 +120,35 @@ def with_level(solution: Solution, level: Solution) -> Solution:
     """The solution with what was found of the level table, which proves how much of the load across that bears."""
     bears_all = level.status is Status.UNBOUNDED
     return replace(solution, level=None if bears_all else level.associative, level_lock=level.lock)
+
+
+def leads_across(tilt: Tilt, live_load: FloatArray) -> bool:
+    """Whether a live load, (n_blocks, 6), is that of the level table across, which leads to no angle."""
+    off = float(np.abs(live_load - tilt.across).max(initial=0.0))
+    return off <= SAME_LOADS * float(np.abs(tilt.across).max(initial=0.0))
+
+
+def angle_of_load(tilt: Tilt, live_load: FloatArray) -> float:
+    """Angle in radians to which a live load leads from the level table, whether it is that of collapse or not."""
+    size = max(float(np.abs(tilt.across).max(initial=0.0)), np.finfo(np.float64).tiny)
+    columns = np.column_stack([tilt.across.ravel(), -tilt.turning.ravel()]) / size
+    (across, lowered), *_ = np.linalg.lstsq(columns, live_load.ravel() / size)
+    return float(np.arctan2(across, 1.0 - lowered))
+
+
+def found_angle(tilt: Tilt, live_load: FloatArray, solution: Solution) -> float:
+    """The angle of collapse in degrees that a run states of a live load and the load factor found for it.
+
+    nan where the load factor is its tangent, where the load leads to none, and where the table does not collapse there.
+    """
+    own = solution.mechanics
+    if tilt.tangent or leads_across(tilt, live_load) or (own is not None and own.load_factor > 1.0 + GOOD):
+        return math.nan
+    angle = math.degrees(angle_of_load(tilt, live_load))
+    if own is None:
+        return math.nan if math.isnan(tilt.angle) else angle
+    at_once = abs(own.load_factor) <= GOOD and tilt.angle == 0.0
+    return 0.0 if at_once else angle
 
 
 class _Search:
@@ -209,7 +244,6 @@ class _Search:
             near = abs(factor - 1.0) <= NEAR
             solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
         elif not self.tilt.upright >= math.tan(angle / 2.0):
-            seen = f"That it does not collapse before was seen at {BETWEEN - 1} angles, not proved"
-            remarks.append(Message("tilt-between-not-proved", seen))
+            remarks.append(NOT_PROVED_BETWEEN)
         solution = replace(solution, remarks=(*solution.remarks, *remarks), seconds=self.seconds)
         return Answer(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)

@@ -13,6 +13,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
+from mbla.results.findings import remarks_of_run
 from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import objective_lines, range_words, series_lines, worst_words
@@ -158,11 +159,13 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     lines += heading("Summary")
     lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
     lines += sentence(f"not verified, but as the run reported it: {'; '.join(unverified_kinds(results))}")
-    lines += [line for text in unproved_words(results.cases) for line in sentence(text)]
+    unproved = (*unproved_words(results.cases), *remarks_of_run(results.cases))
+    lines += [line for text in unproved for line in sentence(text)]
+    lines += [line for text in results.unconfirmed for line in sentence(f"not confirmed: {text}")]
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
     of_file = [notice.message for notice in results.notices if notice.identifier == "run-stopped"]
     lines += [line for text in of_file for line in sentence(text)]
-    if not disagreements:
+    if not disagreements and not results.unconfirmed:
         lines += sentence("all else in the file agrees with what was recomputed")
     return lines
 

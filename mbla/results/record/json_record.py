@@ -18,6 +18,7 @@ from mbla.model.model import Model
 from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import tie_rows
+from mbla.results.findings import remarks_of_run
 from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
@@ -94,9 +95,14 @@ def _needs(needs: CaseNeeds) -> dict[str, Any]:
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:
     """The record of a verification: figures recomputed, where the file says otherwise, and what was not verified."""
     return results_json(results) | {
-        "agrees": not disagreements,
+        "agrees": not disagreements and not results.unconfirmed,
         "disagreements": list(disagreements),
-        "not_verified": [*unverified_kinds(results), *unproved_words(results.cases)],
+        "not_confirmed": list(results.unconfirmed),
+        "not_verified": [
+            *unverified_kinds(results),
+            *unproved_words(results.cases),
+            *remarks_of_run(results.cases),
+        ],
     }
 
 
@@ -220,7 +226,7 @@ def _certificate(solution: Solution) -> str | None:
     """What proves that there is no load factor: a motion, or forces that balance the live load alone."""
     if solution.certificate is not None:
         return "motion"
-    return "forces" if solution.lock is not None else None
+    return "forces" if solution.lock is not None and solution.mechanics is None else None
 
 
 def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | None:

@@ -69,19 +69,24 @@ def with_geometric_safety(
 
     model : as it may move under the load case
     """
-    against = _against(model, contacts, load_case, analysis)
+    against = why_no_geometric_safety(model, contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
     if found is None:
         why = (
             against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
         )
-        words = f"there is no geometric factor of safety: {why}"
-        return replace(solution, remarks=(*solution.remarks, Message("geometric-safety-not-done", words)))
+        return replace(solution, remarks=(*solution.remarks, no_geometric_safety(why)))
     verified = proved(model, contacts, load_case, found)
     return replace(solution, geometric_safety=replace(found, verified=verified))
 
 
-def _against(model: Model, contacts: Contacts, load_case: LoadCase, analysis: AnalysisSection) -> str:
+def no_geometric_safety(why: str) -> Message:
+    """The remark on what keeps a geometric factor of safety from being found."""
+    return Message("geometric-safety-not-done", f"there is no geometric factor of safety: {why}")
+
+
+def why_no_geometric_safety(model: Model, contacts: Contacts, load_case: LoadCase, analysis: AnalysisSection) -> str:
+    """What keeps it from being looked for, in words; empty where nothing does."""
     if len(model.ties):
         return "there are ties, or soil that holds it sideways, which do not shrink with the joints"
     if load_case.settlement is not None:

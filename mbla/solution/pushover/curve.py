@@ -98,6 +98,11 @@ def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
     return ", ".join(words for words, holds in against.items() if holds)
 
 
+def no_pushover(against: str) -> Message:
+    """The remark on what keeps a pushover from being done."""
+    return Message("pushover-not-done", f"there is no pushover: {against}")
+
+
 def pushed(
     model: Model,
     contacts: Contacts,
@@ -116,8 +121,7 @@ def pushed(
     """
     against = why_not_pushed(model, solution, solved)
     if against or solution.mechanics is None or case.pushover is None:
-        remark = Message("pushover-not-done", f"there is no pushover: {against}")
-        return replace(solution, remarks=(*solution.remarks, remark))
+        return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
     search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, solution.mechanics)
     control = Control.of(model, case, first.mechanism)
     push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
@@ -132,8 +136,7 @@ def pushed(
             curve_last_error=errors.load_factor,
         )
         found = replace(found, curve=curve_of(model, contacts, section, case, found))
-        of_steps = (*_curve_remarks(found.curve), *_step_remarks(case, found))
-        return replace(found, remarks=(*solution.remarks, *_control_remarks(model, control, first), *of_steps))
+        return replace(found, remarks=(*solution.remarks, *pushover_remarks(model, contacts, case, found)))
 
     tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED) if done else solution)
     steps, end = followed(push, first, done)
@@ -156,29 +159,29 @@ def _step_remarks(case: LoadCase, solution: Solution) -> Iterator[Message]:
         yield Message("pushover-steps-shorter", words)
 
 
-def _curve_remarks(curve: Sequence[CurveRow]) -> tuple[Message, ...]:
-    """Remarks where blocks drop, and where steps are rough."""
-    remarks: tuple[Message, ...] = ()
+def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution: Solution) -> tuple[Message, ...]:
+    """What a reader of a capacity curve must know, from its rows and its first mechanism.
+
+    model : as it may move under the load case
+    """
+    curve, remarks = solution.curve, list[Message]()
+    assert solution.mechanics is not None  # else there is no curve
+    first, _ = _as_built(model, contacts, solution.mechanics)
+    speed = Control.of(model, case, first.mechanism).speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
+    if not speed > MOVES * float(np.linalg.norm(first.mechanism[:, :3], axis=1).max()):
+        words = "the control point of the pushover does not go the way in which its displacement counts at first"
+        remarks.append(Message("control-point-at-rest", words))
     if fall := dropped(curve):
         words = f"blocks drop without the live load where the control point has moved by {fall[0]:.6g}, and lose "
         words += f"{fall[1]:.2g} of the greatest live work: what is pushed on may fall there"
-        remarks = (*remarks, Message("pushover-drops", words))
+        remarks.append(Message("pushover-drops", words))
     rough = [row for row in curve[1:] if row.residual > SOLVED_RESIDUAL]
     if rough:
         worst = max(rough, key=lambda row: row.residual)
         words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
         words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
-        remarks = (*remarks, Message("pushover-rough", words))
-    return remarks
-
-
-def _control_remarks(model: Model, control: Control, first: Mechanics) -> tuple[Message, ...]:
-    """A remark where the control point that the deck gives stays or goes back in the first movement."""
-    speed = control.speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
-    if speed > MOVES * float(np.linalg.norm(first.mechanism[:, :3], axis=1).max()):
-        return ()
-    words = "the control point of the pushover does not go the way in which its displacement counts at first"
-    return (Message("control-point-at-rest", words),)
+        remarks.append(Message("pushover-rough", words))
+    return (*remarks, *_step_remarks(case, solution))
 
 
 def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:

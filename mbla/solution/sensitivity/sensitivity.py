@@ -60,6 +60,11 @@ def _as_it_is(structure: Structure) -> Structure:
     return structure
 
 
+def no_sensitivity(against: str) -> Message:
+    """The remark on what keeps slopes from being found."""
+    return Message("sensitivity-not-done", f"there is no sensitivity: {against}")
+
+
 def with_sensitivity(
     deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, checks: Checks
 ) -> Solution:
@@ -69,10 +74,9 @@ def with_sensitivity(
     """
     if deck.analysis.sensitivity is False:
         return solution
-    against = _against(load_case, solution, checks)
+    against = why_no_sensitivity(load_case, solution, checks)
     if against:
-        remark = Message("sensitivity-not-done", f"there is no sensitivity: {against}")
-        return replace(solution, remarks=(*solution.remarks, remark))
+        return replace(solution, remarks=(*solution.remarks, no_sensitivity(against)))
     return replace(solution, sensitivity=tuple(slopes(deck, Structure(model, contacts, load_case), solution)))
 
 
@@ -83,13 +87,13 @@ def slope_by(
 
     posed : puts the loads of another problem on a structure in the place of those of its load case
     """
-    if solution.associative is None or _against(structure.load_case, solution, checks):
+    if solution.associative is None or why_no_sensitivity(structure.load_case, solution, checks):
         return math.nan
     state = state_of(structure, solution, solution.associative)
     return _of_path(deck, structure, state, path, posed).slope
 
 
-def _against(load_case: LoadCase, solution: Solution, checks: Checks) -> str:
+def why_no_sensitivity(load_case: LoadCase, solution: Solution, checks: Checks) -> str:
     """Why there is no derivative; empty where there is one."""
     associative = solution.associative
     if load_case.settlement is not None:

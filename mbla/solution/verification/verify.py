@@ -81,7 +81,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     if solution.status is Status.UNBOUNDED:
         failures = (
             never_failures(load_case, checks)
-            if load_case.tilt is not None and solution.lock is None and solution.mechanics is not None
+            if load_case.tilt is not None and solution.mechanics is not None
             else (*failures, *_lock_failures(model, contacts, load_case, solution))
         )
         checks = replace(checks, verified=not failures, failures=failures)
@@ -106,6 +106,15 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     if mechanics.interface_motions is not None:
         case = InterfaceCase(*parts, solution.contact_model, rule)
     return residuals_of(case, mechanics, case.limits.dilatancy_by(rule)).largest
+
+
+def locked_with_normality(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> bool:
+    """Whether forces prove that every multiple of the live load is carried with associative flow."""
+    if solution.lock is None:
+        return False
+    solids = tied(solids_of(model, contacts, load_case))
+    of_solids, _ = solution_on_solids(solution, solids)
+    return not _lock_failures(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
 
 
 def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:

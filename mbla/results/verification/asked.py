@@ -1,0 +1,179 @@
+"""What the deck in a file asks for, held against what the file has: cases, and the parts of their answers.
+
+What is missing and a run always leaves is a difference, and so is what the deck does not ask for. What is missing for a
+reason that the run alone can state is not confirmed, whatever the file says of it: nothing in it shows that reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck import Deck
+from mbla.model import Model
+from mbla.results.outcome import WITH_VALUE, law_residual
+from mbla.results.results import CaseResult, Results
+from mbla.solution.limits.geometric_safety import why_no_geometric_safety
+from mbla.solution.pushover.curve import why_not_pushed
+from mbla.solution.pushover.ends import SHOWN, end_failure
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.settings import settings_for, solver_settings
+from mbla.solution.solution import Mechanics, Solution, Status
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.verification.verify import locked_with_normality
+
+SAME = 1e-9
+"""relative difference of load factors that are one figure"""
+
+
+@dataclass
+class Found:
+    """Sentences on a file.
+
+    differences : where it is not what its deck and its arrays give
+    unconfirmed : what it lacks, or states, and nothing in it shows
+    """
+
+    differences: list[str] = field(default_factory=list)
+    unconfirmed: list[str] = field(default_factory=list)
+
+
+def cases_left_out(results: Results, load_cases: Sequence[str]) -> tuple[str, ...]:
+    """Load cases of the deck of which the file has no result and does not say that a stopped run left them, in words.
+
+    load_cases : their names, in the order of the deck
+    """
+    known = {case.load_case.name for case in results.cases} | set(results.not_done)
+    missing = [name for name in load_cases if name not in known]
+    return (f"the deck has the load case {', '.join(missing)}, the file has no result of it",) if missing else ()
+
+
+def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Found:
+    """A load case against what its deck asks for.
+
+    model : as it may move under the load case
+    case  : with checks, status and curve recomputed
+    """
+    found = Found()
+    found.differences += [f"the file has {what}, which the deck does not ask for" for what in _not_asked(deck, case)]
+    _pushover(found, deck, model, case)
+    _limits(found, deck, model, contacts, case)
+    _associative(found, model, contacts, case)
+    _range(found, deck, case)
+    return found
+
+
+def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
+    solution, load_case = case.solution, case.load_case
+    settings = settings_for(load_case, solver_settings(deck.analysis))
+    normality = settings.analysis.flow_rule == "associative"
+    present: Mapping[str, tuple[object, bool]] = {
+        "a pushover": (solution.pushed, load_case.pushover is not None),
+        "slopes": (solution.sensitivity or None, deck.analysis.sensitivity is not False),
+        "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
+        "ranges of normal forces": (solution.force_ranges, settings.analysis.force_ranges),
+        "a verdict on standing": (solution.standing, settings.standing),
+        "a lower end of the range": (solution.lower, settings.range and not normality),
+        "an upper end of the range": (solution.upper, settings.range and not normality),
+        "a peak": (solution.peak, not normality),
+        "the answer of a level table": (solution.level, load_case.tilt is not None),
+        "the lock of a level table": (solution.level_lock, load_case.tilt is not None),
+    }
+    return (what for what, (part, asked) in present.items() if part is not None and not asked)
+
+
+def _pushover(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
+    solution, load_case = case.solution, case.load_case
+    if load_case.pushover is None:
+        return
+    against = why_not_pushed(model, solution, case.status is Status.SOLVED)
+    if solution.pushed is None:
+        found.differences += [] if against else [lacks("pushover")]
+    elif against:
+        found.differences.append(f"the file has a pushover, which no run makes of this case: {against}")
+    elif failure := end_failure(load_case, solution.curve, solution.curve_end):
+        found.differences.append(failure)
+    elif solution.curve_end is CurveEnd.LATE and deck.analysis.time_limit is None:
+        found.differences.append(f"the deck has no time limit, the file says of its pushover: {solution.curve_end}")
+    elif solution.curve_end not in SHOWN:
+        found.unconfirmed.append(f"why the pushover ends is not verified; the file says: {solution.curve_end}")
+        if load_case.assessment is not None:
+            found.unconfirmed.append("the verdict of the code rests on where the pushover ends, which is not verified")
+
+
+def _limits(found: Found, deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """Standing, geometric safety and ranges of normal forces; slopes are found again."""
+    solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
+    claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
+    if knobs.standing and claims and solution.standing is None:
+        found.differences.append(lacks("standing"))
+    if deck.analysis.geometric_safety and solution.geometric_safety is None:
+        against = why_no_geometric_safety(model, contacts, case.load_case, deck.analysis)
+        if not against:
+            _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
+    asked = knobs.analysis.force_ranges and solution.mechanics is not None and not solution.conditions_on_interfaces
+    if asked and solution.force_ranges is None:
+        found.differences.append(lacks("ranges of normal forces"))
+
+
+def _associative(found: Found, model: Model, contacts: Contacts, case: CaseResult) -> None:
+    """The associative answer, which every run with a load factor leaves unless friction locks with normality."""
+    solution = case.solution
+    if solution.mechanics is None or solution.associative is not None:
+        return
+    if locked_with_normality(model, contacts, case.load_case, solution):
+        return
+    said = [str(remark) for remark in solution.remarks if remark.identifier == "locked-by-dilatancy"]
+    why = f"; that it has none is not verified, the file says: {said[0]}" if said else ""
+    found.unconfirmed.append(f"the file has no associative answer{why}")
+
+
+def _range(found: Found, deck: Deck, case: CaseResult) -> None:
+    """Both ends of the range of a state that fits the law, and what the programs found for them."""
+    solution, own = case.solution, case.solution.mechanics
+    knobs = settings_for(case.load_case, solver_settings(deck.analysis))
+    if own is None or solution.conditions_on_interfaces or not knobs.range or by_normality(solution):
+        return
+    for name in ("lower", "upper"):
+        end: Mechanics | None = getattr(solution, name)
+        if end is not None:
+            found.differences += _of_programs(name, end, own, solution)
+        elif law_residual(case.checks) <= SOLVED_RESIDUAL:
+            _missing(found, f"{name} end of the range", case, "range-not-found", "range-not-computed")
+
+
+def _of_programs(name: str, end: Mechanics, own: Mechanics, solution: Solution) -> list[str]:
+    """What contradicts an end of a range among the programs of the run: one of these found it, or nothing beyond."""
+    known = [record.load_factor for record in solution.programs if record.kind == f"range, {name}"]
+    known = [value for value in known if np.isfinite(value)]
+    sign = 1.0 if name == "lower" else -1.0
+    size = max(abs(end.load_factor), abs(own.load_factor))
+    near = any(abs(value - end.load_factor) <= SAME * size for value in known)
+    beyond = any(sign * (value - end.load_factor) >= 0.0 for value in known)
+    if near or (beyond and abs(end.load_factor - own.load_factor) <= SAME * size):
+        return []
+    figures = ", ".join(f"{value:.6g}" for value in known) or "nothing"
+    return [f"the {name} end of the range is {end.load_factor:.6g}, the programs of the run found {figures} for it"]
+
+
+def _missing(found: Found, what: str, case: CaseResult, *excuses: str) -> None:
+    """Something that is asked for and missing: not confirmed where a remark of the run says why, else a difference."""
+    said = [remark for remark in case.solution.remarks if remark.identifier in excuses]
+    if said:
+        found.unconfirmed.append(f"{lacks(what)}; why is not verified, the file says: {said[0]}")
+    else:
+        found.differences.append(lacks(what))
+
+
+def by_normality(solution: Solution) -> bool:
+    """Whether the forces are those of associative flow: by that rule, or for want of joints that could flow."""
+    own, associative = solution.mechanics, solution.associative
+    return own is not None and associative is not None and np.array_equal(own.mechanism, associative.mechanism)
+
+
+def lacks(what: str) -> str:
+    """That something is missing, in words."""
+    return f"the deck asks for the {what}, which the file does not have"

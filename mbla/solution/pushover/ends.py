@@ -1,0 +1,60 @@
+"""Whether a pushover ends as it says: its end held against its rows.
+
+Three ends follow from the rows alone, and rows that show one of these have no other end: a load factor of nothing, the
+displacement asked for, the steps asked for. A curve that was cut off shows none of the three.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbla.model.model import LoadCase
+from mbla.solution.pushover.followed import SUDDEN
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+
+ROUNDING = 1e-9
+"""of the displacement asked for, relative, within which it is reached"""
+
+SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.REACHED, CurveEnd.STEPS_DONE)
+"""ends that the rows show"""
+
+
+def end_shown(case: LoadCase, curve: Sequence[CurveRow]) -> CurveEnd:
+    """The end that the last of some rows shows; ``NONE`` where they show none."""
+    asked, last = case.pushover, curve[-1]
+    if asked is None:
+        return CurveEnd.NONE
+    if last.load_factor <= 0.0 and case.settlement is None:
+        return CurveEnd.NOTHING_LEFT
+    if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
+        return CurveEnd.REACHED
+    return CurveEnd.STEPS_DONE if len(curve) > asked.steps else CurveEnd.NONE
+
+
+def end_failure(case: LoadCase, curve: Sequence[CurveRow], end: CurveEnd) -> str:
+    """Why a curve does not end as it says, in words; empty where its rows show that end, or cannot show it.
+
+    curve : at least the structure as built
+    """
+    for row in range(1, len(curve)):
+        if (earlier := end_shown(case, curve[:row])) and not _within_rounding(case, curve[row - 1]):
+            return f"the pushover goes on after step {curve[row - 1].step}, where {earlier}"
+    shown = end_shown(case, curve)
+    if shown is not end and shown is not CurveEnd.NONE:
+        return f"the pushover ends because {shown}, the file says: {end or 'nothing'}"
+    if end is CurveEnd.NONE or (end in SHOWN and shown is not end):
+        return f"the rows of the pushover do not show that {end or 'it ends'}: rows are missing"
+    greatest = max(row.load_factor for row in curve)
+    if end is CurveEnd.NOTHING_LEFT and len(curve) > 1 and curve[-2].load_factor > SUDDEN * greatest:
+        return (
+            f"the load factor falls to nothing at once behind step {curve[-2].step}: rows are missing, or one too many"
+        )
+    return ""
+
+
+def _within_rounding(case: LoadCase, row: CurveRow) -> bool:
+    """Whether a row is so near an end that another machine may go on from there."""
+    asked = case.pushover
+    short = asked is not None and row.displacement < asked.until
+    near = asked is not None and row.displacement >= asked.until * (1.0 - 2.0 * ROUNDING)
+    return (near and short) or row.load_factor == 0.0
