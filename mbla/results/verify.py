@@ -58,7 +58,7 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     """
     results = read_results_hdf5(path)
     deck, disagreements = rebuilt(results)
-    again = _recomputed(results, deck)
+    again = recomputed(results, deck)
     unconfirmed: tuple[str, ...] = ()
     for case in again.cases:
         name, found = case.load_case.name, Found(_unproved(results.model, case))
@@ -85,7 +85,7 @@ def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) 
     return Found([*known.differences, *found.differences, *remarks], [*known.unconfirmed, *found.unconfirmed])
 
 
-def _recomputed(results: Results, deck: Deck | None) -> Results:
+def recomputed(results: Results, deck: Deck | None) -> Results:
     """The results with all that follows from deck, forces and mechanisms in place of what the file states."""
     cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
     found = {case.load_case.name: case.load_case for case in cases}
