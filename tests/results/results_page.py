@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mbla.deck.units import Units
+from mbla.results.hdf5.layout import ATTRIBUTES
 from mbla.results.record.keys import RECORD, Key
 from mbla.results.record.quantity import NOT_VERIFIED, STORED, unit_text
 from mbla.results.tables.tables import tables_page
@@ -22,6 +23,12 @@ PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 
 OWN_WORDS = "parameters of the design, in the order of the sweep file, with their angles where they are directions"
 RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
+
+
+def attributes_table() -> str:
+    """The attributes of the root group as a Markdown table."""
+    rows = [f"| `{name}` | {words} |" for name, words in ATTRIBUTES.items()]
+    return "\n".join(["| attribute | content |", "|---|---|", *rows]) + "\n"
 
 
 def layout_table() -> str:
@@ -64,6 +71,7 @@ def sweep_columns_page() -> str:
 def generated() -> dict[str, str]:
     """What is generated of each section, by its title."""
     return {
+        "Root attributes": attributes_table(),
         "Files for ParaView": arrays_table(),
         "Datasets": layout_table(),
         "Exported tables": tables_page(),

@@ -30,7 +30,7 @@ ATTRIBUTES = {
     "mbla_version": "version of the program that ran the analysis",
     "created": "date of the run, UTC, ISO 8601; the only thing that differs between two runs of one deck and its times",
     "deck_sha256": "hash of the effective deck: sources and overrides",
-    "complete": "1; 0 of a run that was stopped: load cases that were done before",
+    "complete": "1; 0 in a partial file",
 }
 """attributes of the root group"""
 
