@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,9 @@ from mbla import cli
 from mbla.errors import DeckError, FileError, SolverError, UsageError
 from mbla.process.signals import Terminated
 from mbla.results import partial
+from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import CaseResult
+from mbla.results.verify import verify_file
 from mbla.solution.solution import Status
 from tests.line import BLOCK, WALL
 
@@ -97,6 +100,25 @@ def test_load_cases_that_were_done_are_left_and_told(
         cli.main([command, "block.out/block.partial.h5"])
         words = " ".join(capsys.readouterr().out.split())
         assert "load cases done: 1 of 2; not done: pull" in words
+
+
+def test_what_a_partial_file_says_of_its_run_is_held_against_it(deck: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A case that was done and is gone, told as not done or not at all, and another cause of the end."""
+    stop_at("pull", KeyboardInterrupt(), monkeypatch)
+    assert cli.main(["run", str(deck), "-q"]) == 130
+    path = Path("block.out/block.partial.h5")
+    sound = read_results_hdf5(path)
+
+    def said_of(**changes: Any) -> tuple[int, str]:
+        path.write_bytes(write_results_hdf5(replace(sound, **changes)))
+        again, disagreements = verify_file(path)
+        return again.exit_code, "\n".join((*disagreements, *again.unconfirmed))
+
+    assert said_of() == (4, "")
+    assert "does not say what stopped the run" in said_of(cases=(), not_done=("push", "pull"))[1]
+    assert "its last remark does not say" in said_of(not_done=())[1]
+    assert "are no others of the deck" in said_of(not_done=("push", "pull"))[1]
+    assert "the deck has the load case push" in said_of(cases=())[1]
 
 
 def test_an_earlier_result_stays_and_a_whole_one_takes_the_place_of_what_was_left(

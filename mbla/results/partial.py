@@ -30,6 +30,8 @@ SHARE = 20.0
 """time that passes before partial results are written again, over that which it took to write them"""
 FIRST, LAST = 0.5, 5.0
 """seconds of solving before they are written first, and where no load case is left but for the files of all"""
+STOPPED = "the run was stopped"
+"""how the remark on a stopped run begins"""
 NAMED = 5
 """load cases that a remark names"""
 KILLED = (137, "killed, or still at work")
@@ -162,14 +164,18 @@ def partial_results(results: Results, status: int, words: str) -> Results:
 
     status, words : exit status of the run, and what ended it
     """
+    warning = Notice("warning", "run-stopped", f"{STOPPED} ({words}){what_was_done(results)}")
+    return replace(results, complete=False, exit_code=status, notices=(*results.notices, warning))
+
+
+def what_was_done(results: Results) -> str:
+    """Of a stopped run, the end of the remark on it: how many load cases were done, and which were not."""
     left = list(results.not_done)
     if left and left[0] in {case.load_case.name for case in results.cases}:
         left[0] += f" (its pushover came to step {len(results.case(left[0]).solution.curve) - 1})"
     more = f" and {len(left) - NAMED} more" if len(left) > NAMED else ""
     lacking = f"not done: {', '.join(left[:NAMED])}{more}" if left else "not written: its other files"
-    text = f"the run was stopped ({words}); load cases done: {_count(results)}; {lacking}"
-    warning = Notice("warning", "run-stopped", text)
-    return replace(results, complete=False, exit_code=status, notices=(*results.notices, warning))
+    return f"; load cases done: {_count(results)}; {lacking}"
 
 
 def _count(results: Results) -> str:

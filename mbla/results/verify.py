@@ -35,7 +35,7 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
-from mbla.results.verification.asked import Found, cases_left_out, held_against_deck
+from mbla.results.verification.asked import Found, cases_left_out, differences_of_stop, held_against_deck
 from mbla.results.verification.remarks import differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
@@ -66,6 +66,7 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
             found = _held_against(deck, results, case, found)
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
         unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
+    disagreements += differences_of_stop(results)
     if deck is not None:
         unconfirmed += cases_left_out(results, [case.name for case in results.model.load_cases])
     disagreements += differences_of_file(path, write_results_hdf5(again))

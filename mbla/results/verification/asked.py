@@ -51,6 +51,24 @@ def cases_left_out(results: Results, load_cases: Sequence[str]) -> tuple[str, ..
     return (f"the deck has the load case {', '.join(missing)}, the file has no result of it",) if missing else ()
 
 
+def differences_of_stop(results: Results) -> tuple[str, ...]:
+    """What a partial file says of the run that was stopped and cannot be, in words."""
+    if results.complete:
+        return ()
+    from mbla.results.partial import STOPPED, what_was_done  # late: few files are partial
+
+    found = []
+    notice = results.notices[-1] if results.notices else None
+    tells = notice is not None and (notice.severity, notice.identifier) == ("warning", "run-stopped")
+    said = "" if notice is None or not tells else notice.message
+    if not (said.startswith(f"{STOPPED} (") and said.endswith(f"){what_was_done(results)}")):
+        found.append("the file is partial, and its last remark does not say what stopped the run and what was done")
+    names, done = [case.name for case in results.model.load_cases], {case.load_case.name for case in results.cases}
+    if list(results.not_done) != [name for name in names if name in results.not_done and name not in done]:
+        found.append("load cases that the run is said not to have done are no others of the deck, in its order")
+    return tuple(found)
+
+
 def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Found:
     """A load case against what its deck asks for.
 
