@@ -80,3 +80,9 @@ class Results:
             if case.load_case.name == name:
                 return case
         raise KeyError(name)
+
+    @property
+    def without_result(self) -> tuple[str, ...]:
+        """Names of load cases of the deck that have none."""
+        known = {case.load_case.name for case in self.cases}
+        return tuple(case.name for case in self.model.load_cases if case.name not in known)

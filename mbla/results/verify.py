@@ -35,8 +35,8 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, Results
-from mbla.results.verification.asked import Found, cases_left_out, differences_of_stop, held_against_deck
-from mbla.results.verification.remarks import differences_of_remarks, remarks_found_again
+from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck
+from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
@@ -67,8 +67,8 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
         unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
     disagreements += differences_of_stop(results)
-    if deck is not None:
-        unconfirmed += cases_left_out(results, [case.name for case in results.model.load_cases])
+    left_out = cases_left_out(results)
+    unconfirmed += left_out if results.complete else ()  # a partial file says that it is one
     disagreements += differences_of_file(path, write_results_hdf5(again))
     code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
     proved = results.complete and not unconfirmed and not any(presumes_standing(case) for case in again.cases)
@@ -80,8 +80,10 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
 def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:
     """What is found of a recomputed case beside what is known: its parts, its remarks, and what its state rests on."""
     model = results.model.of_case(case.load_case)
-    found = held_against_deck(deck, model, results.contacts, case)
+    done = not at_work(results, case)
+    found = held_against_deck(deck, model, results.contacts, case, done=done)
     again = remarks_found_again(deck, model, results.contacts, case)
+    again = again if done else tuple(remark for remark in again if remark.identifier not in MADE_LAST)
     remarks = differences_of_remarks(case, again)
     return Found([*known.differences, *found.differences, *remarks], [*known.unconfirmed, *found.unconfirmed])
 
@@ -116,7 +118,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         own = proved(model, contacts, load_case, safety)
         solution = replace(solution, geometric_safety=replace(safety, verified=own))
     checks = verify(model, contacts, load_case, solution)
-    if deck is not None and deck.analysis.sensitivity is not False:
+    if deck is not None and deck.analysis.sensitivity is not False and not at_work(results, case):
         solution = _with_slopes(results, model, load_case, solution, checks)
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 

@@ -162,6 +162,8 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     unproved = (*unproved_words(results.cases), *remarks_of_run(results.cases))
     lines += [line for text in unproved for line in sentence(text)]
     lines += [line for text in results.unconfirmed for line in sentence(f"not confirmed: {text}")]
+    if not results.complete and results.without_result:
+        lines += sentence(f"load cases of the deck without a result: {', '.join(results.without_result)}")
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
     of_file = [notice.message for notice in results.notices if notice.identifier == "run-stopped"]
     lines += [line for text in of_file for line in sentence(text)]

@@ -6,7 +6,7 @@ reason that the run alone can state is not confirmed, whatever the file says of 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -41,14 +41,10 @@ class Found:
     unconfirmed: list[str] = field(default_factory=list)
 
 
-def cases_left_out(results: Results, load_cases: Sequence[str]) -> tuple[str, ...]:
-    """Load cases of the deck of which the file has no result and does not say that a stopped run left them, in words.
-
-    load_cases : their names, in the order of the deck
-    """
-    known = {case.load_case.name for case in results.cases} | set(results.not_done)
-    missing = [name for name in load_cases if name not in known]
-    return (f"the deck has the load case {', '.join(missing)}, the file has no result of it",) if missing else ()
+def cases_left_out(results: Results) -> tuple[str, ...]:
+    """Load cases of the deck of which a file has no result, in words."""
+    missing = ", ".join(results.without_result)
+    return (f"the deck has load cases of which the file has no result: {missing}",) if missing else ()
 
 
 def differences_of_stop(results: Results) -> tuple[str, ...]:
@@ -63,20 +59,31 @@ def differences_of_stop(results: Results) -> tuple[str, ...]:
     said = "" if notice is None or not tells else notice.message
     if not (said.startswith(f"{STOPPED} (") and said.endswith(f"){what_was_done(results)}")):
         found.append("the file is partial, and its last remark does not say what stopped the run and what was done")
-    names, done = [case.name for case in results.model.load_cases], {case.load_case.name for case in results.cases}
+    names = [case.name for case in results.model.load_cases]
+    done = {case.load_case.name for case in results.cases if not at_work(results, case)}
     if list(results.not_done) != [name for name in names if name in results.not_done and name not in done]:
         found.append("load cases that the run is said not to have done are no others of the deck, in its order")
     return tuple(found)
 
 
-def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Found:
+def at_work(results: Results, case: CaseResult) -> bool:
+    """Whether a run was stopped, or is still at work, while it pushed on a load case: the first that is not done."""
+    return case.load_case.name in results.not_done[:1] and case.load_case.pushover is not None
+
+
+def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, *, done: bool) -> Found:
     """A load case against what its deck asks for.
 
     model : as it may move under the load case
     case  : with checks, status and curve recomputed
+    done  : False where the run was stopped while it pushed on the load case, so that the rest is missing
     """
-    found = Found()
+    found, end = Found(), case.solution.curve_end
     found.differences += [f"the file has {what}, which the deck does not ask for" for what in _not_asked(deck, case)]
+    if (end is CurveEnd.STOPPED) is (done or case.solution.pushed is None):
+        found.differences.append(f"the load case is {'' if done else 'not '}done, and its pushover ends: {end or '-'}")
+    if not done:
+        return found
     _pushover(found, deck, model, case)
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)

@@ -51,6 +51,8 @@ POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
 
 LIVESLEY = frozenset({"livesley-confirms", "livesley-overstates"})
 """remarks of which one is the answer of ``flow_rule: livesley``"""
+MADE_LAST = frozenset({"sensitivity-not-done", "geometric-safety-not-done"})
+"""remarks on what is done after a pushover, which a run that is stopped in it has not made"""
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)")
 """numbers in words"""
 
