@@ -72,9 +72,11 @@ FOUND_AGAIN = frozenset(
         "assessment-not-done",
         "brittle-ties",
         "control-point-at-rest",
+        "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
+        "pushover-steps-shorter",
         "sensitivity-not-done",
         "tilt-between-not-proved",
     }
