@@ -70,8 +70,11 @@ unless it is asked for: on a vault of 1,032 it took 90 s, its load factor 2."""
 NO_PEAK = Message(
     "peak-not-examined",
     "the load factor lies far below the associative one, and whether the structure carries more on the way was not "
-    "examined",
+    "examined: {}",
 )
+TOO_ROUGH = "forces and velocities violate the joint law, residual {:.2g}, and it is followed up to 1e-4"
+TOO_MANY = "of {} contact points, more than {}, the load path is followed only where the deck itself says peak: true"
+NOT_ASKED = "peak is false, by the deck or its accuracy"
 NO_RANGE = Message(
     "range-not-computed",
     "the admissible load factors for this mechanism are not computed: it violates the joint law, residual {:.2g}; "
@@ -291,8 +294,10 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
         return result
     rough = state.residual > RANGE_RESIDUAL
     unasked = result.program.n_points > FEW_POINTS and not settings.analysis.peak
+    points = result.program.n_points
+    why = TOO_ROUGH.format(state.residual) if rough else TOO_MANY.format(points, FEW_POINTS) if unasked else NOT_ASKED
     if (rough or unasked) and above is not None and state.load_factor > 0.0:
-        return result.with_remark(NO_PEAK)
+        return result.with_remark(NO_PEAK.format(why))
     from mbla.solution.nonassociative.first_fall import judged_by_path  # late: the load path is followed rarely
 
     assert result.sequence is not None  # its state is that of the flow rule
@@ -302,7 +307,7 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
     judged = replace(result, sequence=verdict.sequence, peak=verdict.peak)
     judged = judged.with_remark(verdict.remark, verdict.programs)
     low = judged.status in WITH_VALUE and judged.state is not None and judged.state.load_factor <= SUSPECT * most
-    return judged.with_remark(NO_PEAK) if low and not further and verdict.peak is None else judged
+    return judged.with_remark(NO_PEAK.format(why)) if low and not further and verdict.peak is None else judged
 
 
 def _falls_before(result: PartResult, state: LawState, most: float, settings: SolverSettings) -> bool:

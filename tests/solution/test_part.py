@@ -217,3 +217,12 @@ def test_the_lower_of_two_results_counts() -> None:
     assert _lower_of(found_at(0.4, 0.2), found_at(0.3), 0.0).range.lower.load_factor == 0.2  # type: ignore[union-attr]
     for plain, searched in ((found_at(0.4, 0.3), found_at(0.3)), (found_at(0.4), found_at(0.35, 0.2))):
         assert _lower_of(plain, searched, 0.0) is searched
+
+
+def test_why_a_peak_was_not_examined_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the number of contact points, though the accuracy asks for peaks; with peak: true in the deck it is."""
+    monkeypatch.setattr(part, "FEW_POINTS", 3)
+    monkeypatch.setattr(part, "SUSPECT", 2.0)
+    text = (BLOCK, "analysis.flow_rule=non_associative", "parameters.h=0.5")
+    assert "more than 3, the load path is followed only" in str(result_of(*text).remarks)
+    assert "not examined" not in str(result_of(*text, "analysis.peak=true").remarks)

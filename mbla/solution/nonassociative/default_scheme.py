@@ -104,13 +104,21 @@ def looks_lower(program: Program, settings: SolverSettings) -> bool:
 
 
 def state_near(
-    program: Program, start: LawState, most: float, settings: SolverSettings, log: Log, records: list[ProgramRecord]
+    program: Program,
+    start: LawState,
+    most: float,
+    settings: SolverSettings,
+    log: Log,
+    records: list[ProgramRecord],
+    *,
+    neutral: bool = False,
 ) -> LawState | None:
     """The state that steps of the law from another one lead to, or pairs of programs from its normal forces.
 
-    most : load factor up to which it is one
+    most    : load factor up to which it is one
+    neutral : whether it may be one that needs no live load: the structure falls without
     """
-    scheme = _Scheme(program, np.zeros(program.n_points), settings, log, records)
+    scheme = _Scheme(program, np.zeros(program.n_points), settings, log, records, 0.0 if neutral else np.inf)
     scheme.exact_steps(start)
     if scheme.least_residual > scheme.wanted:
         scheme.approach(start.forces[:, 0])

@@ -39,6 +39,10 @@ NEAR = 1e-2
 """Share of a load factor by which a state may lie above the last one that stands: how joints share forces between them,
 which follows from their stiffness, counts as much."""
 
+NEUTRAL = 1e-5
+"""Live over dead load up to which the end of the path is none: in neutral equilibrium it falls under any live load, and
+is seen to from some millionths on, the share of its load that may be on its spring."""
+
 
 @dataclass(frozen=True)
 class PathVerdict:
@@ -129,7 +133,8 @@ def _from_the_end(path: StandingPath, sequence: SequenceResult, margin: float, l
     records = list(sequence.programs)
     above, ends = f"{found.load_factor * live:.6g}", f"{end.load_factor * live:.6g}"
     most = min((1.0 + NEAR) * path.last.load_factor + margin, found.load_factor)
-    there = state_near(program, _peak(path), most, path.settings, log, records)
+    neutral = end.load_factor <= NEUTRAL * path.unit
+    there = state_near(program, _peak(path), most, path.settings, log, records, neutral=neutral)
     if there is None or there.residual > SOLVED_RESIDUAL:
         if found.load_factor - path.last.load_factor <= NEAR * found.load_factor:
             return replace(sequence, programs=tuple(records))
@@ -150,7 +155,7 @@ def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: 
         why = path.end.weakening.reason or "it falls there"
         remark = NOT_SEEN.format(height, why)
         return PathVerdict(_at_most_approximate(sequence, remark), remark=remark)
-    if last <= state.load_factor + margin:
+    if last <= max(state.load_factor + margin, NEUTRAL * path.unit):
         return PathVerdict(sequence)
     if state.load_factor <= 0.0:
         reason = NO_LOAD.format(rest, height)

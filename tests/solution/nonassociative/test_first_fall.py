@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from mbla.solution.solution import Status
 from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.further_claims import peak_check
-from tests.line import BLOCK, HEAD, Line, line_of, load_factor
+from tests.line import BLOCK, HEAD, Line, line_of, line_of_file, load_factor, solution_of
 from tests.solution.nonassociative.structures import FERRIS_3, SETTINGS, solved
 from tests.solution.planar import planar_program
 
@@ -170,7 +171,7 @@ def test_a_state_above_the_end_of_the_path_gives_way_to_the_one_there() -> None:
 def test_without_a_state_at_the_end_of_the_path_there_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(BLOCK, "parameters.h=0.5").program
     state = solved(program)
-    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments: None)
+    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments, **more: None)
     found = judged(program, at(state, 1.3 * state.load_factor))
     assert found.sequence.status is Status.NOT_VERIFIED
     assert found.peak is not None
@@ -230,6 +231,16 @@ def test_what_the_springs_do_not_decide_is_not_solved(
     assert found.sequence.reason == found.remark
 
 
+def test_a_block_in_neutral_equilibrium_falls_under_no_live_load() -> None:
+    """Its mechanism needs none, as one of torsion about a contact point does, but the structure is seen to fall here."""
+    line = line_of_file(Path("decks/regressions/neutral_overhang.yaml"))
+    solution = solution_of(line)
+    assert solution.status is Status.SOLVED
+    assert solution.peak is None
+    assert solution.mechanics is not None
+    assert 0.0 <= solution.mechanics.load_factor < 1e-6
+
+
 def test_the_motion_of_a_peak_is_the_fall(plank: tuple[Line, LawState, PathVerdict]) -> None:
     """The plank goes out, the wall that clamps it hardly moves."""
     line, _, found = plank
@@ -274,7 +285,7 @@ def test_next_to_the_end_of_the_path_a_state_is_approximate(monkeypatch: pytest.
     """Half a hundredth above it, with none found at the end itself: told, not taken away, and not called solved."""
     program = line_of(BLOCK, "parameters.h=0.5").program
     state = solved(program)
-    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments: None)
+    monkeypatch.setattr("mbla.solution.nonassociative.first_fall.state_near", lambda *arguments, **more: None)
     found = judged(program, at(state, 1.005 * state.load_factor))
     assert found.sequence.status is Status.APPROXIMATE
     assert "the load path was followed to" in str(found.remark)
