@@ -232,7 +232,7 @@ def test_what_the_springs_do_not_decide_is_not_solved(
 
 
 def test_a_block_in_neutral_equilibrium_falls_under_no_live_load() -> None:
-    """Its mechanism needs none, as one of torsion about a contact point does, but the structure is seen to fall here."""
+    """Its mechanism needs none, as that of torsion about a contact point, but the structure is seen to fall here."""
     line = line_of_file(Path("decks/regressions/neutral_overhang.yaml"))
     solution = solution_of(line)
     assert solution.status is Status.SOLVED
