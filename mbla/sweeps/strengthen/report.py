@@ -55,7 +55,7 @@ def record_of(answer: Strengthened) -> dict[str, Any]:
         "mbla": __version__,
         "deck": answer.deck.path.name,
         "status": found.status.value,
-        "reason": found.reason or None,
+        "reason": found.reason or answer.shortfall or None,
         "program_cost": as_json(found.cost),
         "least_cost": as_json(found.least_cost),
         "cost": as_json(answer.cost),
@@ -132,7 +132,8 @@ def lines_of(answer: Strengthened) -> list[str]:
         says = "any multiple of its live loads is carried" if factor == math.inf else says
         lines += sentence(f"{name}: {says} with these ties, required {number(required)}.")
     if not answer.suffices:
-        lines += sentence("That is NOT enough: capacities were raised as far as is tried.")
+        why = answer.shortfall or "capacities were raised as far as is tried"
+        lines += sentence(full_sentence(f"That is NOT enough: {why}"))
     elif not answer.verified:
         lines += sentence("Not all of these are verified.")
     return [*lines, *(f"  {path}" for path in answer.files)]

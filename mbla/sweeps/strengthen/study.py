@@ -39,6 +39,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.strengthening import Cheapest, Strengthening, cheapest
 from mbla.sweeps.strengthen.catalogue import rounded_up
+from mbla.sweeps.strengthen.ceiling import GREATEST, RAISED, greatest_capacities, shortfall
 from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, with_fewer
 
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
@@ -63,6 +64,7 @@ class Strengthened:
     verified   : whether these are verified
     analyses   : of the strengthened structure
     files      : written
+    shortfall  : why no capacities suffice by the deck's flow rule; empty where they do, or that is not known
     """
 
     deck: Deck
@@ -77,6 +79,7 @@ class Strengthened:
     verified: bool
     analyses: int
     files: tuple[Path, ...]
+    shortfall: str = ""
 
     @property
     def suffices(self) -> bool:
@@ -152,7 +155,7 @@ def _analysed(
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     assert deck.content.strengthen is not None  # who calls knows
     required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Try]()
-    asked, raised, wanted = required, 1.0, with_fewer(question, first, catalogue)
+    asked, raised, wanted, short = required, 1.0, with_fewer(question, first, catalogue), ""
     for _ in range(MOST_REPEATS + 1):
         capacities = rounded_up(raised * wanted, catalogue, question.most)
         if not tries or not np.array_equal(capacities, tries[-1].capacities):
@@ -160,7 +163,11 @@ def _analysed(
             factors = {name: _factor(results, name) for name in required}
             tries.append(_Try(asked, capacities, float(capacities @ candidates.costs), results, factors))
         more = _ask_for(required, tries)
-        if more is None or (raised > 1.0 and tries[-1].carries(required)):
+        if len(tries) == 1 and more is not None and not tries[0].carries(required):
+            results = _analysis(deck, movable, model, candidates.ties, greatest_capacities(question))
+            limits = {name: _factor(results, name) for name in required}
+            short = shortfall(results, required, limits, candidates.ties.names, GREATEST)
+        if short or more is None or (raised > 1.0 and tries[-1].carries(required)):
             break
         raising = question.asking(more)
         after = cheapest(raising) if raised == 1.0 else None
@@ -169,6 +176,9 @@ def _analysed(
         else:
             raised *= RAISE
     best = min((each for each in tries if each.carries(required)), key=lambda each: each.cost, default=tries[-1])
+    if not short and not best.carries(required):
+        used = [candidates.ties.names[row] for row in np.flatnonzero(best.capacities)]
+        short = shortfall(best.results, required, best.factors, used, RAISED)
     answer = Strengthened(
         deck,
         model,
@@ -182,6 +192,7 @@ def _analysed(
         all(case.checks.verified for case in best.results.cases),
         len(tries),
         (),
+        short,
     )
     return replace(answer, files=_files(answer, movable, best.results, options))
 

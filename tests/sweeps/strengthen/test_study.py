@@ -12,8 +12,12 @@ import pytest
 from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.movable_deck import movable_deck
+from mbla.results.provenance import deck_record
 from mbla.results.verify import verify_file
 from mbla.sweeps.strengthen import study
+from mbla.sweeps.strengthen.ceiling import GREATEST, greatest_capacities, shortfall
+from mbla.sweeps.strengthen.question import question_of
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
 
@@ -237,3 +241,36 @@ def test_candidates_that_cannot_be_laid_out_are_faults_of_the_deck(
     path.write_text(DECK.replace(ROD, candidate), encoding="utf-8")
     assert main(["strengthen", str(path)]) == 3
     assert f"[{identifier}]" in capsys.readouterr().err
+
+
+def test_why_no_capacities_suffice_names_what_moves_and_ties_that_bear_less_than_they_could(path: Path) -> None:
+    """Two blocks, a rod at the lower one: the upper one slides at the friction, whatever the rod bears."""
+    path.write_text(
+        """\
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.2}}
+blocks:
+  - box: {group: lower, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+  - box: {group: upper, material: stone, min: [0, 0, 1], max: [1, 1, 1.5]}
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+strengthen: {required: {push: 0.5}, candidates: [
+  {name: rod, through: [[0, 0.5, 0.5], [-2, 0.5, 0.5]], on: [lower, ground]}]}
+"""
+    )
+    deck = read_deck(path)
+    model, candidates, question = question_of(deck, lambda record: None)
+    capacities = greatest_capacities(question)
+    weight = 1.5 * 2000 * 9.81
+    assert capacities == pytest.approx([10 * weight * (1 + 0.5)])
+    movable = movable_deck(deck, deck_record(deck).files, "tied")
+    results = study._analysis(deck, movable, model, candidates.ties, capacities)
+    factors = {"push": results.cases[0].checks.static_bound}
+    says = shortfall(results, {"push": 0.5}, {"push": 0.2}, candidates.ties.names, GREATEST)
+    assert factors["push"] == pytest.approx(0.2, rel=1e-3)
+    assert "push carries 0.2, required 0.5" in says
+    assert "upper" in says.partition("It fails so: ")[2]
+    assert "Below their capacity are rod[0] (" in says
+    assert shortfall(results, {"push": 0.2}, factors, candidates.ties.names, GREATEST) == ""
