@@ -241,17 +241,19 @@ def corner_weights(values: FloatArray) -> FloatArray:
     """Mean over a triangle of the barycentric coordinates where a linear function is positive, (..., 3).
 
     Where only corner i is positive the part is the triangle that ends at shares t_j = v_i/(v_i − v_j) of its edges,
-    with the area Π t_j and the coordinates t_j/3 of the other corners in its centroid; where only i is negative it is
-    what that part leaves.
+    with the area Π t_j and the coordinates t_j/3 of the other corners in its centroid. Where only k is not it is a
+    quadrilateral, of two triangles, with the shares t_i = v_i/(v_i − v_k). No difference of near numbers is taken, so
+    that parts of any size have all their digits.
     """
-    alone = np.where((values > 0).sum(axis=-1, keepdims=True) == 1, values > 0, values <= 0)
-    single = alone & (alone.sum(axis=-1, keepdims=True) == 1)
+    positive = values > 0
+    count = positive.sum(axis=-1, keepdims=True)
+    single = np.where(count == 1, positive, (count == 2) & ~positive)
     apex = np.where(single, values, 0.0).sum(axis=-1, keepdims=True)
-    span = np.where(single, 1.0, apex - values)
-    t = np.where(single, 1.0, np.divide(apex, span, out=np.ones_like(values), where=span != 0.0))
-    size = t.prod(axis=-1, keepdims=True)
-    others = np.where(single, 0.0, t / 3.0)
-    part = size * np.where(single, 1.0 - others.sum(axis=-1, keepdims=True), others)
-    has_single = single.any(axis=-1, keepdims=True)
-    inner = np.where((values > 0).all(axis=-1, keepdims=True), 1.0 / 3.0, 0.0)
-    return np.asarray(np.where(has_single, np.where(apex > 0, part, 1.0 / 3.0 - part), inner * np.ones_like(values)))
+    over = np.where(count == 1, apex, values)
+    span = np.where(count == 1, apex - values, values - apex)
+    t = np.divide(over, span, out=np.zeros_like(values), where=~single & (span != 0.0))
+    total, product = t.sum(axis=-1, keepdims=True), np.where(single, 1.0, t).prod(axis=-1, keepdims=True)
+    triangle = product * np.where(single, 3.0 - total, t)
+    others = total - t + t * (2.0 - t) - 2.0 * product + t * product
+    quadrilateral = np.where(single, total**2 - product - product * total, others)
+    return np.asarray(np.select([count == 1, count == 2, count == 3], [triangle, quadrilateral, 1.0]) / 3.0)

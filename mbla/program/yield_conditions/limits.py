@@ -32,6 +32,12 @@ class YieldLimits:
             self.friction, self.dilatancy, self.cohesion * factor, self.tension * factor, self.compression * factor
         )
 
+    def at_most(self, most: float) -> YieldLimits:
+        """The same with no finite strength above a force that nothing comes near."""
+        compression = np.where(np.isfinite(self.compression), np.minimum(self.compression, most), np.inf)
+        cohesion, tension = np.minimum(self.cohesion, most), np.minimum(self.tension, most)
+        return YieldLimits(self.friction, self.dilatancy, cohesion, tension, compression)
+
     def dilatancy_by(self, flow_rule: str) -> FloatArray:
         """Tangent of the dilatancy angle that a flow rule asks of every contact point, (n_points,)."""
         return {

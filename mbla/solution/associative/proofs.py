@@ -6,7 +6,8 @@
   joints dissipate.
 
 Rounding leaves velocities incompatible by δ = μ s − v_N here and there. By virtual work each δ is worth at most N δ: it
-is charged with a normal force that no solution comes near. Likewise forces are left out of balance by R and beyond the
+is charged with a normal force that no solution comes near, and so is what gives way by as little where a strength is
+larger than any force of the solution. Likewise forces are left out of balance by R and beyond the
 yield conditions by e: in the mechanism of collapse these are worth |R·u| + e |v|, and the static bound is charged with
 that. Where the load factor is as small as rounding, the static bound is a bound only with that charge.
 """
@@ -19,6 +20,7 @@ from mbla.errors import Message
 from mbla.solution.associative.bounds import LOCKED_IN
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case, Motion
+from mbla.solution.verification.statics import largest_on_interface
 
 LARGE, LARGE_GAP = 30_000, 1e-5
 """Rows of equilibrium, 5,000 blocks in space, beyond which a mechanism that proves a load factor so close to the static
@@ -44,9 +46,10 @@ def _best_motion(case: Case, associative: Mechanics, static: float) -> tuple[flo
     static : of a large model's mechanism that is already this near no repair is tried
     """
     largest = 2.0 * float(np.abs(associative.contact_forces[:, 0]).max(initial=0.0))
+    most = 2.0 * largest_on_interface(case.contacts, associative.contact_forces)
     best: tuple[float, Motion | None] = np.nan, None
     for motion in case.repaired_motions(case.motion_of(associative)):
-        bound = _proved_kinematic(case, motion, largest)
+        bound = _proved_kinematic(case, motion, largest, most)
         if np.isfinite(bound) and not bound >= best[0]:
             best = bound, motion
         if len(case.program.dead_load) > LARGE and abs(bound - static) <= LARGE_GAP * abs(bound):
@@ -54,12 +57,15 @@ def _best_motion(case: Case, associative: Mechanics, static: float) -> tuple[flo
     return best
 
 
-def _proved_kinematic(case: Case, motion: Motion, largest: float) -> float:
-    """Load factor at or above the collapse value; ``largest`` is the normal force with which rounding is charged."""
+def _proved_kinematic(case: Case, motion: Motion, largest: float, most: float) -> float:
+    """Load factor at or above the collapse value.
+
+    largest : normal force with which rounding is charged; most : force that strengths count as at most
+    """
     dead_power, live_power = case.powers(motion[0])
     if not live_power > 0.0:
         return np.nan
-    dissipated, lack = case.dissipation(motion)
+    dissipated, lack = case.dissipation(motion, most)
     return (dissipated + largest * lack - dead_power) / live_power
 
 

@@ -18,6 +18,7 @@ from mbla.program import Program, assemble
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
+from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import (
     LoadScale,
@@ -133,7 +134,9 @@ class Case:
         """Forces near the given ones, (n_points, 3) N, and the load factor that they may prove; None without."""
         scaling = self.program.scaling
         forces = scaling.scaled_forces(mechanics.contact_forces)
-        found = repaired_forces(self.program, forces, mechanics.load_factor / scaling.live)
+        easier = within_reach(self.program)
+        program = easier if easier is not None and stays_within(easier, forces) else self.program
+        found = repaired_forces(program, forces, mechanics.load_factor / scaling.live)
         return None if found is None else (scaling.forces(found[0]), scaling.load_factor(found[1]))
 
     def repaired_motions(self, motion: Motion) -> Iterator[Motion]:
@@ -162,9 +165,13 @@ class Case:
         excess = float((yield_violation(forces, self.limits) * speed).sum())
         return (unbalanced + excess) / self.powers(mechanism)[1]
 
-    def dissipation(self, motion: Motion) -> tuple[float, float]:
-        """Power that joints dissipate at most by associative flow, and Σ δ over the points that cannot crush."""
-        limits, (mechanism, motions) = self.limits, motion
+    def dissipation(self, motion: Motion, most: float = np.inf) -> tuple[float, float]:
+        """Power that joints dissipate at most by associative flow, and Σ δ over the points that cannot crush.
+
+        most : force that no solution comes near: strengths beyond count as that, as those without limit do in what
+               rounding of motions is charged with
+        """
+        limits, (mechanism, motions) = self.limits.at_most(most), motion
         v = self.velocities(mechanism) - self.interface_velocities(motions)[0]
         sliding = np.hypot(v[:, 1], v[:, 2])
         surplus = v[:, 0] - limits.friction * sliding

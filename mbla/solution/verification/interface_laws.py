@@ -19,8 +19,9 @@ between 0 and f_c if, for every direction θ,
 
     m·θ ≤ first moment along θ of full stress over the part of area N'/f_c that lies farthest along θ
 
-The direction in which that is closest is found from a coarse round of them by halving. A block of full stress around
-the force point, the copy of the outline shrunk by s, proves most interfaces safe beforehand: N' ≤ F (1 − s)².
+which is N' times its centroid. The direction in which that is closest is found from a coarse round of them by halving.
+A block of full stress around the force point, the copy of the outline shrunk by s, proves most interfaces safe
+beforehand: N' ≤ F (1 − s)².
 """
 
 from __future__ import annotations
@@ -193,18 +194,26 @@ BISECTIONS = 48
 """Of an interval in which the line that ends full stress lies, or a direction."""
 
 
-def crushing_power(laws: InterfaceLaws, motions: FloatArray) -> FloatArray:
+def crushing_power(laws: InterfaceLaws, motions: FloatArray, most: float = np.inf) -> FloatArray:
     """What crushing motions of interfaces dissipate at most, (n,); inf where one that cannot crush closes.
 
     motions : (n, 6) dual to the resultants
+    most    : normal force that no solution comes near, with which an interface closes at most where it closes most
     """
     shapes = laws.shapes
     closing = -motions[shapes.interface_of_corner, 0] - tilt(shapes, motions)
     fan = Fan.of(shapes)
     block = np.bincount(fan.interface, fan.share * mean_positive(closing[fan.corners]), len(motions))
-    dissipated = np.where(laws.crushable, laws.strength, 0.0) * block + laws.tension * motions[:, 0]
+    by_strength = np.where(laws.crushable, laws.strength, 0.0) * block
+    if np.isfinite(most):
+        by_strength = np.minimum(by_strength, (most + laws.tension) * np.maximum(largest(shapes, closing), 0.0))
+    dissipated = by_strength + laws.tension * motions[:, 0]
     impossible = np.where(np.any(motions != 0, axis=1), np.inf, 0.0)
     return np.asarray(np.where(laws.crushable, dissipated, impossible))
+
+
+NOT_PRESSED = 1e-14
+"""Normal force, over moment by radius, in place of none and of tension, which no moment is carried with."""
 
 
 def crushing_excess(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
@@ -220,16 +229,21 @@ def crushing_excess(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
     found = np.where(laws.crushable, of_copy, -np.inf)
     rows = np.flatnonzero(found > 0.0)
     if len(rows):
-        found[rows] = _exact_excess(shapes, rows, normal[rows], moment[rows], strength[rows])
+        carried = np.linalg.norm(moment[rows], axis=1) / shapes.radii[rows]
+        pressed = np.maximum(normal[rows], np.maximum(NOT_PRESSED * carried, np.finfo(np.float64).tiny))
+        found[rows] = np.maximum(_exact_excess(shapes, rows, pressed, moment[rows], strength[rows]), -normal[rows])
     return found
 
 
 def _exact_excess(
     shapes: InterfaceShapes, rows: IntArray, normal: FloatArray, moment: FloatArray, strength: FloatArray
 ) -> FloatArray:
-    """The same for the given interfaces by the search over directions."""
+    """The same for the given interfaces, all of them pressed, by the search over directions.
+
+    Everything counts over the normal force: over the strength nothing would be left of it where that is far larger.
+    """
     outlines = _Outlines.of(shapes, rows, normal / strength)
-    wanted: FloatArray = np.linalg.solve(outlines.roots, (moment / strength[:, None])[..., None])[..., 0].astype(
+    wanted: FloatArray = np.linalg.solve(outlines.roots, (moment / normal[:, None])[..., None])[..., 0].astype(
         np.float64
     )
     angles = np.arange(DIRECTIONS) * (2.0 * np.pi / DIRECTIONS)
@@ -241,19 +255,19 @@ def _exact_excess(
         rises = _beyond(outlines, wanted, middle)[1] > 0.0
         lower, upper = np.where(rises, middle, lower), np.where(rises, upper, middle)
     most = np.maximum(beyond.max(axis=0), _beyond(outlines, wanted, middle)[0])
-    return np.asarray(np.maximum(strength * most, np.maximum(-normal, normal - strength)))
+    return np.asarray(np.maximum(normal * most, normal - strength))
 
 
 def _beyond(outlines: _Outlines, wanted: FloatArray, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Moment along a direction beyond what full stress gives, over the strength, and its derivative by the angle."""
+    """Moment along a direction beyond what full stress gives, over the normal force; its derivative by the angle."""
     along = np.column_stack([np.cos(angle), np.sin(angle)])
     across = np.column_stack([-along[:, 1], along[:, 0]])
-    first = _moment_of_end(outlines, along)
+    first = _middle_of_end(outlines, along)
     return ((wanted - first) * along).sum(axis=1), ((wanted - first) * across).sum(axis=1)
 
 
-def _moment_of_end(outlines: _Outlines, along: FloatArray) -> FloatArray:
-    """First moment over the area of the part of given area that lies farthest along a direction, (n, 2)."""
+def _middle_of_end(outlines: _Outlines, along: FloatArray) -> FloatArray:
+    """Centroid of the part of given area that lies farthest along a direction, (n, 2)."""
     fan = outlines.fan
     of_corner = (outlines.corners * along[outlines.owner]).sum(axis=1)
     n = len(along)
@@ -266,11 +280,13 @@ def _moment_of_end(outlines: _Outlines, along: FloatArray) -> FloatArray:
         area = np.bincount(fan.interface, fan.share * positive_share(beyond), n)
         more = area > outlines.part
         lower, upper = np.where(more, middle, lower), np.where(more, upper, middle)
-    # ∫ x over the end = d/dθ ∫ max(x·θ − d, 0): from the mean of the positive part and how it changes with the corners
-    beyond = of_corner[fan.corners] - (0.5 * (lower + upper))[fan.interface][:, None]
+    # ∫ x over the end = d/dθ ∫ max(x·θ − d, 0): from the mean of the positive part and how it changes with the corners.
+    # The level below which it begins, of which there is always something beyond
+    beyond = of_corner[fan.corners] - lower[fan.interface][:, None]
     weights = fan.share[:, None] * corner_weights(beyond)
     terms = weights[..., None] * outlines.corners[fan.corners]
-    return np.stack([np.bincount(fan.interface, terms[..., axis].sum(axis=1), n) for axis in (0, 1)], axis=1)
+    area = np.bincount(fan.interface, weights.sum(axis=1), n)
+    return np.stack([np.bincount(fan.interface, terms[..., axis].sum(axis=1), n) / area for axis in (0, 1)], axis=1)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
-from mbla.solution.verification.statics import off_guides
+from mbla.solution.verification.statics import largest_on_interface, off_guides
 
 AT_REST = 1e-9
 """contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""
@@ -62,6 +62,11 @@ class Residuals:
         return float(np.max(parts))  # tension and slip are parts of others
 
 
+NO_FORCE = 2.0
+"""Force over the largest on an interface of a state that it does not come near: strengths beyond count as that in
+powers, where the rounding of motions would count as much as they do."""
+
+
 def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Residuals:
     """Residuals under a flow rule with the given dilatancy (tangent), (n_points,)."""
     limits, scale, contacts, free = case.limits, case.scale, case.contacts, case.model.free
@@ -72,8 +77,9 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     speed = float(np.linalg.norm(moved, axis=1).max(initial=gauge_speed(contacts, u)))
     closing = np.where(np.isinf(limits.compression), np.maximum(by_crushing[:, 0] - moved[:, 0], 0.0), 0.0)
     dead_power, live_power = case.powers(u)
-    strength = limits.friction * x[:, 0] + limits.cohesion
-    flow = flow_power(limits, dilatancy, x, v, sliding, strength)
+    counted = limits.at_most(NO_FORCE * largest_on_interface(contacts, x))
+    strength = counted.friction * x[:, 0] + counted.cohesion
+    flow = flow_power(counted, dilatancy, x, v, sliding, strength)
     frictional = float(np.abs(strength * sliding).sum()) + interfaces.frictional
     balance = case.balance(factor * live_power, dead_power, frictional, u)
     lost = dead_power + factor * live_power - flow.dissipated - interfaces.dissipated

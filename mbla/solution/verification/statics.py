@@ -220,6 +220,14 @@ def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: Yi
     return LoadScale(arms, own, mean, float(np.linalg.norm(live)))
 
 
+def largest_on_interface(contacts: Contacts, contact_forces: FloatArray) -> float:
+    """Largest sum of the sizes of the contact forces on an interface, forces (n_points, 3)."""
+    if not len(contact_forces):
+        return 0.0
+    sizes = np.linalg.norm(contact_forces, axis=1)
+    return float(np.bincount(contacts.interface_of_point, sizes).max())
+
+
 def forces_on_blocks(contacts: Contacts, contact_forces: FloatArray, n_blocks: int) -> FloatArray:
     """Sum of the sizes of the contact forces on each block, (n_blocks,)."""
     size, total = np.linalg.norm(contact_forces, axis=1), np.zeros(n_blocks)

@@ -197,12 +197,12 @@ class InterfaceCase(Case):
         """Nothing: forces, (n_points, 3) N, are repaired to less than rounding."""
         return 0.0
 
-    def dissipation(self, motion: Motion) -> tuple[float, float]:
+    def dissipation(self, motion: Motion, most: float = np.inf) -> tuple[float, float]:
         """Power that joints dissipate at most by associative flow, and Σ of what motions lack in opening."""
         motions = self._motions(motion[1])
-        of_points, short = super().dissipation(motion)
+        of_points, short = super().dissipation(motion, most)
         twisted, lacking = torsion_power(self.laws, motions[:, 0])
-        crushed = crushing_power(self.laws, motions[:, 1])
+        crushed = crushing_power(self.laws, motions[:, 1], most)
         corners = np.diff(self.contacts.point_start)
         lack = short + float((corners * np.maximum(lacking, 0.0)).sum())
         return of_points + float(twisted.sum() + crushed.sum()), lack
