@@ -178,4 +178,4 @@ def test_blocks_that_drop_on_the_way_are_said() -> None:
     solution = pushover_of(WALL_1, "load_cases.push_x.pushover={step: 0.005}")
     assert "pushover-drops" in {remark.identifier for remark in solution.remarks}
     assert solution.curve_end is CurveEnd.FALLS
-    assert max(row.residual for row in solution.curve) < 1e-4
+    assert max(row.residual for row in solution.curve) < 1e-3  # over the greatest load factor, however fast they drop

@@ -38,7 +38,7 @@ from mbla.solution.pushover.followed import (
 )
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
 from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
-from mbla.solution.pushover.steps import LARGEST_MOTION, LARGEST_TURN, Pushover, Step, history_after, work_of
+from mbla.solution.pushover.steps import LARGEST_MOTION, LARGEST_TURN, OFF, Pushover, Step, history_after, work_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -229,7 +229,7 @@ def curve_of(
     model : as it may move under the load case
 
     A step whose forces are not those of the contact points of its pose has residuals of nan. Gaps close over no less
-    than a whole step from the pose before, whatever that is said to be for which it was solved.
+    than a whole step, from there or from the pose before, whatever that is said to be for which it was solved.
     """
     steps = solution.pushed
     assert solution.mechanics is not None  # else there is no curve
@@ -245,7 +245,9 @@ def curve_of(
         mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
         if number:
             whole = min(work_of(model, control, case.pushover.step, last, steps.mechanisms[number - 1]), whole)
-            scale = steps.scale[number] if steps.scale[number] >= WHOLE * whole else whole
+            own = work_of(model, control, case.pushover.step, pose, mechanics.mechanism)
+            least = min(whole, own / (1.0 + OFF))
+            scale = steps.scale[number] if steps.scale[number] >= WHOLE * least else whole
             history = history_after(model, history, last, steps.work[number] * steps.mechanisms[number - 1], pose)
             ties = ties_left(model, pose, fallen, history)
             solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, *ties)

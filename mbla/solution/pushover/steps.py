@@ -37,7 +37,7 @@ from mbla.solution.pushover.step_program import Normals, StepProgram, moved_soli
 from mbla.solution.solution import Mechanics
 
 OFF, MOST_WORKS = 0.2, 3
-"""Share by which the live work of a step may be more than that for which it was solved before it is solved again, and
+"""Share by which the live work of a step may differ from that for which it was solved before it is solved again, and
 how many times it is."""
 
 DEEP = 0.01
@@ -174,7 +174,9 @@ class Pushover:
                 fallen = fallen | hanging
                 continue
             solids, case, found = moved_solids(self.model, found, self.case, pose, fallen, left, slack)
-            reached = self._reached(pose, fallen, led, step.whole, solids, case, found, normals, history)
+            reached = self._reached(
+                pose, fallen, led, step.whole if step.work < step.whole else led, solids, case, found, normals, history
+            )
             carried = reached is not None and (reached.load_factor > 0.0 or self.case.settlement is not None)
             falling = fallen if carried else fallen | self.program.falling(solids, case)
             if reached is not None and carried:
@@ -202,10 +204,8 @@ class Pushover:
     ) -> Step | None:
         """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are.
 
-        whole : live work of a whole step from the pose before
-
-        Gaps that steps have left are spread over a step that is not shorter than a whole one: over a short one, before
-        the displacement asked for, their work would be more than that of the live load, and the forces theirs.
+        whole : live work to begin with; a whole step from the pose before where that was cut at the displacement asked
+                for: over the short rest the work of gaps would be more than that of the live load, and the forces theirs
         """
         work, best = whole, None
         for _ in range(MOST_WORKS):
@@ -219,7 +219,7 @@ class Pushover:
             best = Step(moved, solved.load_factor, there, solved.contact_forces, pose, fallen, led, work, history)
             asked, normals = self.work_of(best), Normals.of(found.contacts, best.forces)
             best = self._going_on(best, min(asked, work))
-            if asked <= (1.0 + OFF) * work:
+            if abs(asked / work - 1.0) <= OFF:
                 break
             work = asked
         return best
