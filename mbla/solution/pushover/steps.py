@@ -205,7 +205,7 @@ class Pushover:
         """The state at a pose, solved for the live work by which it goes on: gaps close by no more than they are.
 
         whole : live work to begin with; a whole step from the pose before where that was cut at the displacement asked
-                for: over the short rest the work of gaps would be more than that of the live load, and the forces theirs
+                for: over the short rest the work of gaps would outweigh that of the live load
         """
         work, best = whole, None
         for _ in range(MOST_WORKS):
