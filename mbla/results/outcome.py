@@ -133,6 +133,12 @@ def least_and_greatest(model: Model, case: CaseResult) -> tuple[float, float]:
     return extent_of(model, case) or ((np.nan, np.nan) if own is None else (own.load_factor, own.load_factor))
 
 
+def lower_not_searched(case: CaseResult) -> bool:
+    """Whether no lower load factors were looked for than those that were come by: the least found limits the least."""
+    remarks = (remark.identifier for remark in case.solution.remarks)
+    return result_of(case) is not None and "lower-not-searched" in remarks
+
+
 def factor_unique(model: Model, case: CaseResult) -> bool | None:
     """True where a theorem says so (associative flow), False where factors that were found differ, None if not known.
 

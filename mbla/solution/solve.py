@@ -18,6 +18,7 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
+from mbla.solution.nonassociative.default_scheme import NOT_SEARCHED, looks_lower
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import PartResult, solve_part
@@ -192,6 +193,8 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
     words = [ends.reason] if ends is not None and ends.reason is not None else []
+    if rule in ("non_associative", "dilatancy") and not looks_lower(stage.parts[first], stage.settings):
+        words.append(NOT_SEARCHED)
     return replace(
         solution,
         mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),

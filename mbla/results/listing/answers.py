@@ -21,6 +21,7 @@ from mbla.results.outcome import (
     associative_of,
     extent_of,
     least_and_greatest,
+    lower_not_searched,
     reaction_of,
     result_of,
 )
@@ -151,7 +152,7 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
     Least and greatest are there where some case has several figures; a case with one has it in both.
     """
     answers = list(dict.fromkeys(answer_head(model, case.load_case) for case in cases))
-    several = any(extent_of(model, case) is not None for case in cases)
+    several = any(extent_of(model, case) is not None or lower_not_searched(case) for case in cases)
     rows = []
     for case in cases:
         own, associative = (
@@ -167,9 +168,15 @@ LEAST_AND_GREATEST = ("least found", "greatest found")
 
 
 def extent_figures(model: Model, case: CaseResult) -> list[str]:
-    """The least and the greatest answer that were found, six digits; the answer twice where it is the only one."""
+    """The least and the greatest answer that were found, six digits; the answer twice where it is the only one.
+
+    ``<=`` where no lower load factor was looked for than those that were come by.
+    """
     ends = in_order(case.load_case, least_and_greatest(model, case))
-    return [answer_figure(case.load_case, end) for end in ends]
+    least, greatest = (answer_figure(case.load_case, end) for end in ends)
+    if not lower_not_searched(case) or case.load_case.tilt is not None:
+        return [least, greatest]
+    return [f"<= {least}", greatest] if case.load_case.settlement is None else [least, f">= {greatest}"]
 
 
 def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from mbla.results.listing.mechanism_words import description_of, mechanism_summa
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
-from mbla.results.outcome import case_notices, notices_of, result_of
+from mbla.results.outcome import case_notices, lower_not_searched, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
 
@@ -85,7 +85,13 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
         [case.load_case.name, status_words(case.status), *row[: len(heads)]]
         for case, row in zip(cases, rows, strict=True)
     ]
-    return table(["load case", "status", *heads], rows, left=2)
+    lines = table(["load case", "status", *heads], rows, left=2)
+    return lines + (sentence(UPPER_LIMIT) if any(lower_not_searched(case) for case in cases) else [])
+
+
+UPPER_LIMIT = (
+    "<= and >=: not searched for further; in space lower load factors are looked for where analysis.search says so"
+)
 
 
 def _codes(results: Results, cases: Sequence[CaseResult]) -> list[str]:

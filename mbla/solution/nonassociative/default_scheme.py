@@ -204,3 +204,8 @@ class _Scheme(Search):
 
 MISSED = Message("law-missed", "the iterations came no closer to the joint law than a residual of {:.2g}")
 NO_STATE = "no forces and no mechanism that fit the joint law were found"
+NOT_SEARCHED = Message(
+    "lower-not-searched",
+    "states of lower load factors were not looked for, as in space unless analysis.search says how far: the least "
+    "found is an upper limit of the least",
+)

@@ -14,6 +14,7 @@ from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
+from mbla.solution.nonassociative.default_scheme import NOT_SEARCHED
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
@@ -76,7 +77,7 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
         iterations=(),
         seconds=0.0,
         scheme="" if sequence is None else "auto",
-        remarks=() if sequence is None else (*sequence.remarks, NO_RANGE),
+        remarks=() if sequence is None else (*sequence.remarks, NO_RANGE, NOT_SEARCHED),
         spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live * unit),
         certificate_motions=motions,
         contact_model=convex.contact_model,

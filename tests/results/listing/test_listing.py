@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import mbla
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
@@ -16,6 +17,7 @@ from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
 from mbla.results.results import Results
 from mbla.solution.solution import Status
+from tests.line import BLOCK
 from tests.results.synthetic import tower_results
 
 RESULTS = tower_results()
@@ -107,3 +109,13 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
     lines = summary_lines(replace(tilted, cases=tilted.cases[2:]))
     assert lines[1].split() == ["load", "case", "status", "angle", "[degree]", "associative"]
     assert lines[2].split() == ["tilted", "solved", angle, "-"]
+
+
+def test_a_least_that_was_not_searched_for_is_an_upper_limit() -> None:
+    """A block in space, of which nothing lower is looked for unless the deck says so."""
+    live: list[dict[str, Any]] = [{"acceleration": [1, 0.3, 0]}]
+    changes = {"analysis.flow_rule": "non_associative", "load_cases.push.live": live}
+    plain, searched = (mbla.run(BLOCK, set=changes | more).summary for more in ({}, {"analysis.search": 1}))
+    assert "<= " in plain
+    assert "lower load factors are looked for where" in " ".join(plain.split())
+    assert "<= " not in searched
