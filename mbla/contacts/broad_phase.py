@@ -5,11 +5,14 @@ Near means within the reach of a pair: ten times its tolerance, so that pairs wh
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import Facets
+from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import CrowdedError, meeting_boxes
 
@@ -66,6 +69,35 @@ def find_facet_pairs(blocks: Blocks, facets: Facets, tolerance: float) -> IntArr
         keep = test(facets, a, b, NEAR_MISS * tolerance * np.minimum(sizes[a], sizes[b]))
         a, b = a[keep], b[keep]
     return np.stack([a, b], axis=1)
+
+
+def find_surface_pairs(
+    blocks: Blocks, facets: Facets, sheets: Facets, grounds: Sequence[Ground], tolerance: float
+) -> IntArray:
+    """Ground surfaces that end somewhere and facets of what they may carry, opposite and within reach, (n, 2).
+
+    sheets : the facets, and these surfaces behind them, by whose rows the pairs are
+    """
+    sizes = blocks.sizes[facets.blocks]
+    margin = (NEAR_MISS * tolerance * sizes)[:, None]
+    first = len(facets)
+    a, b = meeting_boxes(sheets.lower[first:], sheets.upper[first:], facets.lower - margin, facets.upper + margin)
+    a += first
+    keep = opposite(sheets.normals[a], facets.normals[b])
+    keep &= may_carry(grounds, sheets.blocks[a] - len(blocks), facets.blocks[b])
+    a, b = a[keep], b[keep]
+    near = _planes_near(sheets, a, b, NEAR_MISS * tolerance * sizes[b])
+    return np.stack([a[near], b[near]], axis=1)
+
+
+def may_carry(grounds: Sequence[Ground], ground: IntArray, block: IntArray) -> BoolArray:
+    """Whether grounds, by number, may carry blocks, (n,)."""
+    allowed = np.ones(len(block), dtype=bool)
+    for number in np.unique(ground).tolist():
+        if (chosen := grounds[number].blocks) is not None:
+            rows = ground == number
+            allowed[rows] = np.isin(block[rows], chosen)
+    return allowed
 
 
 def opposite(normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:

@@ -5,13 +5,15 @@ Faces of a block that the model put on one facet are united.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.contacts.outlines.overlay import frames_from_normals, unit
+from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polygons import Polygons, convex_polygons, map_polygons, polygons_from_loops, union_by_row
 from mbla.model.solids.ragged import next_item, row_means, row_sums
@@ -82,6 +84,32 @@ def build_facets(blocks: Blocks) -> Facets:
         upper=np.maximum.reduceat(corners[by_facet], first),
         radii=np.maximum.reduceat(np.sqrt((local**2).sum(axis=1))[by_facet], first),
         convex=convex_polygons(polygons),
+    )
+
+
+def with_surfaces(facets: Facets, grounds: Sequence[Ground], n_blocks: int) -> Facets:
+    """The facets, and behind them the ground surfaces that end somewhere, each a facet of its body."""
+    numbers = [number for number, ground in enumerate(grounds) if ground.outline is not None]
+    if not numbers:
+        return facets
+    outlines = [outline for ground in grounds if (outline := ground.outline) is not None]
+    origins = np.array([outline.mean(axis=0) for outline in outlines])
+    frames = frames_from_normals(np.array([grounds[number].normal for number in numbers]))
+    arms = [outline - origin for outline, origin in zip(outlines, origins, strict=True)]
+    local = [arm @ frame[1:].T for arm, frame in zip(arms, frames, strict=True)]
+    loops = starts(np.array([len(outline) for outline in outlines], dtype=np.int64))
+    polygons = polygons_from_loops(np.concatenate(local), loops)
+    radii = [np.linalg.norm(arm, axis=1).max() for arm in arms]
+    return replace(
+        facets,
+        blocks=np.append(facets.blocks, n_blocks + np.array(numbers)),
+        origins=np.vstack([facets.origins, origins]),
+        frames=np.concatenate([facets.frames, frames]),
+        polygons=np.append(facets.polygons, polygons),
+        lower=np.vstack([facets.lower, [outline.min(axis=0) for outline in outlines]]),
+        upper=np.vstack([facets.upper, [outline.max(axis=0) for outline in outlines]]),
+        radii=np.append(facets.radii, radii),
+        convex=np.append(facets.convex, convex_polygons(polygons)),
     )
 
 

@@ -19,18 +19,20 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.contacts.broad_phase import may_carry
+from mbla.contacts.contact_planes import along_contact_normals, outlines
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.facets import Facets, build_facets, with_surfaces
 from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at
 from mbla.contacts.outlines.points import interface_points
 from mbla.contacts.report import both_fixed
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import Model
 from mbla.model.pose import Pose, moved_model
 from mbla.model.solids.plane import meeting_boxes
-from mbla.model.solids.polygons import Polygons, connected_parts, intersect, map_polygons, widths
+from mbla.model.solids.polygons import Polygons, connected_parts, widths
 
 FACING, HINGED = (float(np.cos(np.radians(angle))) for angle in (50.0, 85.0))
 """Cosine of the angle from opposite up to which facets of moved blocks are in contact: corners that come together at a
@@ -43,13 +45,6 @@ whose near ones touch."""
 
 NARROW = 1e-6
 """Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
-
-ON_EDGE = 1e-3
-"""Distance from the edge of a facet, over block size, within which a point is on it: edges that have slipped by less
-against each other hinge as if they had not."""
-
-FLAT = 1e-9
-"""Angle between two facets, rad, up to which they are parallel."""
 
 
 @dataclass(frozen=True)
@@ -185,42 +180,23 @@ class MovedSearch:
         a, b = meeting_boxes(facets.lower - margin, facets.upper + margin, facets.lower - margin, facets.upper + margin)
         other = facets.blocks[a] < facets.blocks[b]
         a, b = a[other], b[other]
-        bodies, pairs = np.column_stack([facets.blocks[a], facets.blocks[b]]), np.column_stack([a, b])
-        facing = self._face_each_other(bodies, pairs, facets.normals[a], facets.normals[b])
-        a, b = a[facing], b[facing]
-        near = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
-        between = build_overlays(
-            bodies[facing],
-            pairs[facing],
-            Planes(facets.origins[a], facets.normals[a]),
-            Planes(facets.origins[b], facets.normals[b]),
-            near,
-            np.minimum(sizes[a], sizes[b]),
-        )
-        outlines = _outlines(between, facets, 0), _outlines(between, facets, 1)
-        common = intersect(*outlines, facets.convex[a] & facets.convex[b])
-        host = _faces_stood_on(between, common, *outlines)
-        tilted = np.flatnonzero(host)
-        if len(tilted):
-            first, second = a[tilted], b[tilted]
-            one = between.take(tilted)
-            turned = build_overlays(
-                one.bodies,
-                one.facets,
-                Planes(facets.origins[first], facets.normals[first]),
-                Planes(facets.origins[second], facets.normals[second]),
-                near[tilted],
-                one.sizes,
-                host[tilted],
-            )
-            outlines = _outlines(turned, facets, 0), _outlines(turned, facets, 1)
-            common[tilted] = intersect(*outlines, facets.convex[first] & facets.convex[second])
-            order = np.arange(len(a), dtype=np.int64)
-            order[tilted] = len(a) + np.arange(len(tilted))
-            between = concatenate([between, turned]).take(order)
+        moving = len(facets)
+        sheets = with_surfaces(facets, model.grounds, len(model.blocks))
+        if len(sheets) > moving:
+            low, high = facets.lower - 2 * margin, facets.upper + 2 * margin
+            surface, on = meeting_boxes(sheets.lower[moving:], sheets.upper[moving:], low, high)
+            carried = may_carry(model.grounds, sheets.blocks[surface + moving] - len(model.blocks), on)
+            a, b = np.append(a, surface[carried] + moving), np.append(b, on[carried])
+        bodies, pairs = np.column_stack([sheets.blocks[a], sheets.blocks[b]]), np.column_stack([a, b])
+        named = np.where(pairs < moving, pairs, -1)
+        facing = self._face_each_other(bodies, named, sheets.normals[a], sheets.normals[b])
+        between, common = along_contact_normals(sheets, bodies[facing], pairs[facing], model.blocks.sizes)
+        between = replace(between, facets=named[facing])
         shapes = [common]
         overlays = [between]
         for index, ground in enumerate(model.grounds):
+            if ground.outline is not None:
+                continue
             corner = np.where(ground.normal > 0, facets.lower, facets.upper)
             reach = (corner - ground.point) @ ground.normal
             normals = np.broadcast_to(ground.normal, (len(facets), 3))
@@ -241,7 +217,7 @@ class MovedSearch:
                 1.0,
             )
             overlays.append(on_ground)
-            shapes.append(_outlines(on_ground, facets, 1))
+            shapes.append(outlines(on_ground, facets, 1))
         return concatenate(overlays), np.concatenate(shapes)
 
     def _face_each_other(self, bodies: IntArray, pairs: IntArray, first: FloatArray, second: FloatArray) -> BoolArray:
@@ -260,35 +236,6 @@ class MovedSearch:
         arms = np.einsum("kij,ki->kj", back, centroids - (blocks.centroids + pose.shift)[block])
         frames = np.einsum("kij,kai->kaj", back, overlays.frames)
         return replace(overlays, frames=frames), blocks.centroids[block] + arms
-
-
-def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
-    """Outlines of the facets of body a (side 0) or b (side 1) in local coordinates."""
-    facet = overlays.facets[:, side]
-    matrices, offsets = local_maps(overlays, facets.origins[facet], facets.frames[facet])
-    return map_polygons(facets.polygons[facet], matrices, offsets)
-
-
-def _faces_stood_on(overlays: Overlays, common: Polygons, first: Polygons, second: Polygons) -> FloatArray:
-    """Whose plane is that of the contact, as ``build_overlays`` takes it, (n,).
-
-    Where two facets at an angle touch, along the part of their common surface of the least gap, an edge of one stands
-    on the face of the other: the normal is that of the face. Where both have an edge there it is the mean.
-    """
-    host = np.zeros(len(common))
-    rows = np.flatnonzero((np.hypot(overlays.gaps[:, 1], overlays.gaps[:, 2]) > FLAT) & ~shapely.is_empty(common))
-    points, row = shapely.get_coordinates(common[rows], return_index=True)
-    if not len(row):
-        return host
-    gaps, start = gap_at(overlays, rows[row], points), np.flatnonzero(np.diff(row, prepend=-1))
-    least, most = np.minimum.reduceat(gaps, start), np.maximum.reduceat(gaps, start)
-    closed = (gaps <= (least + 1e-6 * (most - least))[row]).astype(float)
-    touch = np.add.reduceat(closed[:, None] * points, start) / np.add.reduceat(closed, start)[:, None]
-    on_first, on_second = (
-        shapely.distance(shapely.points(touch), shapely.boundary(each[rows])) < ON_EDGE for each in (first, second)
-    )
-    host[rows] = np.where(on_first & ~on_second, -1.0, np.where(on_second & ~on_first, 1.0, 0.0))
-    return host
 
 
 def _extreme_gaps(overlays: Overlays, parts: Polygons) -> tuple[FloatArray, FloatArray]:

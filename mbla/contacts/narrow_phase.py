@@ -17,14 +17,15 @@ surface: they are left out. What has a block in between is left out after
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, find_facet_pairs, opposite
-from mbla.contacts.facets import Facets
+from mbla.contacts.broad_phase import NEAR_MISS, find_facet_pairs, find_surface_pairs, opposite
+from mbla.contacts.contact_planes import outlines
+from mbla.contacts.facets import Facets, with_surfaces
 from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
@@ -76,18 +77,25 @@ def find_patches(
     overlap : greatest depth that counts as touching, relative to block size
     """
     tolerance = max(tolerance, overlap / NEAR_MISS)
-    between, first, second = _between_blocks(blocks, facets, tolerance)
+    sheets = with_surfaces(facets, grounds, len(blocks))
+    pairs = find_facet_pairs(blocks, facets, tolerance)
+    if len(sheets) > len(facets):
+        pairs = np.vstack([pairs, find_surface_pairs(blocks, facets, sheets, grounds, tolerance)])
+    between, first, second = _between(blocks, sheets, pairs)
     keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
     between = between.take(keep)
-    convex = facets.convex[between.facets[:, 0]] & facets.convex[between.facets[:, 1]]
+    convex = sheets.convex[between.facets[:, 0]] & sheets.convex[between.facets[:, 1]]
     shapes = [intersect(first[keep], second[keep], convex)]
     overlays = [between]
     for index, ground in enumerate(grounds):
-        on_ground = _on_ground(blocks, facets, ground, len(blocks) + index, tolerance)
-        overlays.append(on_ground)
-        shapes.append(_outlines(on_ground, facets, 1))
+        if ground.outline is None:
+            on_ground = _on_ground(blocks, facets, ground, len(blocks) + index, tolerance)
+            overlays.append(on_ground)
+            shapes.append(outlines(on_ground, facets, 1))
     parts, row = connected_parts(np.concatenate(shapes))
-    return _measured(concatenate(overlays).take(row), parts, shapely.area(facets.polygons))
+    found = _measured(concatenate(overlays).take(row), parts, shapely.area(sheets.polygons))
+    number = found.overlays.facets
+    return replace(found, overlays=replace(found.overlays, facets=np.where(number < len(facets), number, -1)))
 
 
 def judge(patches: Patches, tolerance: float, reach: float | None = None, overlap: float | None = None) -> Verdicts:
@@ -110,20 +118,21 @@ def judge(patches: Patches, tolerance: float, reach: float | None = None, overla
     )
 
 
-def _between_blocks(blocks: Blocks, facets: Facets, tolerance: float) -> tuple[Overlays, Polygons, Polygons]:
-    found = find_facet_pairs(blocks, facets, tolerance)
-    a, b = found.T
+def _between(blocks: Blocks, facets: Facets, pairs: IntArray) -> tuple[Overlays, Polygons, Polygons]:
+    """Overlays of pairs of facets, (n, 2), those of ground surfaces among them, and both outlines of each."""
+    a, b = pairs.T
+    sizes = np.append(blocks.sizes, np.full(max(int(facets.blocks.max(initial=0)) + 1 - len(blocks), 0), np.inf))
     # Amid what the two bounding boxes share: near the common surface, however large one of the facets is.
     shared = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
     overlays = build_overlays(
-        bodies=facets.blocks[found],
-        facets=found,
+        bodies=facets.blocks[pairs],
+        facets=pairs,
         a=Planes(facets.origins[a], facets.normals[a]),
         b=Planes(facets.origins[b], facets.normals[b]),
         near=shared,
-        sizes=blocks.sizes[facets.blocks[found]].min(axis=1),
+        sizes=sizes[facets.blocks[pairs]].min(axis=1),
     )
-    return overlays, _outlines(overlays, facets, 0), _outlines(overlays, facets, 1)
+    return overlays, outlines(overlays, facets, 0), outlines(overlays, facets, 1)
 
 
 def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, tolerance: float) -> Overlays:
@@ -143,13 +152,6 @@ def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, tolera
         near=facets.origins[chosen],
         sizes=sizes[chosen],
     )
-
-
-def _outlines(overlays: Overlays, facets: Facets, side: int) -> Polygons:
-    """Outlines of the facets of body a (side 0) or b (side 1) in local coordinates."""
-    facet = overlays.facets[:, side]
-    matrices, offsets = local_maps(overlays, facets.origins[facet], facets.frames[facet])
-    return map_polygons(facets.polygons[facet], matrices, offsets)
 
 
 def _measured(overlays: Overlays, polygons: Polygons, facet_areas: FloatArray) -> Patches:

@@ -145,7 +145,7 @@ def _grounds(model: Model, section: ContactsSection, bodies: IntArray) -> Iterat
         if not (bodies[:, 0] == len(blocks) + index).any():
             text = f"no face lies on {ground.label} within the tolerance: it carries nothing"
             yield Notice("warning", "ground-without-contact", text)
-        if ground.blocks is not None:
+        if ground.blocks is not None or ground.outline is not None:
             continue  # a ground for chosen blocks is an abutment, the rest of the structure may be behind its plane
         height = (blocks.vertices - ground.point) @ ground.normal
         depths, heights = (row_maxima(sign * height, blocks.vertex_start) for sign in (-1.0, 1.0))

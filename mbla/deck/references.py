@@ -176,6 +176,7 @@ SIDE_FILES = (
     "blocks.#.mesh.file",
     "blocks.#.table.vertices",
     "blocks.#.table.faces",
+    "supports.#.surface.file",
     "contacts.table",
     *(f"{loads}.#.table" for loads in LOADS),
 )

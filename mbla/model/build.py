@@ -181,7 +181,7 @@ def _build(deck: Deck) -> Structure:
         faults += defects_in_words(deck, built.defects, items.items, built.blocks)
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
     roster = Roster(built.blocks, partial, deck.fault_at, faults)
-    supports = build_supports(deck, Supports(items.fixed, items.grounds), roster)
+    supports = build_supports(deck, Supports(items.fixed, items.grounds), items.surfaces, roster)
     if not deck.content.symmetry:  # else images count among what they choose
         check_overrides(deck.contacts.overrides, roster)
     interfaces = read_interfaces(deck, roster, supports.grounds)
@@ -207,9 +207,10 @@ def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, f
     path = ("contacts", "joint_thickness")
     # which ground carries which blocks, with a record of its own: the grown blocks are checked against it after
     supports = build_supports(
-        deck, Supports(items.fixed, items.grounds), Roster(built.blocks, items.partial, deck.fault_at)
+        deck, Supports(items.fixed, items.grounds), (), Roster(built.blocks, items.partial, deck.fault_at)
     )
-    closed = close_joints(built.blocks, supports.grounds, thickness, deck.contacts.tolerance)
+    planes = tuple(ground for ground in supports.grounds if ground.outline is None)  # surfaces are where they are
+    closed = close_joints(built.blocks, planes, thickness, deck.contacts.tolerance)
     if isinstance(closed, Message):
         faults.append(deck.fault_at(path, closed))
         return built

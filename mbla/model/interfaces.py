@@ -22,6 +22,7 @@ from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
+from mbla.model.surfaces import lies_on
 from mbla.model.tables import Table, TableRefused, read_table
 
 GROUND = "ground"
@@ -170,8 +171,7 @@ def _lies_on(points: FloatArray, normal: FloatArray, body: int, bodies: _Bodies,
     blocks = bodies.blocks
     if body >= len(blocks):
         ground = bodies.grounds[body - len(blocks)]
-        on_it = np.abs((points - ground.point) @ ground.normal) <= reach
-        return bool(ground.normal @ normal > FACING and on_it.all())
+        return bool(ground.normal @ normal > FACING and lies_on(points, ground, reach).all())
     faces = np.arange(blocks.face_start[body], blocks.face_start[body + 1])
     faces = faces[blocks.face_normals[faces] @ normal > FACING]
     frame = plane_axes(normal[None])[0].T

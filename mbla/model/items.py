@@ -18,11 +18,13 @@ from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.generators import KINDS, amounts, generator_of
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
 from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
-from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
+from mbla.model.surfaces import Surface
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 
@@ -34,6 +36,7 @@ class CollectedItems:
     items   : (n_blocks,) which item of the deck each belongs to
     fixed   : (n_blocks,) blocks that items bring along as supports
     grounds : planes that items bring along, under blocks of their own
+    surfaces : surfaces that support, those of each copy of an item together: its key path, its joint law, and they
     partial : groups of items that could not be built
     """
 
@@ -42,6 +45,7 @@ class CollectedItems:
     items: IntArray
     fixed: BoolArray
     grounds: tuple[Ground, ...]
+    surfaces: tuple[tuple[KeyPath, str, tuple[Surface, ...]], ...]
     notices: tuple[Notice, ...]
     partial: frozenset[str]
 
@@ -56,6 +60,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     _refuse_amounts(deck)
     placed: list[tuple[int, str, Part]] = []
     grounds: list[Ground] = []
+    surfaces: list[tuple[KeyPath, str, tuple[Surface, ...]]] = []
     notices: list[Notice] = []
     partial: set[str] = set()
     n_blocks = 0
@@ -81,6 +86,9 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             for ground in own.grounds:
                 joint = ground.joint or deck.contacts.joint
                 grounds.append(Ground(ground.point, ground.normal, joint, n_blocks + ground.blocks, "ground"))
+            if own.surfaces:
+                law = getattr(item, "joint", None) or deck.contacts.joint
+                surfaces.append((path, law, own.surfaces))
             for part in own.parts:
                 positions = dict(part.labels)
                 if len(copies) > 1:
@@ -105,6 +113,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
         items=np.repeat([number for number, _, _ in placed], counts),
         fixed=np.repeat([part.fixed for part in parts], counts),
         grounds=tuple(_named(ground, labels) for ground in grounds),
+        surfaces=tuple(surfaces),
         notices=tuple(notices),
         partial=frozenset(partial),
     )
@@ -174,7 +183,7 @@ def defects_in_words(deck: Deck, defects: Sequence[Defect], item_of_block: IntAr
     """
     faults = []
     counts: Counter[int] = Counter()
-    for defect in defects:
+    for defect in _flat_faces(deck, defects, item_of_block, blocks):
         number = int(item_of_block[defect.block])
         counts[number] += 1
         if counts[number] <= MOST_FAULTS_PER_ITEM:
@@ -189,6 +198,32 @@ def defects_in_words(deck: Deck, defects: Sequence[Defect], item_of_block: IntAr
             message = f"{count - MOST_FAULTS_PER_ITEM} more blocks of this item are refused"
             faults.append(deck.fault_at(_path(deck, None, number), Message("more-faults", message)))
     return faults
+
+
+def _flat_faces(deck: Deck, defects: Sequence[Defect], item_of_block: IntArray, blocks: Blocks) -> list[Defect]:
+    """The same defects, of blocks from files that are one flat face with what to do; of several once for each item."""
+    flat: dict[int, list[Defect]] = {}
+    others = []
+    for defect in defects:
+        number = int(item_of_block[defect.block])
+        from_file = kind_of(deck.content.blocks[number])[0] in FROM_FILES
+        if from_file and sheets(take_polyhedra(blocks, np.array([defect.block])))[1][0]:
+            flat.setdefault(number, []).append(defect)
+        else:
+            others.append(defect)
+    for number, found in flat.items():
+        in_table = kind_of(deck.content.blocks[number])[0] == "table"
+        member = blocks.labels.members[found[0].block]
+        several = f", and so are {len(found) - 1} more" if len(found) > 1 else ""
+        names = f"[{member}{', ...' if several else ''}]"
+        if in_table:
+            remedy = f"leave_out: {names}, and a surface in supports where it is ground"
+        elif member and not several:
+            remedy = f"supports: {names} of the mesh makes it rigid ground, leave_out: {names} leaves it out"
+        else:
+            remedy = "flat_faces: supports of the mesh makes them rigid ground, flat_faces: leave_out leaves them out"
+        others.append(Defect(found[0].block, Message("flat-face", f"is a flat face, no block{several}: {remedy}")))
+    return sorted(others, key=lambda defect: defect.block)
 
 
 def _called(deck: Deck, blocks: Blocks, block: int, number: int) -> str:

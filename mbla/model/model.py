@@ -33,12 +33,13 @@ class Joint:
 
 @dataclass(frozen=True)
 class Ground:
-    """Rigid ground behind a plane.
+    """Rigid ground behind a plane, or behind a part of it.
 
     point, normal : (3,) a point on the plane; unit normal towards the structure
     joint         : name of the joint law on it
     blocks        : blocks that it may carry, sorted; None for all
     label         : how messages call it (``ground z = 0``)
+    outline       : (n, 3) corners of a surface that ends there, counter-clockwise about the normal; None for a plane
     """
 
     point: FloatArray
@@ -46,6 +47,7 @@ class Ground:
     joint: str
     blocks: IntArray | None
     label: str
+    outline: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -317,7 +319,7 @@ class Model:
         return float(self.blocks.masses.sum() * self.units.standard_gravity * self.units.force_per_mass_acceleration)
 
     def body_name(self, body: int) -> str:
-        """Name of a block, or label of a ground plane."""
+        """Name of a block, or label of a ground."""
         n_blocks = len(self.blocks)
         return self.blocks.name(body) if body < n_blocks else self.grounds[body - n_blocks].label
 

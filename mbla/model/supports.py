@@ -13,12 +13,14 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.supports import Plane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.generators.file_supports import surfaces_of
 from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
+from mbla.model.surfaces import FACING, Carried, Surface, allowed_blocks, grounds_of_surfaces, touching_only
 from mbla.model.wording import named, vector
 
 
@@ -36,10 +38,16 @@ class Supports:
     guides: Guides = NO_GUIDES
 
 
-def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Supports:
+def build_supports(
+    deck: Deck,
+    brought_along: Supports,
+    surfaces: Sequence[tuple[KeyPath, str, Sequence[Surface]]],
+    roster: Roster,
+) -> Supports:
     """Supports of the deck, with those that items bring along.
 
     brought_along : fixed blocks and grounds of items, such as the springers of arches
+    surfaces      : of items, with the key path and the joint law of each item
 
     Refuses grounds with blocks below them or without a face on them, blocks held in two ways, structures
     without support, and structures in which nothing can move.
@@ -47,6 +55,7 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Suppo
     fixed = brought_along.fixed.copy()
     grounds: list[tuple[KeyPath, Ground]] = []
     guides: list[tuple[KeyPath, Guides]] = []
+    sheets: list[tuple[KeyPath, str, Sequence[Surface], IntArray | None]] = [(*each, None) for each in surfaces]
     complete = not roster.partial
     for number, support in enumerate(deck.content.supports):
         path: KeyPath = ("supports", number)
@@ -56,10 +65,14 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Suppo
             if chosen is None:
                 complete = False
                 continue
-        if support.ground is not None:
+        joint = support.joint or deck.contacts.joint
+        if support.surface is not None:
+            found = surfaces_of(support.surface, (*path, "surface"), deck, roster)
+            complete &= bool(found)
+            sheets.append(((*path, "surface"), joint, found, chosen))
+        elif support.ground is not None:
             point, normal, place = plane_of(support.ground)
             label = f"ground {place or f'at {vector(point)} with normal {vector(normal)}'}"
-            joint = support.joint or deck.contacts.joint
             grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
         elif chosen is not None and is_guide(support):
             guides.append((path, guides_of(support, chosen, roster.blocks)))
@@ -68,10 +81,14 @@ def build_supports(deck: Deck, brought_along: Supports, roster: Roster) -> Suppo
     everything_guided = _joined_guides(guides, fixed, roster)
     for path, ground in grounds:
         check_ground(ground, path, fixed, roster, deck.contacts)
-    found = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds)), everything_guided)
-    if complete:
-        _check_hold(found, roster)
-    return found
+    flat = []
+    for path, joint, own, chosen in sheets:
+        carried = Carried(roster.blocks, allowed_blocks(roster, fixed, chosen), deck.contacts)
+        flat += grounds_of_surfaces(own, path, joint, chosen, carried, roster)
+    supports = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds), *flat), everything_guided)
+    if complete and (flat or not sheets):
+        _check_hold(supports, roster)
+    return supports
 
 
 def _check_hold(supports: Supports, roster: Roster) -> None:
@@ -113,10 +130,6 @@ def does_nothing(load: FloatArray, supports: Supports) -> bool:
     return bool(np.all(np.abs(work) <= UNMOVED * gross))
 
 
-FACING = 0.99
-"""cosine of the greatest angle between a face and the ground it lies on"""
-
-
 def plane_of(section: Plane) -> tuple[FloatArray, FloatArray, str]:
     """Point (3,) and unit normal (3,) of a plane, and ``z = 0``; nothing for one by point and normal."""
     for axis, key in enumerate("xyz"):
@@ -135,10 +148,7 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
     contacts : with the tolerances
     """
     blocks = roster.blocks
-    # what cannot be built need not lie right, either
-    may_carry = ~fixed & ~np.isin(np.array(blocks.groups), list(roster.partial))
-    if ground.blocks is not None:
-        may_carry &= np.isin(np.arange(len(blocks)), ground.blocks)
+    may_carry = allowed_blocks(roster, fixed, ground.blocks)
     heights = (blocks.vertices - ground.point) @ ground.normal
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > contacts.depth_allowed * blocks.sizes))
@@ -150,7 +160,8 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
         roster.refuse(Finding("ground-misplaced", words, *path))
     elif not _faces_on(ground, heights, may_carry, blocks, contacts) and not roster.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
-        nearest = f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else ""
+        touching = touching_only(ground.point, ground.normal, Carried(blocks, may_carry, contacts))
+        nearest = touching or (f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else "")
         roster.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
 
 

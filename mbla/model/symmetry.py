@@ -31,6 +31,7 @@ from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
 from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
+from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.supports import plane_of
@@ -193,18 +194,36 @@ def _labels(model: Model, others: IntArray) -> Labels:
 
 
 def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
-    """Planes across the mirror carry images too; others have an image of their own."""
+    """Planes across the mirror carry images too; others, and surfaces that end, have an image of their own."""
     result, images = [], []
     for ground in grounds:
         carried = None if ground.blocks is None else mirror.image_of[ground.blocks]
-        if abs(float(ground.normal @ mirror.normal)) <= ACROSS:
+        if abs(float(ground.normal @ mirror.normal)) <= ACROSS and ground.outline is None:
             both = None if ground.blocks is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
             result.append(replace(ground, blocks=both))
             continue
         result.append(ground)
         point, normal = mirror.reflection.points(ground.point), mirror.reflection.directions(ground.normal)
-        images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}"))
+        if ground.outline is not None and _own_image(ground, mirror):
+            both = None if carried is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
+            result[-1] = replace(ground, blocks=both)
+            continue
+        outline = None if ground.outline is None else mirror.reflection.points(ground.outline)[::-1].copy()
+        images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}", outline))
     return (*result, *images)
+
+
+def _own_image(ground: Ground, mirror: Mirror) -> bool:
+    """Whether a surface that ends lies across the mirror, alike on both sides."""
+    import shapely
+
+    assert ground.outline is not None  # who calls knows
+    if abs(float(ground.normal @ mirror.normal)) > ACROSS:
+        return False
+    axes = plane_axes(ground.normal[None])[0]
+    image = mirror.reflection.points(ground.outline)
+    one, other = (shapely.Polygon((corners - ground.point) @ axes.T) for corners in (ground.outline, image))
+    return bool(shapely.symmetric_difference(one, other).area <= ACROSS * one.area)
 
 
 def _guides(guides: Guides, mirror: Mirror) -> Guides:

@@ -80,7 +80,8 @@ def transform_item(generated: Generated, transform: AffineMap) -> Generated:
         replace(ground, point=transform.points(ground.point), normal=transform.directions(ground.normal))
         for ground in generated.grounds
     )
-    return replace(generated, parts=parts, grounds=grounds)
+    surfaces = tuple(replace(surface, outline=transform.points(surface.outline)) for surface in generated.surfaces)
+    return replace(generated, parts=parts, grounds=grounds, surfaces=surfaces)
 
 
 def moved(polyhedra: Polyhedra, transform: AffineMap) -> Polyhedra:

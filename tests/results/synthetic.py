@@ -43,6 +43,8 @@ BOX_FACES = np.array(
 TOWER_WEIGHT = 10.0
 STEP = ReductionStep("parts", StepState.APPLIED, 2, ProgramSize(12, 8, 80, 12), ProgramSize(12, 8, 80, 6))
 G = 9.81
+SHEET = np.array([[9.0, 0, 0], [9.0, 1, 0], [9.0, 1, 3], [9.0, 0, 3]])[::-1]
+"""a surface at x = 9, seen from smaller x"""
 ASSESSED = AssessmentSection.model_validate({"spectra": {"SLV": {"table": [[0.0, 0.2], [2.0, 0.1]]}}})
 
 
@@ -150,7 +152,7 @@ def tower_model() -> Model:
         fixed=np.array([True, False, False]),
         grounds=(
             Ground(np.zeros(3), np.array([0.0, 0, 1]), "dry", None, "ground z = 0"),
-            Ground(np.array([9.0, 0, 0]), np.array([-1.0, 0, 0]), "strong", np.array([2]), "ground x = 9"),
+            Ground(np.array([9.0, 0, 0]), np.array([-1.0, 0, 0]), "strong", np.array([2]), "ground x = 9", SHEET),
         ),
         joints={"dry": Joint("dry", 0.65), "strong": Joint("strong", 0.5, 1.0, 2.0, 3.0, 0.1)},
         load_cases=cases,

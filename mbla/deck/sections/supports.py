@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.quantities import Direction, Length, Name, Point, Switch
+from mbla.deck.items.files import FileUnit, Names
+from mbla.deck.quantities import Direction, Length, Name, Point, PositiveNumber, Switch
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
@@ -54,6 +55,38 @@ def plane_normal(plane: Plane) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "applies with point only", "normal")
 
 
+@exactly_one_of("polygon", "file")
+class Surface(Section):
+    """Rigid ground that ends at an outline, inclined as it may be: a polygon, or the flat faces of a file.
+
+    It carries the faces of blocks that lie on it, each as far as it lies on it, from the side on which these blocks
+    are; from both where blocks lie on both. Blocks may reach past its outline below its plane. Of a file every flat
+    face, or several that lie in one plane and share edges, is a surface. Flat faces among the blocks of a `mesh` are
+    taken by its keys `supports` and `flat_faces`.
+    """
+
+    polygon: Annotated[list[Point], Field(min_length=3)] | None = Field(
+        None, description="corners in order, either way round, in one plane within contacts.tolerance x its size"
+    )
+    file: str | None = Field(
+        None, min_length=1, description="geometry file of open surfaces, as of a mesh; relative to the deck"
+    )
+    units: FileUnit | None = Field(None, description="unit of length of the file, as of a mesh")
+    scale: PositiveNumber | None = Field(None, description="factor on the file's coordinates, 1 unless given")
+    up: Literal["z", "y"] | None = Field(None, description="axis of the file that points upwards, as of a mesh")
+    members: Names | None = Field(
+        None, description="objects, groups or layers of the file to take, by name; all unless given"
+    )
+
+
+@rule(Surface)
+def keys_of_a_file(surface: Surface) -> Iterator[Finding]:
+    """How a file is read says nothing about a polygon."""
+    if surface.file is None and surface.polygon is not None:
+        for key in given(surface, ("units", "scale", "up", "members")):
+            yield Finding("key-of-another-choice", "applies with file only", key)
+
+
 class Turn(Section):
     """A rotation about a line."""
 
@@ -66,12 +99,16 @@ Component = Literal["x", "y", "z", "rx", "ry", "rz"]
 
 
 class Support(Section):
-    """Rigid ground under every face on a plane, blocks that do not move, or blocks that may move in given ways only."""
+    """Rigid ground under every face on a plane or on a surface that ends, blocks that do not move, or blocks that may
+    move in given ways only.
+    """
 
-    ground: GroundPlane | None = Field(None, description="rigid ground")
-    joint: Name | None = Field(None, description="joint law on the ground; that of contacts unless given")
+    ground: GroundPlane | None = Field(None, description="rigid ground without an end")
+    surface: Surface | None = Field(None, description="rigid ground within an outline")
+    joint: Name | None = Field(None, description="joint law on the ground or surface; that of contacts unless given")
     blocks: Selector | None = Field(
-        None, description="blocks that do not move, or only as given; with ground: the only blocks it carries"
+        None,
+        description="blocks that do not move, or only as given; with ground or surface: all that it carries",
     )
     fixed: Annotated[list[Component], Field(min_length=1)] | None = Field(
         None,
@@ -92,15 +129,18 @@ class Support(Section):
 @rule(Support)
 def support(item: Support) -> Iterator[Finding]:
     """Ground, or blocks that do not move, or not as they like."""
-    if item.ground is None and item.blocks is None:
-        yield Finding("missing-key", "needs one of ground or blocks")
-    elif item.joint is not None and item.ground is None:
-        words = "applies with ground only: blocks that do not move have the joints of their contacts"
+    kinds = given(item, ("ground", "surface"))
+    if not kinds and item.blocks is None:
+        yield Finding("missing-key", "needs one of ground, surface or blocks")
+    elif item.joint is not None and not kinds:
+        words = "applies with ground or surface only: blocks that do not move have the joints of their contacts"
         yield Finding("key-of-another-choice", words, "joint")
     ways = given(item, ("fixed", "slide", "turn"))
-    if item.ground is not None:
+    if len(kinds) > 1:
+        yield Finding("one-of-several", "only one of ground or surface may be given", "surface")
+    if kinds:
         for key in (*ways, *given(item, ("together",))):
-            words = "does not apply to ground, which does not move: say it of blocks in an item of their own"
+            words = f"does not apply to {kinds[0]}, which does not move: say it of blocks in an item of their own"
             yield Finding("key-of-another-choice", words, key)
         return
     if item.fixed is not None and len(ways) > 1:

@@ -5,25 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.items.files import MeshItem, TableItem
-from mbla.deck.suggestions import unknown
-from mbla.deck.units import METRES
+from mbla.deck.section import given
 from mbla.errors import Finding, Message, Notice
+from mbla.model.generators.file_supports import (
+    members_of,
+    placed_vertices,
+    read_members,
+    split_off_supports,
+    taken,
+)
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
-from mbla.model.geometry import read_geometry
-from mbla.model.geometry.geometry import LONGEST_REASON, Geometry, GeometryFileError, member_name
+from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.geometry.repair import repair
 from mbla.model.geometry.surfaces import join_cells
-from mbla.model.solids.polyhedra import polyhedra_from_lists, take_polyhedra
+from mbla.model.solids.polyhedra import polyhedra_from_lists
 from mbla.model.tables import Table, TableRefused, read_table
-
-UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""turns y of the file into z by a right angle about x"""
 
 
 def generate_mesh(item: MeshItem, site: Site) -> Generated:
@@ -37,42 +38,36 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     DeckError
         for files that are missing or outside the deck's folder
     """
-    path = site.resolve_file(("file",), item.file)
-    try:
-        geometry = _read(path, item)
-    except GeometryFileError as error:
-        raise ItemRefused(Finding(error.message.identifier, str(error)[:LONGEST_REASON], "file")) from error
+    geometry = _cells_joined(item, _without(item, read_members(site.resolve_file(("file",), item.file), item)))
     if findings := list(_misfits(item, geometry)):
         raise ItemRefused(*findings)
-    vertices = _placed(geometry, item, site)
+    vertices = placed_vertices(geometry, item, site.length, item.extrude)
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
-    blocks = repair(placed, site.tolerance, item.weld)
+    solid, surfaces = split_off_supports(placed, item, site.tolerance)
+    blocks = repair(solid, site.tolerance, item.weld)
     if not len(blocks.polyhedra):
         words = "the file holds no blocks: its faces have no area"
         raise ItemRefused(Finding("geometry-without-blocks", words, "file"))
     members = [member_name(name) for name in blocks.names]
     remarks = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
-    return Generated((Part(blocks.polyhedra, member=members if any(members) else ""),), notices=notices)
+    part = Part(blocks.polyhedra, member=members if any(members) else "")
+    return Generated((part,), surfaces=surfaces, notices=notices)
 
 
-def _read(path: Path, item: MeshItem) -> Geometry:
-    """The file's content, of the members selected, with cells joined if requested."""
-    geometry = read_geometry(path)
-    if item.members is not None:
-        names = [member_name(name) for name in geometry.names]
-        known = sorted({name for name in names if name})
-        wrong = []
-        for number, name in enumerate(item.members):
-            if member_name(name) not in known:
-                words = unknown("member", name, known, "the file has") if known else "the file has no names"
-                wrong.append(Finding("unknown-name", words, "members", number))
-        if wrong:
-            raise ItemRefused(*wrong)
-        wanted = {member_name(name) for name in item.members}
-        rows = np.array([row for row, name in enumerate(names) if name in wanted], dtype=np.int64)
-        kept = tuple(geometry.names[row] for row in rows)
-        geometry = replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=kept)
+def _without(item: MeshItem, geometry: Geometry) -> Geometry:
+    """The file's content without what is left out by name."""
+    if item.leave_out is None:
+        return geometry
+    rows = members_of(geometry, item.leave_out, "leave_out", "members has" if item.members else "the file has")
+    left = np.setdiff1d(np.arange(len(geometry.polyhedra)), rows)
+    if not len(left):
+        raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
+    return taken(geometry, left)
+
+
+def _cells_joined(item: MeshItem, geometry: Geometry) -> Geometry:
+    """The file's content with cells joined if requested."""
     if item.join_cells and not geometry.cells:
         words = "applies to files with volume cells only: leave it out"
         raise ItemRefused(Finding("key-of-another-choice", words, "join_cells"))
@@ -87,18 +82,8 @@ def _misfits(item: MeshItem, geometry: Geometry) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "does not apply to a drawing: its y points upwards in the deck", "up")
     if not geometry.planar and item.extrude is not None:
         yield Finding("key-of-another-choice", "applies to drawings (DXF) only: leave it out", "extrude")
-
-
-def _placed(geometry: Geometry, item: MeshItem, site: Site) -> FloatArray:
-    """Vertices in the deck's unit of length, z upwards; drawings with their thickness along y."""
-    unit = item.units or geometry.unit
-    factor = item.scale * (1.0 if unit in (None, site.length) else METRES[unit] / METRES[site.length])
-    vertices = geometry.polyhedra.vertices
-    if geometry.planar:
-        assert item.extrude is not None  # refused before
-        return np.asarray(vertices * np.array([factor, item.extrude, factor]))
-    vertices = vertices * factor
-    return np.asarray(vertices @ UPRIGHT.T) if item.up == "y" else vertices
+    for key in given(item, ("supports", "flat_faces")) if geometry.planar else ():
+        yield Finding("key-of-another-choice", "does not apply to a drawing, which has outlines of blocks only", key)
 
 
 def _taken_for_granted(item: MeshItem, geometry: Geometry, site: Site, vertices: FloatArray) -> list[Notice]:
@@ -148,7 +133,14 @@ def generate_table(item: TableItem, site: Site) -> Generated:
         for block, number in zip(blocks.values(), numbers, strict=True)
     ]
     members = [member_name(name) for name in blocks]
-    return Generated((Part(polyhedra_from_lists(points, faces), member=members),))
+    everything = Geometry(polyhedra_from_lists(points, faces), names=tuple(blocks), cells=True)
+    if item.leave_out is None:
+        return Generated((Part(everything.polyhedra, member=members),))
+    rows = members_of(everything, item.leave_out, "leave_out", "the tables have")
+    left = taken(everything, np.setdiff1d(np.arange(len(members)), rows))
+    if not len(left.polyhedra):
+        raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
+    return Generated((Part(left.polyhedra, member=[member_name(name) for name in left.names]),))
 
 
 @contextmanager

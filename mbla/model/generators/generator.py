@@ -13,6 +13,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
 from mbla.model.solids.polyhedra import Polyhedra
+from mbla.model.surfaces import Surface
 
 
 @dataclass(frozen=True)
@@ -55,10 +56,14 @@ def level_ground(blocks: IntArray, joint: str | None) -> GroundPart:
 
 @dataclass(frozen=True)
 class Generated:
-    """An item of the deck as raw polyhedra, in its own coordinates (before its transform)."""
+    """An item of the deck as raw polyhedra, and surfaces that support, in its own coordinates (before its transform).
+
+    Surfaces are rigid ground under whatever lies on them.
+    """
 
     parts: tuple[Part, ...]
     grounds: tuple[GroundPart, ...] = ()
+    surfaces: tuple[Surface, ...] = ()
     notices: tuple[Notice, ...] = field(default=())
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -177,6 +178,12 @@ class _Frames:
         frame = rows[row_of_item(start)]
         return polygons_from_loops(np.einsum("nj,nij->ni", corners - self.origins[frame], self.axes[frame]), start)
 
+    def outline(self, row: int, corners: FloatArray) -> Any:
+        """A surface, corners (n, 3), as a polygon in the plane of a frame."""
+        import shapely
+
+        return shapely.Polygon((corners - self.origins[row]) @ self.axes[row].T)
+
     def triangles(self, polygons: Polygons) -> tuple[FloatArray, IntArray]:
         """Triangles of polygons (n,), one for each frame: corners (m, 3, 3), outwards, and their polygons (m,)."""
         flat, rows = triangles(polygons)
@@ -205,26 +212,26 @@ def face_parts(
         groups = np.split(frames.polygons(mine, others, blocks), np.flatnonzero(np.diff(mine)) + 1)
         for row, against in zip(np.unique(mine).tolist(), groups, strict=False):
             polygons[row] = shapely.difference(polygons[row], shapely.union_all(against))
-        left = np.where(_on_ground(faces, blocks, grounds, tolerance, overlap), 0.0, shapely.area(polygons))
+        for ground in grounds:
+            on = _on_ground(faces, blocks, ground, tolerance, overlap)
+            for row in np.flatnonzero(on).tolist():
+                taken = polygons[row] if ground.outline is None else frames.outline(row, ground.outline)
+                polygons[row] = shapely.difference(polygons[row], taken)
+        left = np.asarray(shapely.area(polygons))
         left[left <= 2.0 * tolerance * areas] = 0.0  # rounding of outlines
         polygons[left == 0.0] = shapely.Polygon()
     return FaceParts(*frames.triangles(polygons), areas, areas - left)
 
 
-def _on_ground(
-    faces: IntArray, blocks: Blocks, grounds: tuple[Ground, ...], tolerance: float, overlap: float
-) -> BoolArray:
-    """Faces that lie on a ground plane that carries their block."""
-    found = np.zeros(len(faces), dtype=bool)
+def _on_ground(faces: IntArray, blocks: Blocks, ground: Ground, tolerance: float, overlap: float) -> BoolArray:
+    """Faces that lie in the plane of a ground that carries their block, (n,)."""
     owner = blocks.block_of_face[faces]
     corners, start = blocks.corners_of(faces)
-    for ground in grounds:
-        heights = (corners - ground.point) @ ground.normal
-        on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
-        on &= row_maxima(-heights, start) <= max(tolerance, overlap) * blocks.sizes[owner]
-        on &= blocks.face_normals[faces] @ ground.normal <= -FACING
-        found |= on if ground.blocks is None else on & np.isin(owner, ground.blocks)
-    return found
+    heights = (corners - ground.point) @ ground.normal
+    on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
+    on &= row_maxima(-heights, start) <= max(tolerance, overlap) * blocks.sizes[owner]
+    on &= blocks.face_normals[faces] @ ground.normal <= -FACING
+    return on if ground.blocks is None else np.asarray(on & np.isin(owner, ground.blocks))
 
 
 def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float, overlap: float) -> tuple[IntArray, IntArray]:

@@ -19,6 +19,7 @@ from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import touched_blocks
+from mbla.model.surfaces import lies_on
 from mbla.model.ties.build import Line, build_lines, can_move, cuts_of, ties_of
 from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties, pulls_along
 
@@ -76,8 +77,7 @@ class _Stays:
 
     def bears(self, place: FloatArray, block: int, near: float) -> bool:
         """Whether a block that a line leaves at a place, (3,), is fixed, or on ground within a distance."""
-        planes = self.grounds
-        return bool(self.fixed[block]) or any(abs(plane.normal @ (place - plane.point)) <= near for plane in planes)
+        return bool(self.fixed[block]) or any(lies_on(place[None], ground, near).all() for ground in self.grounds)
 
 
 def _lines(section: Candidate, path: KeyPath, roster: Roster, stays: _Stays, tolerance: float) -> Iterator[Line]:

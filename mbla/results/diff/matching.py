@@ -13,7 +13,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
-from mbla.model.model import Model
+from mbla.model.model import Ground, Model
 from mbla.results.record.quantity import UnitKind
 
 SAME_PLACE = 1e-3
@@ -125,12 +125,24 @@ def _grounds(first: Model, second: Model, factors: Factors) -> IntArray:
         same = (
             row
             for row, other in free.items()
-            if np.abs(other.normal - ground.normal).max() <= SAME_PLACE and abs(off[row]) <= SAME_PLACE * scale
+            if np.abs(other.normal - ground.normal).max() <= SAME_PLACE
+            and abs(off[row]) <= SAME_PLACE * scale
+            and _same_outline(ground, other, factors.length, SAME_PLACE * scale)
         )
         row = next(same, -1)
         free.pop(row, None)
         found.append(len(second.blocks) + row if row >= 0 else -1)
     return np.array(found, dtype=np.int64)
+
+
+def _same_outline(ground: Ground, other: Ground, factor: float, near: float) -> bool:
+    """Whether two grounds have no end, or the same corners; ``factor`` on lengths of the other one."""
+    if ground.outline is None or other.outline is None:
+        return ground.outline is other.outline
+    corners = other.outline * factor
+    return len(corners) == len(ground.outline) and bool(
+        (np.linalg.norm(corners[:, None] - ground.outline, axis=2).min(axis=0) <= near).all()
+    )
 
 
 def match_interfaces(first: Contacts, second: Contacts, matching: Matching, length: float) -> IntArray:

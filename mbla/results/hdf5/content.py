@@ -167,6 +167,10 @@ def _model(model: Model) -> Content:
         "ground_start": start,
         "ground_blocks": flat,
     }
+    if any(ground.outline is not None for ground in model.grounds):
+        outlines = [np.zeros((0, 3)) if ground.outline is None else ground.outline for ground in model.grounds]
+        ends = starts(np.array([len(outline) for outline in outlines], dtype=np.int64))
+        content |= {"ground_outline_start": ends, "ground_outlines": np.concatenate(outlines)}
     guides = model.guides
     if len(guides):
         content |= {"guided_blocks": guides.blocks, "guided_bodies": guides.bodies}

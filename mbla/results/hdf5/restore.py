@@ -183,18 +183,30 @@ def _grounds(get: dict[str, Any]) -> tuple[Ground, ...]:
     blocks = np.split(get["ground_blocks"], get["ground_start"][1:-1]) if selective else []
     if not set(get["ground_joints"]) <= set(get["joint_names"]):
         raise ValueError("joint law of a ground plane")
+    outlines = _outlines(get, len(selective))
     return tuple(
-        Ground(point, normal, joint, carried if chosen else None, label)
-        for point, normal, joint, carried, chosen, label in zip(
+        Ground(point, normal, joint, carried if chosen else None, label, outline)
+        for point, normal, joint, carried, chosen, label, outline in zip(
             get["ground_points"],
             get["ground_normals"],
             get["ground_joints"],
             blocks,
             selective,
             get["ground_labels"],
+            outlines,
             strict=True,
         )
     )
+
+
+def _outlines(get: dict[str, Any], count: int) -> list[FloatArray | None]:
+    """Corners of the grounds that end somewhere, None for the others."""
+    if "ground_outlines" not in get:
+        return [None] * count
+    loops = np.split(get["ground_outlines"], get["ground_outline_start"][1:-1])
+    if any(0 < len(loop) < 3 for loop in loops):
+        raise ValueError("outline of a ground surface")
+    return [loop if len(loop) else None for loop in loops]
 
 
 def _contacts(get: dict[str, Any]) -> Contacts:

@@ -114,7 +114,7 @@ def extent_of(scenes: Iterable[Scene], drawing: Drawing) -> FloatArray:
     """All that must be seen of a structure, as built and in some scenes of it, (n, 3) m."""
     points = []
     for scene in scenes:
-        points += [scene.model.blocks.vertices, scene.moved, *scene.slabs]
+        points += [scene.model.blocks.vertices, scene.moved, *(slab.points for slab in scene.slabs)]
         points += [moved(mark, scene.model, scene.motion) for mark in drawing.marks]
     return np.vstack(points)
 

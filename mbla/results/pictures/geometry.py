@@ -2,17 +2,45 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
+from mbla.model.solids.plane import plane_axes
+from mbla.model.solids.polygons import connected_parts, convex_polygons, triangles
 
 THIN = 0.35
 """extent over the next larger one below which a structure is seen from the front"""
-SLAB_FACES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
-"""of a box whose corners have the first coordinate fastest, outwards where these axes are right-handed"""
+EDGE, DEPTH = 0.04, 0.02
+"""of the size of the structure: how far a slab of ground reaches past what stands on it, and its thickness"""
+
+
+@dataclass(frozen=True)
+class Slab:
+    """A convex prism that stands for ground.
+
+    points : (2 n, 3) corners of the face that carries, counter-clockwise seen from the structure, then those below them
+    """
+
+    points: FloatArray
+
+    @property
+    def faces(self) -> list[IntArray]:
+        """Rows of points of each face, outwards."""
+        n = len(self.points) // 2
+        top, after = np.arange(n), np.roll(np.arange(n), -1)
+        return [top, n + top[::-1], *np.column_stack([top, n + top, n + after, after])]
+
+    @property
+    def triangles(self) -> IntArray:
+        """Rows of points, (n, 3), outwards."""
+        fans = [[[face[0], face[k], face[k + 1]] for k in range(1, len(face) - 1)] for face in self.faces]
+        return np.concatenate([np.array(fan) for fan in fans])
 
 
 def block_edges(blocks: Blocks) -> IntArray:
@@ -31,23 +59,29 @@ def edges_of_blocks(blocks: Blocks, edges: IntArray, chosen: BoolArray) -> IntAr
     return edges[chosen[blocks.block_of_vertex[edges[:, 0]]]]
 
 
-def ground_slab(model: Model, contacts: Contacts, ground: int, size: float) -> FloatArray | None:
-    """Corners of a slab behind a ground plane, as wide as what stands on it and a little more, (8, 3) m.
+def ground_slabs(model: Model, contacts: Contacts, ground: int, size: float) -> list[Slab]:
+    """Slabs behind a ground, as wide as what stands on it and a little more, and no wider than its outline.
 
-    Ordered as a box from ``min`` to ``max`` with the first coordinate fastest; None where nothing stands on the plane.
+    One, or several where the outline is not convex; none where nothing stands on it. ``size`` of the structure, m.
     """
+    import shapely
+
     touching = (contacts.bodies == len(model.blocks) + ground).any(axis=1)[contacts.interface_of_point]
     if not touching.any():
-        return None
+        return []
     plane = model.grounds[ground]
-    frame = np.linalg.svd(plane.normal[None])[2]  # rows: normal (either sign), then two directions in the plane
-    places = (contacts.points[touching] - plane.point) @ frame.T
-    low, high = places.min(axis=0), places.max(axis=0)
-    low[1:] -= 0.04 * size
-    high[1:] += 0.04 * size
-    low[0], high[0] = sorted((0.0, -float(np.sign(frame[0] @ plane.normal)) * 0.02 * size))
-    corners = np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])])
-    return np.asarray(corners @ frame + plane.point)
+    axes = plane_axes(plane.normal[None])[0]
+    places = (contacts.points[touching] - plane.point) @ axes.T
+    shape: Any = shapely.box(*(places.min(axis=0) - EDGE * size), *(places.max(axis=0) + EDGE * size))
+    if plane.outline is not None:
+        outline = shapely.make_valid(shapely.Polygon((plane.outline - plane.point) @ axes.T))
+        shape = shapely.intersection(shape, outline)
+    parts = connected_parts(np.array([shape], dtype=object))[0]
+    convex = convex_polygons(parts)
+    loops = [shapely.get_coordinates(shapely.orient_polygons(part))[:-1] for part in parts[convex]]
+    loops += list(triangles(parts[~convex])[0]) if not convex.all() else []
+    tops = [loop @ axes + plane.point for loop in loops]
+    return [Slab(np.vstack([top, top - DEPTH * size * plane.normal])) for top in tops]
 
 
 def front_axis(extents: FloatArray, travel: FloatArray) -> int | None:

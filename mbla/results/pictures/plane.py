@@ -149,7 +149,8 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: Scene, drawing: Draw
 
     blocks = scene.model.blocks
     built, now = camera.project(blocks.vertices), camera.project(scene.moved)
-    slabs = [np.array(shapely.MultiPoint(camera.project(each)).convex_hull.exterior.coords) for each in scene.slabs]
+    hulls = [shapely.MultiPoint(camera.project(slab.points)).convex_hull for slab in scene.slabs]
+    slabs = [np.array(hull.exterior.coords) for hull in hulls]
     _areas(page, axes, slabs, facecolors=SLAB, edgecolors=GROUND, hatch="////", linewidths=0, zorder=0.5)
     colours = [drawing.colours[block] for block in blocks.block_of_face[flat.faces]]
     _areas(page, axes, face_polygons(blocks, flat, now), facecolors=colours, edgecolors="none", zorder=1)

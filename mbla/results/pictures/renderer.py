@@ -19,7 +19,7 @@ import numpy.typing as npt
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import UsageError
 from mbla.results.pictures.camera import Camera
-from mbla.results.pictures.geometry import SLAB_FACES, block_edges
+from mbla.results.pictures.geometry import Slab, block_edges
 from mbla.results.pictures.marks import Mark
 from mbla.results.pictures.page import GHOST, INK, SLAB, rgb
 from mbla.results.pictures.scene import Scene
@@ -76,14 +76,14 @@ def image_of(
     scene: Scene,
     colours: Sequence[str],
     marks: Sequence[tuple[Mark, FloatArray]],
-    slabs: Sequence[FloatArray],
+    slabs: Sequence[Slab],
     ghost: IntArray,
     camera: Camera,
     pixels: tuple[int, int],
 ) -> FloatArray:
     """What the camera sees of a structure as it has moved, (height, width, 3) from 0 to 1.
 
-    colours : of each block; marks : with their points as moved, (n, 3) m; slabs : of ground, (8, 3) m each
+    colours : of each block; marks : with their points as moved, (n, 3) m; slabs : of ground
     ghost   : (n, 2) vertices, edges that are drawn where they were; pixels : width and height
 
     Raises UsageError where the extra is not installed or the machine has no OpenGL.
@@ -130,7 +130,7 @@ def _structure(
     plotter: Any,
     scene: Scene,
     colours: Sequence[str],
-    slabs: Sequence[FloatArray],
+    slabs: Sequence[Slab],
     ghost: IntArray,
     thin: float,
 ) -> list[Any]:
@@ -148,7 +148,7 @@ def _structure(
             lines = vista.PolyData(points, lines=_rows(2 * np.arange(len(edges) + 1), edges))
             actors.append(plotter.add_mesh(lines, color=colour, line_width=width, lighting=False))
     for slab in slabs:
-        box = vista.PolyData(slab, faces=_rows(4 * np.arange(7), SLAB_FACES))
+        box = vista.PolyData(slab.points, faces=_rows(3 * np.arange(len(slab.triangles) + 1), slab.triangles))
         actors.append(plotter.add_mesh(box, color=SLAB, **lit))
     return actors
 

@@ -18,7 +18,7 @@ from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
-from mbla.results.pictures.geometry import ground_slab
+from mbla.results.pictures.geometry import Slab, ground_slabs
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, REST, SLOW
 from mbla.results.record.scene import Scene as RecordScene
@@ -149,11 +149,10 @@ class Scene(RecordScene):
         return points_to_draw(self.contacts, self.thrust)
 
     @cached_property
-    def slabs(self) -> list[FloatArray]:
-        """Corners of the slab under each ground plane that something stands on, (8, 3) each."""
+    def slabs(self) -> list[Slab]:
+        """Slabs under each ground that something stands on."""
         rows = range(len(self.model.grounds))
-        slabs = [ground_slab(self.model, self.contacts, row, self.size) for row in rows]
-        return [corners for corners in slabs if corners is not None]
+        return [slab for row in rows for slab in ground_slabs(self.model, self.contacts, row, self.size)]
 
     def words_of(self, kind: str) -> list[str]:
         """Title, and for all but the model the outcome of the case and what the picture shows, one line each."""

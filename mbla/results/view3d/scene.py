@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.contacts.overlaps import triangulate_blocks
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
@@ -22,7 +22,7 @@ from mbla.model.solids.plane import plane_axes
 from mbla.results.collapse.motion import largest_displacements
 from mbla.results.listing.text import number
 from mbla.results.pictures.camera import axes_of, view_of_case
-from mbla.results.pictures.geometry import SLAB_FACES, block_edges
+from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
 from mbla.results.pictures.options import PictureOptions
@@ -36,8 +36,6 @@ FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
 MARGIN = 0.04
 """of the largest extent, around what is drawn"""
-SLAB = SLAB_FACES[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
-"""triangles of a box"""
 NO_VALUE = "#C8C8C8"
 STRONGEST = {"displacement": "#1A5E9B", "eccentricity": "#B2182B"}
 MOST_NAMES = 12
@@ -56,14 +54,13 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     ties = tie_marks(scene)
     marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *ties, *loads]
     reach = [points for mark in (*ties, *loads) for points in (mark.points, moved(mark, model, scene.motion))]
-    seen = np.vstack([scene.moved, blocks.vertices, *scene.slabs, *reach])
+    seen = np.vstack([scene.moved, blocks.vertices, *(slab.points for slab in scene.slabs), *reach])
     margin = MARGIN * float(np.ptp(seen, axis=0).max())
     of_block = triangulate_blocks(blocks, np.arange(len(blocks)))
     triangles = np.concatenate([of_block[block] for block in range(len(blocks))])
     owners = np.repeat(np.arange(len(blocks)), [len(of_block[block]) for block in range(len(blocks))])
     eye = axes_of(*(view or view_of_case(scene)))[0]
-    slabs = np.concatenate([SLAB + 8 * row for row in range(len(scene.slabs))]) if scene.slabs else None
-    ground = slabs is not None and {"points": packed(np.concatenate(scene.slabs) - offset), "triangles": packed(slabs)}
+    ground = bool(scene.slabs) and _ground(scene, offset)
     return {
         "unit": model.units.length,
         "offset": offset.tolist(),
@@ -84,6 +81,14 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "forceWords": "" if scene.forces is None else _with_mark(scene, scene.force_words),
         "ground": ground or None,
     }
+
+
+def _ground(scene: Scene, offset: FloatArray) -> dict[str, Any]:
+    """The slabs of ground as one mesh of triangles."""
+    first = starts(np.array([len(slab.points) for slab in scene.slabs], dtype=np.int64))
+    rows = [slab.triangles + begin for slab, begin in zip(scene.slabs, first.tolist(), strict=False)]
+    points = np.concatenate([slab.points for slab in scene.slabs])
+    return {"points": packed(points - offset), "triangles": packed(np.concatenate(rows))}
 
 
 def offset_of(vertices: FloatArray, size: float) -> FloatArray:

@@ -24,7 +24,7 @@ CELLS = {
     "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
     "loads": "loads and reactions as vertices where they act",
     "ties": "ties, struts and rings as lines, one for each stretch; strips and fill as vertices where they act",
-    "supports": "ground planes as slabs under what stands on them, fixed blocks, guided blocks, as polyhedra",
+    "supports": "ground as slabs under what stands on it, fixed blocks, guided blocks, as polyhedra",
 }
 """files by what their names end in, and their cells"""
 COLUMNS: dict[tuple[str, str], tuple[Column, ...]] = {

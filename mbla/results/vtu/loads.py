@@ -22,7 +22,7 @@ from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.collapse.ties import acting_with_ties
-from mbla.results.pictures.geometry import SLAB_FACES, ground_slab
+from mbla.results.pictures.geometry import ground_slabs
 from mbla.results.pictures.loads import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.series import without_vehicle
@@ -153,9 +153,11 @@ def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
 
 
 def supports_mesh(model: Model, contacts: Contacts) -> Mesh | None:
-    """Slabs under what stands on ground planes, fixed blocks and guided blocks as polyhedra; None where none is."""
+    """Slabs under what stands on ground, fixed blocks and guided blocks as polyhedra; None where none is."""
     size = float(np.linalg.norm(np.ptp(model.blocks.vertices, axis=0)))
-    slabs = {ground: ground_slab(model, contacts, ground, size) for ground in range(len(model.grounds))}
+    slabs = [
+        (ground, slab) for ground in range(len(model.grounds)) for slab in ground_slabs(model, contacts, ground, size)
+    ]
     fixed = np.flatnonzero(model.fixed)
     guided = np.setdiff1d(model.guides.blocks, fixed)
     chosen = np.concatenate([fixed, guided]).astype(np.int64)
@@ -167,17 +169,10 @@ def supports_mesh(model: Model, contacts: Contacts) -> Mesh | None:
         chosen.tolist(),
         [model.blocks.vertices[used]],
     )
-    for ground, slab in slabs.items():
-        if slab is not None:
-            cells.append(list(_outward_faces(slab) + sum(map(len, points))))
-            kinds.append(GROUND)
-            bodies.append(len(model.blocks) + ground)
-            points.append(slab)
+    for ground, slab in slabs:
+        cells.append([face + sum(map(len, points)) for face in slab.faces])
+        kinds.append(GROUND)
+        bodies.append(len(model.blocks) + ground)
+        points.append(slab.points)
     data: Arrays = {"kind": np.array(kinds, dtype=np.int8), "body": np.array(bodies, dtype=np.int64)}
     return Mesh(np.concatenate(points), [("polyhedron", cells, slice(None))], {}, data) if cells else None
-
-
-def _outward_faces(slab: FloatArray) -> IntArray:
-    """Faces of a slab, (6, 4), by rows of its corners, whatever way round its axes are."""
-    right_handed = np.linalg.det(slab[[1, 2, 4]] - slab[0]) > 0
-    return np.asarray(SLAB_FACES if right_handed else SLAB_FACES[:, ::-1])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mbla.model.model import Model
-from mbla.results.pictures.geometry import block_edges, edges_of_blocks, front_axis, ground_slab
+from mbla.results.pictures.geometry import block_edges, edges_of_blocks, front_axis, ground_slabs
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GROUPS, SLOW
 from mbla.results.pictures.scene import part_colours, scene_of
@@ -80,12 +80,12 @@ def test_diagonals_inside_a_plane_are_not_drawn() -> None:
 
 
 def test_slab_lies_behind_the_ground(model: Model) -> None:
-    slab = ground_slab(model, tower_contacts(), 0, 10.0)
-    assert slab is not None
+    (found,) = ground_slabs(model, tower_contacts(), 0, 10.0)
+    slab = found.points
     assert slab[:, 2].max() == pytest.approx(0)
     assert slab[:, 2].min() == pytest.approx(-0.2)
     assert slab[:, 0].min() < 4 < 5 < slab[:, 0].max()
-    assert ground_slab(model, tower_contacts(), 1, 10.0) is None
+    assert not ground_slabs(model, tower_contacts(), 1, 10.0)
 
 
 @pytest.mark.parametrize(
