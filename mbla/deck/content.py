@@ -169,6 +169,10 @@ def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
         yield Finding("symmetry-broken", words, "contacts", "joint_thickness")
 
 
+MOST_LOADS = 100_000
+"""loads that a named one may stand for, with all that it names"""
+
+
 @rule(DeckContent)
 def named_loads(deck: DeckContent) -> Iterator[Finding]:
     """Named loads can be added up: none travels or tilts, and none comes back to itself."""
@@ -184,6 +188,13 @@ def named_loads(deck: DeckContent) -> Iterator[Finding]:
     except CycleError as error:
         chain = error.args[1][::-1]
         yield Finding("load-misplaced", f"contains itself: {' > '.join(chain)}", "loads", chain[0])
+        return
+    counts = dict[str, int]()
+    for name in TopologicalSorter(below).static_order():
+        counts[name] = len(deck.loads.get(name, ())) + sum(counts[other] for other in below.get(name, ()))
+        if counts[name] > MOST_LOADS and not any(counts[other] > MOST_LOADS for other in below[name]):
+            words = f"is {min(counts[name], 10**300):.0e} loads with those that it names; at most {MOST_LOADS:,} can be"
+            yield Finding("too-many-loads", f"{words} handled: use factor in place of repeating", "loads", name)
 
 
 @rule(DeckContent)

@@ -42,6 +42,7 @@ class FillBody:
     point, normal : (3,) of its top plane, normal unit and upwards
     triangles     : (n, 3, 3) pieces of faces, counter-clockwise seen from above; they may reach above the top
     blocks, faces : (n,) block and face of each
+    on            : (m,) blocks that it is on, whether or not they have such a face
     unit_weight   : force per volume under standard gravity
     dispersal     : how loads on it spread
     passive       : how it holds blocks sideways, None where it does not
@@ -53,6 +54,7 @@ class FillBody:
     triangles: FloatArray
     blocks: IntArray
     faces: IntArray
+    on: IntArray
     unit_weight: float
     dispersal: Dispersal
     passive: Passive | None
@@ -179,7 +181,7 @@ def _body(
         point, normal = np.array(section.surface.point), unit(section.surface.normal)
     none = np.empty(0, np.int64)
     body = FillBody(
-        name, point, normal, np.empty((0, 3, 3)), none, none, unit_weight, section.dispersal, section.passive
+        name, point, normal, np.empty((0, 3, 3)), none, none, chosen, unit_weight, section.dispersal, section.passive
     )
     faces = items_of_rows(blocks.face_start, chosen)
     faces = faces[blocks.face_normals[faces, 2] > UPWARD]

@@ -13,6 +13,7 @@ from mbla.deck.items.item import Item, Repetition
 from mbla.deck.items.spiral_stair import SpiralStairItem
 from mbla.deck.items.vaults import BarrelVaultItem, CrossVaultItem, PavilionVaultItem
 from mbla.deck.items.walls import WallItem, WallsItem, plan_lines
+from mbla.deck.sections.ties import TieSection
 
 MOST = 2_000_000
 """units, or facets of round blocks, that all items together may make: some GB of memory"""
@@ -90,10 +91,21 @@ def _of_bridge(item: BridgeItem) -> tuple[float, str]:
     return carrying + filling, "unit" if filling > carrying else "voussoirs"
 
 
-def copies_of(item: Item) -> int:
-    """How often an item is there, itself included."""
+def copies_of(item: Item | TieSection) -> int:
+    """How often an item or a tie is there, itself included."""
     steps = [item.repeat] if isinstance(item.repeat, Repetition) else item.repeat
     return math.prod(step.count for step in steps)
+
+
+MOST_TIES = 200_000
+"""lines of ties that all ties together may lay out: as much memory as many blocks take"""
+
+
+def lines_of(tie: TieSection) -> int:
+    """How many lines a tie and its copies lay out; a strip, which has one at each joint, at least one a stretch."""
+    points = tie.through or tie.strip or []
+    own = len(tie.ring.z) if tie.ring else 1 if tie.through and tie.points == "passes" else len(points)
+    return copies_of(tie) * own
 
 
 def too_many(units: float) -> str:

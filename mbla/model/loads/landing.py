@@ -178,7 +178,7 @@ class Landing:
         kept = [each for each in landed if len(each.blocks) and each.met > 0.0]
         if kept:
             others = np.unique(np.concatenate([each.others for each in kept]))
-            strange = np.setdiff1d(others, self.through.blocks)
+            strange = np.setdiff1d(others, self.through.on)
             share = share_of(forces, [each.met if len(each.blocks) else 0.0 for each in landed])
             message = f"{words}: {100 * share:.3g} % of it goes through the fill {name} towards "
             after = "; what would meet them there acts on the blocks under the load instead, in proportion"

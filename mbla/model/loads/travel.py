@@ -16,12 +16,13 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.vehicles import Travel
-from mbla.errors import Finding
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Finding, Notice
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.landing import Landing, level, on_blocks, share_of
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
-from mbla.model.loads.vehicle import axles_of
+from mbla.model.loads.vehicle import axles_of, remark_upwards
 from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector
@@ -49,6 +50,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPo
         )
         site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
         return None
+    _remark_off_path(axles.forces, [acting for _, _, acting in vehicle], path, site)
     landing = Landing(
         Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
     )
@@ -99,6 +101,25 @@ def _way_at(travel: Travel, distance: float) -> FloatArray:
     steps = np.diff(np.array(travel.path), axis=0)
     ends = np.cumsum(np.linalg.norm(steps, axis=1))
     return np.asarray(steps[min(int(np.searchsorted(ends, distance)), len(steps) - 1)])
+
+
+def _remark_off_path(forces: FloatArray, acting: Sequence[BoolArray], path: KeyPath, site: LoadSite) -> None:
+    """A notice of axles that are beyond the ends of the path, where they do not act; one of those that point upwards.
+
+    forces : (n_axles, 3); acting : of each position, (n_axles,)
+    """
+    where = ".".join(map(str, path))
+    off = [number for number, there in enumerate(acting, start=1) if not there.all()]
+    if off:
+        sizes = np.linalg.norm(forces, axis=1)
+        shares = [float(sizes[~acting[number - 1]].sum() / sizes.sum()) for number in off]
+        most = int(np.argmax(shares))
+        words = (
+            f"{where}: at {len(off)} of {len(acting)} positions axles are beyond the ends of the path and do not act, "
+            f"at position {off[most]} {100 * shares[most]:.3g} % of the whole force: the path is where axles stand"
+        )
+        site.roster.remark(Notice("notice", "axles-beyond-path", words))
+    remark_upwards(forces, where, site)
 
 
 def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, landing: Landing) -> None:

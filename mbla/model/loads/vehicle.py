@@ -42,6 +42,14 @@ def axles_of(load: Vehicle | Travel, site: LoadSite) -> Axles:
     return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), load.width or 0.0)
 
 
+def remark_upwards(forces: FloatArray, where: str, site: LoadSite) -> None:
+    """A warning of axles, (n, 3), that lift the structure, as a sign that was forgotten does."""
+    up = np.flatnonzero(forces[:, 2] > 0.0)
+    if len(up):
+        words = f"{where}: {counted(len(up), 'axle')} {'points' if len(up) == 1 else 'point'} upwards, z is up"
+        site.warn("axle-upwards", f"{words}: write a negative z if it is a weight")
+
+
 def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
     """All axles of a vehicle where they stand; a fault where one lies over no block, in fill where all do."""
     assert load.vehicle is not None  # what makes it this kind
@@ -51,6 +59,7 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
     through = None if load.through is None else site.fill[load.through]
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     here = (*path, "vehicle")
+    remark_upwards(axles.forces, ".".join(map(str, here)), site)
     landing = Landing(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
     way = unit(stands.along)
     if not landing.sound(axles.forces, way, axles.width):

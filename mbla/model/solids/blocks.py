@@ -16,7 +16,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.ragged import items_of_rows, row_maxima
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,11 @@ class Blocks(Polyhedra):
     def sizes(self) -> FloatArray:
         """Block size to which tolerances are relative: cube root of the volume, (n_blocks,) m."""
         return np.cbrt(self.volumes)
+
+    @cached_property
+    def boxes(self) -> tuple[FloatArray, FloatArray]:
+        """Least and greatest coordinates of each block, (n_blocks, 3) m."""
+        return -row_maxima(-self.vertices, self.vertex_start), row_maxima(self.vertices, self.vertex_start)
 
     def corners_of(self, faces: IntArray) -> tuple[FloatArray, IntArray]:
         """Corners of faces (n,), one after the other, (m, 3), and where those of each start, (n + 1,)."""

@@ -15,6 +15,7 @@ from mbla.deck.section import given
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.generators import amounts
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
@@ -51,6 +52,8 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
     tolerance : of contacts, relative to block size
     """
     parts, counts = list[Ties](), dict[str, int]()
+    if _refused_for_number(sections, roster):
+        return NO_TIES
     for number, section in enumerate(sections):
         path: KeyPath = ("ties", number)
         lines = list(build_lines(section, path, roster, tolerance))
@@ -64,6 +67,20 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
             roster.refuse(Finding("tie-without-effect", words, *path))
         parts.append(_ties(section, lines, counts))
     return joined_ties(parts)
+
+
+def _refused_for_number(sections: Sequence[TieSection], roster: Roster) -> bool:
+    """Whether ties lay out more lines than can be handled, each or together, before any of them is made."""
+    most, counts = amounts.MOST_TIES, [amounts.lines_of(section) for section in sections]
+    words = f"ties; at most {most:,} can be handled: check repeat, and the unit of what moves copies"
+    too_many = [number for number, count in enumerate(counts) if count > most]
+    for number in too_many:
+        key = ("repeat",) if amounts.copies_of(sections[number]) > 1 else ()
+        about = f"lays out {min(counts[number], 10**300):.0e} {words}"
+        roster.refuse(Finding("too-many-ties", about, "ties", number, *key))
+    if not too_many and sum(counts) > most:
+        roster.refuse(Finding("too-many-ties", f"lay out {sum(counts):.0e} {words}", "ties"))
+    return sum(counts) > most
 
 
 def can_move(bodies: IntArray, fixed: BoolArray) -> bool:

@@ -158,6 +158,15 @@ def test_a_wall_in_the_way(tmp_path: Path, load: str, group: str, identifier: st
     assert name in text
 
 
+def test_no_advice_to_add_what_is_there(tmp_path: Path) -> None:
+    """A lower block of a wall that the fill is on already has no free upward face: told as of upright faces."""
+    lower, upper = wall("row").replace("2.2]", "1.6]"), wall("row").replace("-1, 0, 0]", "-1, 0, 1.6]")
+    found = model(tmp_path, LINE.replace("4.3", "0.2"), *ROW, lower, upper)
+    said = {each.identifier: each.message for each in found.notices if each.identifier.startswith("load-")}
+    assert list(said) == ["load-towards-wall"]
+    assert "add them" not in said["load-towards-wall"]
+
+
 def test_a_wall_beside_the_way(tmp_path: Path) -> None:
     """A wall next to the end of the row, where no line of the load goes, holds nothing back."""
     aside = wall("row").replace("[-1, 0, 0], max: [0, 2", "[-1, 2, 0], max: [0, 3")

@@ -99,3 +99,20 @@ def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
         "force (0, 0, -2) N at (0.75, 0.5, 1) m on row[0] and force (0, 0, -10) N at (0.25, 0.5, 1) m on row[0], "
         "position 2 of 11, first axle 0.5 m along the path, 1 of 3 axles off the path",
     )
+
+
+def test_axles_beyond_the_path_are_told(tmp_path: Path) -> None:
+    """The second axle, 1 m behind, has a third of the force and is not on the path at the first of 4 positions."""
+    axles = "axles: [{behind: 1, force: [0, 0, -5]}], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], positions: 4"
+    notices = model(tmp_path, f"force: [0, 0, -10], {axles}", ROW).notices
+    text = next(each.message for each in notices if each.identifier == "axles-beyond-path")
+    assert "at 2 of " in text or "at 1 of " in text
+    assert "of the whole force" in text
+    alone = model(tmp_path, "force: [0, 0, -10], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], positions: 4", ROW)
+    assert not {"axles-beyond-path", "axle-upwards"} & {each.identifier for each in alone.notices}
+
+
+def test_an_axle_that_points_upwards(tmp_path: Path) -> None:
+    found = model(tmp_path, "force: [0, 0, 10], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], positions: 4", ROW)
+    text = next(each.message for each in found.notices if each.identifier == "axle-upwards")
+    assert "1 axle points upwards" in text
