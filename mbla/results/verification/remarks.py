@@ -125,7 +125,7 @@ def same_remark(one: Message, other: Message) -> bool:
 def _near(one: str, other: str) -> bool:
     def last(text: str) -> float:
         digits, _, power = text.partition("e")
-        return 10.0 ** (float(power or 0) - len(digits.partition(".")[2]))
+        return float(10.0 ** (float(power or 0) - len(digits.partition(".")[2])))
 
     apart = abs(float(one) - float(other))
     return one == other or ("." in one + other and apart <= 1.01 * max(last(one), last(other)))
