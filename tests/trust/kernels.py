@@ -154,9 +154,9 @@ def table(found: Compared) -> str:
     for case, name, values, _ in sorted(found.others, key=lambda row: -row[3]):
         rows.setdefault((case, tuple(values)), []).append(name.replace("_", " "))
     lines = [f"| load case | figures | {' | '.join(found.ways)} | apart |", "|---" * (len(found.ways) + 3) + "|"]
-    for (case, values), names in rows.items():
-        shown = " | ".join("none" if value is None else f"{value:.7g}" for value in values)
-        lines.append(f"| {case} | {', '.join(names)} | {shown} | {apart(values):.1e} |")
+    for (case, figures), names in rows.items():
+        shown = " | ".join("none" if value is None else f"{value:.7g}" for value in figures)
+        lines.append(f"| {case} | {', '.join(names)} | {shown} | {apart(figures):.1e} |")
     return "\n".join(lines) + "\n"
 
 

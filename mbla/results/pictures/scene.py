@@ -91,7 +91,7 @@ class Scene(RecordScene):
         """Blocks that move although they are in no part of the listing, (n_blocks,): less than the few parts there."""
         if self._moving is None:
             return np.zeros(len(self.model.blocks), dtype=bool)
-        return (self.clusters == 0) & (self._moving[0].parts > 0)
+        return np.asarray((self.clusters == 0) & (self._moving[0].parts > 0))
 
     @property
     def joint_motion(self) -> InterfaceMotion | None:

@@ -114,7 +114,7 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
 def test_a_least_that_was_not_searched_for_is_an_upper_limit() -> None:
     """A block in space, of which nothing lower is looked for unless the deck says so."""
     live: list[dict[str, Any]] = [{"acceleration": [1, 0.3, 0]}]
-    changes = {"analysis.flow_rule": "non_associative", "load_cases.push.live": live}
+    changes: dict[str, object] = {"analysis.flow_rule": "non_associative", "load_cases.push.live": live}
     plain, searched = (mbla.run(BLOCK, set=changes | more).summary for more in ({}, {"analysis.search": 1}))
     assert "<= " in plain
     assert "lower load factors are looked for where" in " ".join(plain.split())
