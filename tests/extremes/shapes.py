@@ -133,7 +133,9 @@ def gaps() -> Iterator[Scene]:
         for k in range(-12, -1):
             for sign, what in ((1, "gap"), (-1, "overlap")):
                 share = 10.0**k
-                diagnosis = () if share < 1e-3 else ("near-misses", "isolated-blocks", "overlap by", "pairs of blocks overlap")
+                diagnosis = (
+                    () if share < 1e-3 else ("near-misses", "isolated-blocks", "overlap by", "pairs of blocks overlap")
+                )
                 yield Scene(
                     f"two blocks, {worded(rule)}, {what} 1e{k} of their size",
                     "gaps and overlaps",
