@@ -52,6 +52,6 @@ def _words(name: str, extents: FloatArray, side: float, units: Units) -> str:
     unit = min(sides, key=lambda unit: abs(math.log(sides[unit] / STONE)))
     meant = f", which would be a stone in {unit}" if SMALL < sides[unit] / STONE < 1.0 / SMALL else ""
     return (
-        f"{name} is {size} {units.length} large, as hardly any stone is{meant}: `units: {{length: ...}}` says what numbers are "
-        'in, a text such as "400 mm" has its own'
+        f"{name} is {size} {units.length} large, as hardly any stone is{meant}: `units: {{length: ...}}` says what "
+        'numbers are in, a text such as "400 mm" has its own'
     )
