@@ -276,5 +276,5 @@ FORGERIES: Mapping[str, Forgery] = {
     "search written into the deck": _search_written,
 }
 """by what is done"""
-FOLLOWING = ("angle of a table",)
+FOLLOWING = ("angle of a table", "slopes removed")
 """what is forged here follows from the rest, and is not made anew"""
