@@ -17,7 +17,6 @@ from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, law_residual
 from mbla.results.results import CaseResult, Results
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
-from mbla.solution.nonassociative.factor_range import NOT_FOUND
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
@@ -167,14 +166,19 @@ def _range(found: Found, deck: Deck, case: CaseResult) -> None:
         end: Mechanics | None = getattr(solution, name)
         if end is not None:
             found.differences += _of_programs(name, end, own, solution)
-        elif law_residual(case.checks) <= SOLVED_RESIDUAL and not (name == "upper" and _without_limit(solution)):
+        elif law_residual(case.checks) <= SOLVED_RESIDUAL and not _none_found(name, solution):
             _missing(found, f"{name} end of the range", case, "range-not-found", "range-not-computed")
 
 
-def _without_limit(solution: Solution) -> bool:
-    """Whether the run says that there is no upper end; nothing unsafe rests on that."""
-    words = f"upper end of the range: {NOT_FOUND[Status.UNBOUNDED]}"
-    return any(each.identifier == "range-not-found" and words in each.words for each in solution.remarks)
+def _none_found(name: str, solution: Solution) -> bool:
+    """Whether the programs of the run for an end of a range gave none, as a remark says: both are of the run alone.
+
+    Where no forces fit the mechanism at one end, no program is solved for the other.
+    """
+    own = [record.load_factor for record in solution.programs if record.kind == f"range, {name}"]
+    known = own or [record.load_factor for record in solution.programs if record.kind.startswith("range, ")]
+    said = any(each.identifier == "range-not-found" and f"{name} end" in each.words for each in solution.remarks)
+    return said and bool(known) and not np.isfinite(known).any()
 
 
 def _of_programs(name: str, end: Mechanics, own: Mechanics, solution: Solution) -> list[str]:
