@@ -155,11 +155,22 @@ def edge_defects(polyhedra: Polyhedra, edges: Edges) -> Iterator[Defect]:
         tail, head = edges.ends[found[0]] - polyhedra.vertex_start[block]
         edge, first = counted(len(found), "edge"), f"first that between vertices {tail} and {head}"
         if len(crowded):
-            yield Defect(block, Message("bad-polyhedron", f"has {edge} with more than two faces, {first}"))
+            twice = _face_twice(polyhedra, block)
+            yield Defect(block, Message("bad-polyhedron", f"has {edge} with more than two faces, {first}{twice}"))
         else:
             face = int(edges.any_face[lone[0]] - polyhedra.face_start[block])
             words = f"is not closed: {edge} with one face only, {first}, of face {face}"
             yield Defect(block, Message("open-polyhedron", words))
+
+
+def _face_twice(polyhedra: Polyhedra, block: int) -> str:
+    """The first two faces of a block that have the same corners, in words; empty where there are none."""
+    first: dict[frozenset[int], int] = {}
+    for number, face in enumerate(range(*polyhedra.face_start[block : block + 2].tolist())):
+        corners = frozenset(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist())
+        if first.setdefault(corners, number) != number:
+            return f"; faces {first[corners]} and {number} have the same corners: is one listed twice?"
+    return ""
 
 
 def size_defects(polyhedra: Polyhedra, faces: FaceGeometry, volumes: FloatArray, extents: Extents) -> list[Defect]:

@@ -23,7 +23,9 @@ def test_missing_face() -> None:
 
 def test_face_listed_twice() -> None:
     vertices, faces = box()
-    assert message_of((vertices, [*faces, faces[2][::-1]])).startswith("has 4 edges with more than two faces")
+    message = message_of((vertices, [*faces, faces[2][::-1]]))
+    assert message.startswith("has 4 edges with more than two faces")
+    assert message.endswith("; faces 2 and 6 have the same corners: is one listed twice?")
 
 
 def test_edge_with_more_than_two_faces() -> None:
