@@ -69,8 +69,8 @@ class MeshItem(Item, GeometryFile):
     joint: Name | None = Field(None, description="joint law on the file's supports; that of contacts unless given")
     join_cells: Switch = Field(
         False,
-        description="volume cells that share faces and belong to one set (ELSET, physical group) are one block, "
-        "instead of one each",
+        description="volume cells that share faces and belong to one set (ELSET, physical group, or without one the "
+        "geometric entity of Gmsh) are one block, instead of one each",
     )
     extrude: PositiveLength | None = Field(
         None,

@@ -63,7 +63,8 @@ def members_of(geometry: Geometry, wanted: Sequence[str], key: str, where: str =
 def taken(geometry: Geometry, rows: IntArray) -> Geometry:
     """Some polyhedra of a file, (n,)."""
     names = tuple(geometry.names[row] for row in rows) if geometry.names else ()
-    return replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=names)
+    sets = None if geometry.sets is None else geometry.sets[rows]
+    return replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=names, sets=sets)
 
 
 def placed_vertices(geometry: Geometry, item: GeometryFile, length: str, extrude: float | None = None) -> FloatArray:

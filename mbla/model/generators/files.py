@@ -20,11 +20,12 @@ from mbla.model.generators.file_supports import (
     taken,
 )
 from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.geometry.cells import join_cells, joinable_tetrahedra
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.geometry.repair import repair
-from mbla.model.geometry.surfaces import join_cells
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 from mbla.model.tables import Table, TableRefused, read_table
+from mbla.model.wording import counted
 
 
 def generate_mesh(item: MeshItem, site: Site) -> Generated:
@@ -41,6 +42,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
     geometry = _cells_joined(item, _without(item, read_members(site.resolve_file(("file",), item.file), item)))
     if findings := list(_misfits(item, geometry)):
         raise ItemRefused(*findings)
+    loose = _loose_cells(item, geometry)
     vertices = placed_vertices(geometry, item, site.length, item.extrude)
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
     solid, surfaces = split_off_supports(placed, item, site.tolerance)
@@ -49,7 +51,7 @@ def generate_mesh(item: MeshItem, site: Site) -> Generated:
         words = "the file holds no blocks: its faces have no area"
         raise ItemRefused(Finding("geometry-without-blocks", words, "file"))
     members = [member_name(name) for name in blocks.names]
-    remarks = (*blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
+    remarks = (*loose, *blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
     part = Part(blocks.polyhedra, member=members if any(members) else "")
     return Generated((part,), surfaces=surfaces, notices=notices)
@@ -72,6 +74,18 @@ def _cells_joined(item: MeshItem, geometry: Geometry) -> Geometry:
         words = "applies to files with volume cells only: leave it out"
         raise ItemRefused(Finding("key-of-another-choice", words, "join_cells"))
     return join_cells(geometry) if item.join_cells else geometry
+
+
+def _loose_cells(item: MeshItem, geometry: Geometry) -> list[Notice]:
+    """A warning of tetrahedra of a finite-element mesh that became a block each."""
+    sharing, joined = joinable_tetrahedra(geometry) if geometry.cells and not item.join_cells else (0, 0)
+    if not sharing:
+        return []
+    words = (
+        f"{sharing} tetrahedra share whole faces and are a block each, as of the mesh of a finite-element program; "
+        f"join_cells: true makes {counted(joined, 'block')} of the {len(geometry.polyhedra)} cells"
+    )
+    return [Notice("warning", "cells-not-joined", words)]
 
 
 def _misfits(item: MeshItem, geometry: Geometry) -> Iterator[Finding]:

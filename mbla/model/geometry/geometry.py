@@ -50,6 +50,7 @@ class Geometry:
     polyhedra : what the file keeps apart: its objects, each one or several closed surfaces; or its volume cells
     notices   : what was left out or put right
     names     : name of each polyhedron in the file, empty where it has none; or no entry at all
+    sets      : (n,) number of the set of each volume cell, beside its name; None where the file has no such numbers
     cells     : each polyhedron is a volume cell, and so a block; else surfaces, whose closed parts are the blocks
     indexed   : faces share vertices by number, so that two vertices at one place are worth a remark
     unit      : unit of length of the file, where its header says so
@@ -59,6 +60,7 @@ class Geometry:
     polyhedra: Polyhedra
     notices: tuple[Notice, ...] = ()
     names: tuple[str, ...] = ()
+    sets: IntArray | None = None
     cells: bool = False
     indexed: bool = True
     unit: str | None = None

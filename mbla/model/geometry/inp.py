@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import (
     Geometry,
     GeometryFileError,
@@ -22,7 +23,6 @@ from mbla.model.geometry.geometry import (
     malformed,
     unused_points,
 )
-from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 

@@ -28,6 +28,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.errors import FileError, Notice
+from mbla.model.geometry.cells import VOLUME_CELLS
 from mbla.model.geometry.geometry import (
     Geometry,
     GeometryFileError,
@@ -36,7 +37,6 @@ from mbla.model.geometry.geometry import (
     malformed,
     unused_points,
 )
-from mbla.model.geometry.surfaces import VOLUME_CELLS
 from mbla.model.geometry.welding import own_vertices, surfaces_by_label
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_cells
 from mbla.model.solids.ragged import ranges
@@ -104,7 +104,7 @@ def _read(path: str, file_format: str) -> Geometry:
     names = _physical_groups(mesh, used)
     if volumes:
         cells = join_polyhedra([_volume_cells(points, block) for block in volumes])
-        return Geometry(cells, notices, names, cells=True)
+        return Geometry(cells, notices, names, _entities(mesh, volumes), cells=True)
     sided = [np.asarray(block.data, dtype=np.int64)[:, : SURFACE_CELLS[_shape(block.type)]] for block in used]
     faces = [face for loops in sided for face in loops.tolist()]
     check_rows(np.fromiter(chain.from_iterable(faces), dtype=np.int64), len(points))
@@ -123,6 +123,21 @@ def _physical_groups(mesh: Any, used: Sequence[Any]) -> tuple[str, ...]:
         if any(block is other for other in used):
             names += [words.get((int(tag), block.dim), "") for tag in of_block]
     return tuple(names)
+
+
+def _entities(mesh: Any, used: Sequence[Any]) -> IntArray | None:
+    """Number of the physical group of each cell of some of Gmsh's blocks of cells, or less than 0 of its geometric
+    entity where it is in none, (n,).
+    """
+    entities, groups = (mesh.cell_data.get(f"gmsh:{kind}") for kind in ("geometrical", "physical"))
+    if entities is None:
+        return None
+    rows = [row for row, block in enumerate(mesh.cells) if any(block is other for other in used)]
+    entity = np.concatenate([np.asarray(entities[row], dtype=np.int64) for row in rows])
+    if groups is None:
+        return -entity
+    group = np.concatenate([np.asarray(groups[row], dtype=np.int64) for row in rows])
+    return np.where(group > 0, group, -entity)
 
 
 def _mesh(path: str, file_format: str) -> tuple[Any, list[Notice]]:

@@ -27,13 +27,14 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.errors import Notice
 from mbla.model.geometry.geometry import Geometry
-from mbla.model.geometry.surfaces import face_codes, repeated_faces, split_surfaces
+from mbla.model.geometry.repeated_faces import face_codes, repeated_faces
+from mbla.model.geometry.surfaces import split_surfaces
 from mbla.model.geometry.welding import Welded, take_faces, weld, weld_near, with_faces
 from mbla.model.solids.defects import Defects, coordinate_defects
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.wording import with_count
+from mbla.model.wording import counted, with_count
 
 
 @dataclass
@@ -86,15 +87,20 @@ def repair(geometry: Geometry, tolerance: float, weld_distance: float | None = N
         _weld_near(work, everything, np.full(len(everything), weld_distance))
     if not geometry.cells and len(work.polyhedra):
         _pool_open_objects(work)
-        _drop(work, flat_faces, "faces-flat", "without area: all corners on one line")
-        _drop(work, repeated_faces, "faces-repeated", "listed twice")
+        _drop(work, flat_faces, "faces-flat", "without area: all corners on one line", geometry)
+        _drop(work, repeated_faces, "faces-repeated", "listed twice", geometry)
         _close_gaps(work, tolerance)
         _split(work, geometry)
     if not work.pooled:
         _put_back(work, geometry)
     names = tuple("" if work.pooled else geometry.names[row] for row in work.source) if geometry.names else ()
     return replace(
-        geometry, polyhedra=work.polyhedra, notices=(*geometry.notices, *work.notices), names=names, cells=True
+        geometry,
+        polyhedra=work.polyhedra,
+        notices=(*geometry.notices, *work.notices),
+        names=names,
+        sets=None,
+        cells=True,
     )
 
 
@@ -133,10 +139,18 @@ def _pool_open_objects(work: _Work) -> None:
     work.polyhedra, work.source, work.pooled = together, work.source[:1], True
 
 
-def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
+def _drop(work: _Work, geometry: Geometry, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
+    """Leave out the faces that ``find`` finds, and say of which objects they were."""
     if (dropped := find(work.polyhedra)).any():
+        objects = np.unique(work.source[work.polyhedra.block_of_face[dropped]])
         work.put(take_faces(work.polyhedra, ~dropped))
-        work.note(identifier, int(dropped.sum()), "face", f"left out, {what}")
+        where = ""
+        if geometry.names and not work.pooled:
+            first = geometry.names[objects[0]] or "without a name"
+            where = (
+                f"; in {counted(len(objects), 'object')}, first {first}" if len(objects) > 1 else f"; object {first}"
+            )
+        work.note(identifier, int(dropped.sum()), "face", f"left out, {what}{where}")
 
 
 def _close_gaps(work: _Work, tolerance: float) -> None:

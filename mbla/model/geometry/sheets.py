@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Refusal
-from mbla.model.geometry.surfaces import face_codes
+from mbla.model.geometry.repeated_faces import face_codes
 from mbla.model.geometry.welding import take_faces, weld
 from mbla.model.solids.facets import can_be_split, find_facets, split_faces
 from mbla.model.solids.measures import face_geometry, faces_to_turn, find_edges, volumes_and_centroids

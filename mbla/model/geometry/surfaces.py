@@ -7,26 +7,21 @@ its own block:
     with t the direction in which a face passes the edge and n its outward normal, the face lies along n x t, and its
     block on the side of turning about -t; its partner passes the edge along -t.
 
-A face that has the corners of another may be that of a neighbour that touches there. It is a second copy where the
-surface closes without it: an odd number of faces meets at an edge of it. Surfaces with a copy of every face the other
-way round (both sides of each face exported) come apart into twins.
-
-Volume cells of mesh files by their faces (types have meshio's names), and the sets of them joined to blocks.
+Surfaces with a copy of every face the other way round (both sides of each face exported) come apart into twins.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.model.geometry.geometry import Geometry
-from mbla.model.geometry.welding import own_vertices, take_faces, weld
+from mbla.model.geometry.repeated_faces import face_codes
+from mbla.model.geometry.welding import own_vertices
 from mbla.model.solids.measures import connected_labels, face_geometry
 from mbla.model.solids.plane import plane_axes, unit
-from mbla.model.solids.polyhedra import HEXAHEDRON, Polyhedra, take_polyhedra
+from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import numbered, ranges
 
 SAME_DIRECTION = 0.05
@@ -111,70 +106,3 @@ def _pair_around(surface: Polyhedra, corners: IntArray, normals: FloatArray) -> 
     if len(np.unique(partner)) != len(partner):
         return together
     return np.stack([corners[ahead], corners[back[partner]]], axis=1)
-
-
-def face_codes(polyhedra: Polyhedra, *, oriented: bool) -> IntArray:
-    """Number that faces with the same corners share, in the same order if ``oriented``, (n_faces,)."""
-    counts = np.diff(polyhedra.loop_start)
-    codes = np.zeros(len(counts), dtype=np.int64)
-    used = 0
-    for n in np.unique(counts):
-        rows = np.flatnonzero(counts == n)
-        corners = polyhedra.loops[ranges(polyhedra.loop_start[rows], counts[rows])].reshape(-1, n)
-        if oriented:  # every face from its least corner on
-            turn = (np.argmin(corners, axis=1)[:, None] + np.arange(n)) % n
-            corners = np.take_along_axis(corners, turn, axis=1)
-        else:
-            corners = np.sort(corners, axis=1)
-        unique, inverse = np.unique(corners, axis=0, return_inverse=True)
-        codes[rows] = used + inverse.reshape(-1)
-        used += len(unique)
-    return codes
-
-
-def repeated_faces(surfaces: Polyhedra) -> BoolArray:
-    """Faces that are copies of another and not needed to close the surface, (n_faces,)."""
-    codes = face_codes(surfaces, oriented=False)
-    copies = np.ones(len(codes), dtype=bool)
-    copies[np.unique(codes, return_index=True)[1]] = False
-    odd = surfaces.faces_at_edge % 2 == 1
-    return np.asarray(copies & (np.bincount(surfaces.face_of_corner[odd], minlength=len(codes)) > 0))
-
-
-VOLUME_CELLS: dict[str, tuple[int, Sequence[Sequence[int]]]] = {
-    "tetra": (4, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))),
-    "hexahedron": (8, HEXAHEDRON),
-    "wedge": (6, ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))),
-    "pyramid": (5, ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))),
-    "penta_prism": (
-        10,
-        ((4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5) for i in range(5))),
-    ),
-    "hexa_prism": (
-        12,
-        ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))),
-    ),
-}
-"""number of corners and faces by corner, of each shape of cell; cells of higher order begin with their corners"""
-
-
-def join_cells(geometry: Geometry) -> Geometry:
-    """The outer faces of the cells of each set as one surface; cells without a set make one together."""
-    cells = geometry.polyhedra
-    names = geometry.names or ("",) * len(cells)
-    present = list(dict.fromkeys(names))
-    row_of = {name: row for row, name in enumerate(present)}
-    owner = np.array([row_of[name] for name in names], dtype=np.int64)
-    order = np.argsort(owner, kind="stable")
-    sorted_cells = take_polyhedra(cells, order)
-    block = owner[order][sorted_cells.block_of_face]
-    merged = own_vertices(sorted_cells.vertices, sorted_cells.loops, sorted_cells.loop_start, block)
-    welded = weld(merged).polyhedra
-    codes = face_codes(welded, oriented=False)
-    return replace(
-        geometry,
-        polyhedra=take_faces(welded, np.bincount(codes)[codes] == 1),
-        names=tuple(present) if any(present) else (),
-        cells=False,
-        indexed=False,
-    )

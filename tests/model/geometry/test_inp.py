@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.model.geometry.cells import join_cells
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.inp import read_inp
 from mbla.model.geometry.repair import repair
-from mbla.model.geometry.surfaces import join_cells
 from mbla.model.solids.polyhedra import cuboids
 from tests.model.shapes import box, build_raw
 

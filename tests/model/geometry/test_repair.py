@@ -153,7 +153,44 @@ def test_a_face_listed_twice_goes() -> None:
     for second in (faces[2], faces[2][::-1], [*faces[2][1:], faces[2][0]]):
         geometry = repaired(raw((vertices, [*faces, second])), names=("a",))
         assert volumes(geometry) == [1]
-        assert told(geometry) == ["1 face was left out, listed twice"]
+        assert told(geometry) == ["1 face was left out, listed twice; object a"]
+
+
+@pytest.mark.parametrize("turned", ["none", "every other", "last three"])
+@pytest.mark.parametrize("missing", [0, 1, 2, 5])
+def test_most_faces_listed_twice_go_once(missing: int, turned: str) -> None:
+    vertices, faces = box()
+    turn = {"none": [], "every other": [1, 3, 5], "last three": [3, 4, 5]}[turned]
+    again = [face[::-1] if number in turn else face for number, face in enumerate(faces)][missing:]
+    for surface in (raw((vertices, [*faces, *again])), raw((vertices, [*again[::-1], *faces]))):
+        geometry = repaired(surface, raw(box((2, 0, 0), (3, 1, 1))), names=("a", "b"))
+        assert volumes(geometry) == [1, 1]
+        assert geometry.names == ("a", "b")
+        count = "1 face was" if missing == 5 else f"{6 - missing} faces were"
+        assert told(geometry) == [f"{count} left out, listed twice; object a"]
+
+
+def test_faces_listed_three_times_in_two_objects() -> None:
+    vertices, faces = box()
+    thrice = raw((vertices, [*faces, *faces, *faces]))
+    geometry = repaired(thrice, raw(moved((vertices, [*faces, faces[0]]), rotation(1), (9, 0, 0))), names=("a", "b"))
+    assert volumes(geometry) == pytest.approx([1, 1])
+    assert told(geometry) == ["13 faces were left out, listed twice; in 2 objects, first a"]
+
+
+@pytest.mark.parametrize("seed", [None, 0])
+@pytest.mark.parametrize("again", [[], [0], [0, 6], [2, 3, 4], list(range(12))], ids=str)
+def test_a_wall_between_two_blocks_of_an_object_stays(again: list[int], seed: int | None) -> None:
+    turn = np.eye(3) if seed is None else rotation(seed)
+    wall = [moved(box(), turn), moved(box((0, 0, 1), (1, 1, 2)), turn)]
+    faces = [(vertices, face) for vertices, faces in wall for face in faces]
+    copies = [(vertices, [face]) for vertices, face in (faces[number] for number in again)]
+    assert split_volumes(*wall, *copies) == pytest.approx([1, 1])
+
+
+def test_a_face_listed_once_more_the_other_way_round_beside_a_wall_goes() -> None:
+    vertices, faces = box()
+    assert split_volumes(box(), box((0, 0, 1), (1, 1, 2)), (vertices, [faces[2][::-1]])) == pytest.approx([1, 1])
 
 
 def test_both_sides_of_every_face_listed() -> None:
