@@ -139,7 +139,8 @@ def _pool_open_objects(work: _Work) -> None:
     work.polyhedra, work.source, work.pooled = together, work.source[:1], True
 
 
-def _drop(work: _Work, geometry: Geometry, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str) -> None:
+def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str, geometry: Geometry) -> None:
+    """Leave out the faces that ``find`` finds, and say of which objects they were."""
     """Leave out the faces that ``find`` finds, and say of which objects they were."""
     if (dropped := find(work.polyhedra)).any():
         objects = np.unique(work.source[work.polyhedra.block_of_face[dropped]])
