@@ -141,7 +141,6 @@ def _pool_open_objects(work: _Work) -> None:
 
 def _drop(work: _Work, find: Callable[[Polyhedra], BoolArray], identifier: str, what: str, geometry: Geometry) -> None:
     """Leave out the faces that ``find`` finds, and say of which objects they were."""
-    """Leave out the faces that ``find`` finds, and say of which objects they were."""
     if (dropped := find(work.polyhedra)).any():
         objects = np.unique(work.source[work.polyhedra.block_of_face[dropped]])
         work.put(take_faces(work.polyhedra, ~dropped))
