@@ -30,7 +30,7 @@ def assemble(folder: Path, *items: str, supports: str = "[{ground: {z: 0}}]", to
     model = build_model(read)
     contacts = find_contacts(model, read.content.contacts)
     report = contacts.report
-    assert model.notices == ()
+    assert [notice for notice in model.notices if notice.identifier != "block-size-unusual"] == []
     assert len(report.overlaps) == len(report.unchecked) == 0, report.overlaps
     assert len(report.near_misses) == len(report.slivers) == 0
     assert len(report.isolated) == len(report.unsupported) == 0
