@@ -26,6 +26,7 @@ from mbla.errors import DeckError, FileError, Notice
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
+from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces, takes_stress_blocks
 from mbla.results.diff.cases import least_factor
 from mbla.results.exit_status import exit_code
@@ -46,6 +47,7 @@ from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt import angle_of_load, found_angle, leads_across
 from mbla.solution.tilt_circle import chord
+from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
 
@@ -61,7 +63,7 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     again = recomputed(results, deck)
     unconfirmed: tuple[str, ...] = ()
     for case in again.cases:
-        name, found = case.load_case.name, Found(_unproved(results.model, case))
+        name, found = case.load_case.name, Found(_unproved(results, case))
         if deck is not None:
             found = _held_against(deck, results, case, found)
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
@@ -149,13 +151,16 @@ def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crusha
     )
 
 
-def _unproved(model: Model, case: CaseResult) -> list[str]:
+def _unproved(results: Results, case: CaseResult) -> list[str]:
     """Claims of a case that do not follow from what they must follow from."""
     found, solution, checks = [], case.solution, case.checks
+    model, contacts = results.model.of_case(case.load_case), results.contacts
     associative, standing = solution.associative, solution.standing
     if associative is not None:
         least, most = checks.static_bound, checks.kinematic_bound
-        room = SOLVED_RESIDUAL * max(abs(most), abs(least), least_factor(model, case.load_case))
+        scale = load_scale(model, contacts, case.load_case, yield_limits(model, contacts))  # also without dead load
+        nothing = max(least_factor(model, case.load_case), scale.least_factor(associative.mechanism))
+        room = SOLVED_RESIDUAL * max(abs(most), abs(least), nothing)
         if associative.load_factor < least - room or associative.load_factor > most + room:
             found.append(
                 f"the associative load factor {associative.load_factor:.8g} is not between its bounds {least:.8g} "

@@ -79,6 +79,16 @@ class Normals:
         return np.asarray(np.where(distance < 5.0, self.values[nearest], 0.0))
 
 
+NO_WORK = 1e-12
+"""Power of the live load in a motion over what its parts add up to regardless of sign, that is rounding."""
+
+
+def _does_work(program: Program, state: LawState) -> bool:
+    """Whether the live load does work in the motion of a state: else no mechanism of unit live power is in it."""
+    powers = program.live_load * state.velocities
+    return float(powers.sum()) > NO_WORK * float(np.abs(powers).sum())
+
+
 @dataclass(frozen=True)
 class StepProgram:
     """Solves steps by the flow rule of the analysis."""
@@ -104,8 +114,8 @@ class StepProgram:
         row = min(known)[1]
         state = states[row]
         assert state is not None  # it is among those known
-        whole = assemble_parts(parts, row, state, self.settings, self.log, states)
-        return mechanics_of(*(whole or (parts[row], state)))
+        solved, state = assemble_parts(parts, row, state, self.settings, self.log, states) or (parts[row], state)
+        return mechanics_of(solved, state) if _does_work(solved, state) else None
 
     def _state(self, part: Program, normals: FloatArray) -> LawState | None:
         """The state of a part from the normal forces of the step before; from its motion it took half as long again."""
