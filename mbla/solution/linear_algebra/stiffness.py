@@ -59,8 +59,15 @@ class BorderedFactors:
         ordered = rhs[self.order]
         solution = self.factors.solve(ordered)
         solution += self.factors.solve(ordered - self.matrix @ solution)  # pivots are small where joints are open
-        result = np.empty_like(solution)
-        result[self.order] = solution
+        return self._back(solution)
+
+    def unrefined(self, rhs: FloatArray) -> FloatArray:
+        """The same without refinement, in half of the time."""
+        return self._back(self.factors.solve(rhs[self.order]))
+
+    def _back(self, ordered: FloatArray) -> FloatArray:
+        result = np.empty_like(ordered)
+        result[self.order] = ordered
         return result
 
 

@@ -1,0 +1,1 @@
+"""Which state a structure reaches without dilatancy: the path of elastic joints."""

@@ -1,0 +1,350 @@
+"""The load that a structure reaches from its stress-free assembly: the greatest on the path of elastic joints.
+
+Without dilatancy many states fit the law of rigid joints. Joints with a stiffness select one: from the structure at
+rest under its dead load the live load is driven by its own displacement, step by step, with what the joints remember.
+The greatest load factor on that path does not depend on how stiff the joints are, for displacements are counted in
+units of the elastic displacement of the structure at its associative load (all joints stuck), and the path ends at 50.
+
+A step is one primal–dual step of :mod:`mbla.solution.law.joint_step` on an implicit step of length h; what is not gone
+of it is made up for in the next one. The products of the law are n₀²/(κ h): they smooth the law, the less the longer
+the steps and the larger κ. The step of the greatest load is solved once more without smoothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.flow.gravity_step import Gravity
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
+from mbla.solution.law.joint_step import JointStep, Residual, direction_of, length_of, residual_of
+
+LIMP = 1e-6
+"""Stiffness of ties over that of joints in the measure of displacement: they may be slack."""
+
+BREAKS = 1e-7
+"""Reach of a direction with which a path breaks down."""
+
+OF_FLOOR = 0.3
+"""Least product N y at the beginning of a step, over the one wanted."""
+
+
+class Stop(StrEnum):
+    """Why a path ended: the first three are answers."""
+
+    FALLS = "falls"
+    FLAT = "flat"
+    FAR = "far"
+    STUCK = "stuck"
+    BROKE_DOWN = "breaks down"
+    BUDGET = "budget"
+
+
+@dataclass(frozen=True)
+class PathStep:
+    """One step of the path, as the curve has it.
+
+    displacement : after it, in units
+    load_factor  : of the program
+    counted      : whether the state is in balance well enough
+    reach        : of its direction
+    """
+
+    displacement: float
+    load_factor: float
+    counted: bool
+    reach: float
+
+
+@dataclass(frozen=True)
+class PeakStep:
+    """The step with the greatest load factor: its equations, the products that were wanted, the state after it."""
+
+    step: JointStep
+    sigma: float
+    state: StepState
+    displacement: float
+
+
+@dataclass(frozen=True)
+class ElasticPath:
+    """A path that was followed.
+
+    peak         : step of the greatest load factor, without smoothing where it could be solved so; None where no step
+                   counts
+    last         : state at the end
+    stop         : why it ended
+    steps        : the curve
+    unit         : of displacement, for a live work of 1 in units of the program
+    factorizations : spent
+    recentred    : times that it was blocked
+    """
+
+    peak: PeakStep | None
+    last: StepState
+    stop: Stop
+    steps: tuple[PathStep, ...]
+    unit: float
+    factorizations: int
+    recentred: int
+
+    @property
+    def load_factor(self) -> float:
+        """λ_p, of the program; nan where no step counts."""
+        return float("nan") if self.peak is None else self.peak.state.factor
+
+    @property
+    def displacement(self) -> float:
+        """At the end, in units."""
+        return self.steps[-1].displacement if self.steps else 0.0
+
+    def gain(self) -> float:
+        """Share of the greatest load factor that was gained over the last half of the displacement."""
+        before = [step.load_factor for step in self.steps if step.counted and step.displacement <= 0.5 * self.displacement]
+        return 1.0 - max(before, default=0.0) / self.load_factor if self.peak is not None else float("nan")
+
+
+def elastic_motion(joints: ElasticJoints) -> FloatArray:
+    """Displacements of the blocks under the live load with all joints stuck, (n_rows,)."""
+    program = joints.program
+    tangents = np.zeros((program.n_points, program.components, program.components))
+    holds = (joints.friction > 0.0) | (program.limits.cohesion > 0.0)
+    tangents[:, 0, 0] = np.where(holds, joints.normal, LIMP * joints.normal)
+    for tangent in range(1, program.components):
+        tangents[:, tangent, tangent] = joints.shear
+    solve = joints.matrix.factorized(tangents, 1e-12 * joints.matrix.size, fixed_load=True)
+    if solve is None:
+        return np.asarray(program.live_load / float(program.live_load @ program.live_load))
+    return np.asarray(-solve(np.append(program.live_load, 0.0))[:-1])
+
+
+def follow(
+    joints: ElasticJoints, gravity: Gravity, associative: float, settings: PathSettings, unit: float | None = None
+) -> ElasticPath:
+    """The path from the structure at rest.
+
+    associative : load factor of associative flow
+    unit        : of displacement; by these joints unless given
+    """
+    path = _Path(joints, gravity, abs(associative), settings)
+    motion = elastic_motion(joints)
+    path.unit = float(joints.program.live_load @ motion) * abs(associative) if unit is None else unit
+    path.begin(motion)
+    stop = Stop.BUDGET
+    for _ in range(settings.steps):
+        ended = path.advance()
+        if ended is not None:
+            stop = ended
+            break
+    return path.result(stop)
+
+
+@dataclass
+class _Path:
+    """A path on its way.
+
+    h, kappa : length of the next step, in time, and smoothing κ
+    force    : n₀
+    top      : step of the greatest load factor so far
+    risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
+    low      : steps in a row below the peak, and the displacement of the first of them
+    blocked  : steps in a row that were blocked, since the last re-centring and in all
+    good     : length of the last step that went well
+    """
+
+    joints: ElasticJoints
+    gravity: Gravity
+    associative: float
+    settings: PathSettings
+    unit: float = field(init=False)
+    state: StepState = field(init=False)
+    memory: Memory = field(init=False)
+    h: float = field(init=False)
+    kappa: float = field(init=False)
+    force: float = field(init=False)
+    good: float = field(init=False)
+    displacement: float = 0.0
+    top: PeakStep | None = None
+    risen: tuple[float, float] = (0.0, 0.0)
+    low: tuple[int, float] = (0, 0.0)
+    blocked: tuple[int, int] = (0, 0)
+    recentred: int = 0
+    factorizations: int = 1
+    steps: list[PathStep] = field(default_factory=list)
+
+    def begin(self, motion: FloatArray) -> None:
+        """At rest, moving as if all joints were stuck."""
+        joints, live = self.joints, self.joints.program.live_load
+        n = max(joints.program.n_points, 1)
+        self.force = max(self.gravity.force, self.associative * float(np.abs(live).sum()) / n)
+        self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
+        self.good, self.memory = self.h, self.gravity.memory
+        at_rest = replace(self.gravity.state, u=motion / float(live @ motion))
+        self.state = self._centred(at_rest, 0.99)
+
+    @property
+    def sigma(self) -> float:
+        """Products of the law in the next step."""
+        return self.force**2 / (self.kappa * self.h)
+
+    @property
+    def peak(self) -> float:
+        """The greatest load factor so far."""
+        return 0.0 if self.top is None else self.top.state.factor
+
+    def _centred(self, state: StepState, share: float) -> StepState:
+        """On the central path for the present normal forces and shear, the latter within a share of its limit."""
+        joints, sigma = self.joints, self.sigma
+        limit = joints.limit(state.normal)
+        shear = within(state.shear, limit, share)
+        speed = sigma * limit / (limit * limit - (shear * shear).sum(axis=0))
+        return replace(
+            state,
+            opening=sigma / (state.normal + joints.program.limits.tension),
+            shear=shear,
+            slip=-(speed / limit) * shear,
+            speed=speed,
+            crushing=sigma / joints.room(state.normal),
+        )
+
+    def advance(self) -> Stop | None:
+        """One step; why the path ends after it, None where it goes on."""
+        left = self.settings.until - self.displacement
+        if self.h > left * self.unit:  # the last step ends where the path does, as smooth as it was
+            self.kappa, self.h = self.kappa * self.h / (left * self.unit), left * self.unit
+        step, sigma = JointStep(self.joints, self.memory, self.h), self.sigma
+        before = with_openings(step, self.state, sigma)
+        found = direction_of(step, before, residual_of(step, before), sigma)
+        self.factorizations += 1
+        if found is None or found[1] < BREAKS:
+            return Stop.BROKE_DOWN
+        direction, reach = found
+        length = length_of(reach)
+        self.state = before.plus(direction, length)
+        self.displacement += length * self.h / self.unit
+        moved = length * self.h * self.joints.velocities(self.state.u)
+        self.memory = self.memory.after(self.joints, moved, self.state.normal)
+        counted = self._counts(step, sigma, length)
+        self.steps.append(PathStep(self.displacement, self.state.factor, counted, reach))
+        return self._ended(counted, reach, sigma) or self._next(reach)
+
+    def _counts(self, step: JointStep, sigma: float, length: float) -> bool:
+        """Whether the state is in balance; the peak where it is the greatest."""
+        unbalanced, state = self.joints.unbalanced(self.state), self.state
+        force, power = self.settings.counted
+        counted = float(np.abs(unbalanced).max(initial=0.0)) < force
+        counted = counted and abs(float(unbalanced @ state.u)) < power * self.associative
+        if counted and state.factor > self.peak:
+            gone = replace(step, length=length * step.length)
+            self.top = PeakStep(gone, sigma, state, self.displacement)
+        if counted and state.factor > 1.001 * self.risen[0]:
+            self.risen = (state.factor, self.displacement)
+        return counted
+
+    def _ended(self, counted: bool, reach: float, sigma: float) -> Stop | None:
+        """Falls, flat, far, stuck, or None."""
+        settings, n = self.settings, self.joints.program.n_points
+        if 2.0 * n * sigma <= 0.3 * self.associative:
+            below = counted and self.peak > 0.0 and reach > 0.2
+            below = below and self.state.factor < (1.0 - settings.dropped) * self.peak
+            first = self.low[1] if self.low[0] else self.displacement
+            self.low = (self.low[0] + 1, first) if below else (0, 0.0)
+        if self.low[0] >= 3 and self.displacement >= 1.02 * self.low[1] and self.displacement > 1.0:
+            return Stop.FALLS
+        settled = self.displacement > settings.settled
+        if counted and settled and self.displacement > 2.2 * self.risen[1]:
+            return Stop.FLAT
+        if self.displacement >= settings.until * (1.0 - 1e-9):
+            return Stop.FAR
+        short = reach < settings.short
+        self.blocked = (self.blocked[0] + 1, self.blocked[1] + 1) if short else (0, 0)
+        return Stop.STUCK if self.blocked[1] >= 12 else None
+
+    def _next(self, reach: float) -> Stop | None:
+        """Length and smoothing of the next step; a blocked path is brought back, or has gained nothing any more."""
+        settings = self.settings
+        if reach >= 0.9:
+            self.h *= settings.growth
+        elif reach > 0.3:
+            self.h *= 1.0 + (settings.growth - 1.0) * (reach - 0.3) / 0.6
+        elif reach < 0.03:
+            self.h *= 0.4
+        elif reach < 0.1:
+            self.h *= 0.7
+        floor = self._least_smoothing()
+        if reach < 0.3:
+            self.kappa = max(floor, 0.6 * self.kappa) if self.kappa > floor else self.kappa
+        elif reach > 0.5:
+            self.kappa = min(settings.most_smoothing, 2.0 * self.kappa)
+        self.h = min(self.h, max(settings.longest * self.displacement, settings.first) * self.unit)
+        if self.blocked[0] >= 2 and self.displacement > settings.settled and self.peak > 0.0:
+            half = [s.load_factor for s in self.steps if s.displacement <= 0.5 * self.displacement and s.counted]
+            if self.peak < 1.005 * max(half, default=0.0):
+                return Stop.FLAT
+        if self.blocked[0] >= 2 and self.recentred < settings.recentred:
+            self._recentre()
+        if reach >= 0.2:
+            self.good = self.h
+        return None
+
+    def _least_smoothing(self) -> float:
+        """κ with which smoothing takes its share of the live power."""
+        share, from_there = self.settings.smoothed
+        share *= min(1.0, from_there / self.displacement) if self.displacement > 0.0 else 1.0
+        n = self.joints.program.n_points
+        wanted = 2.0 * n * self.force**2 / (share * self.associative * self.h)
+        return max(self.settings.least_smoothing, min(1.0, wanted))
+
+    def _recentre(self) -> None:
+        """Blocked: on the central path of the present forces, with ten times the products."""
+        self.recentred += 1
+        self.kappa /= 10.0
+        if self.blocked[1] > 2:
+            self.h = max(self.h, 0.3 * self.good)
+        self.blocked = (0, self.blocked[1])
+        self.state = self._centred(self.state, 0.95)
+
+    def result(self, stop: Stop) -> ElasticPath:
+        """The path, with its peak once more without smoothing."""
+        peak, more = (None, 0) if self.top is None else sharpened_peak(self.top, self.settings)
+        spent = self.factorizations + more + self.gravity.steps
+        return ElasticPath(peak, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred)
+
+
+def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
+    """The state with the openings that its motion has, where these are not nearly closed."""
+    joints, v = step.joints, step.joints.velocities(state.u)
+    opening = v[0] + step.normal_compliance * (state.normal - step.memory.normal)
+    if joints.dilates:
+        opening = opening - joints.dilatancy * state.speed
+    opening[joints.crushable] += state.crushing
+    floor = OF_FLOOR * sigma / (state.normal + joints.program.limits.tension)
+    return replace(state, opening=np.maximum(opening, floor))
+
+
+SHARPER, SHARPENINGS, AT_REST = 0.2, 8, 2e-5
+"""Factor on the products when the step of the peak is solved again, times at most, and change of the load factor with
+which it is at rest."""
+
+
+def sharpened_peak(peak: PeakStep, settings: PathSettings) -> tuple[PeakStep, int]:
+    """The step of the peak again from its history, with ever smaller products; factorisations spent."""
+    step, state, sigma, best = peak.step, peak.state, peak.sigma, peak
+    count = 0
+    for count in range(1, SHARPENINGS + 1):
+        sigma *= SHARPER
+        before = with_openings(step, state, sigma)
+        residual: Residual = residual_of(step, before)
+        found = direction_of(step, before, residual, sigma)
+        if found is None or found[1] < 0.2:
+            break
+        last, state = state, before.plus(found[0], length_of(found[1]))
+        if float(np.abs(step.joints.unbalanced(state)).max(initial=0.0)) < settings.counted[0]:
+            best = PeakStep(step, sigma, state, peak.displacement)
+        if abs(state.factor - last.factor) < AT_REST * abs(state.factor):
+            break
+    return best, count

@@ -1,0 +1,56 @@
+"""Settings of the path of elastic joints, in one record.
+
+What each is worth was measured on whole corpora, tests/performance; none is a key of a deck but the two of ``analysis.path``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class PathSettings:
+    """Displacements are over the unit: the elastic displacement of the whole structure at the associative load.
+
+    ratio        : shear over normal stiffness of a joint
+    until        : displacement at which the path ends
+    first        : length of the first step
+    growth       : factor on the length of a step after one that was gone whole
+    longest      : length of a step over the displacement so far, at most
+    smoothing    : κ at first; the products of the law are n₀²/(κ h)
+    least_smoothing, most_smoothing : κ at least and at most
+    smoothed     : share of the live power that smoothing may take, and displacement from which less of it
+    settled      : displacement from which a path may end flat
+    dropped      : share of the peak by which the load falls where a path ends as a fall
+    counted      : unbalanced force, in mean loads of a block, and share of its power up to which a step counts
+    short        : reach of a direction below which a step is blocked
+    recentred    : times that a blocked path is brought back to the central path, at most
+    steps        : at most
+    """
+
+    ratio: float = 0.4
+    until: float = 50.0
+    first: float = 0.2
+    growth: float = 2.0
+    longest: float = 0.3
+    smoothing: float = 10.0
+    least_smoothing: float = 0.01
+    most_smoothing: float = 5.0
+    smoothed: tuple[float, float] = (0.2, 4.0)
+    settled: float = 8.0
+    dropped: float = 0.015
+    counted: tuple[float, float] = (1e-5, 1e-3)
+    short: float = 0.03
+    recentred: int = 12
+    steps: int = 300
+
+    def validate(self) -> None:
+        """Raise a ValueError where a path could not be followed with them."""
+        if not 0.05 <= self.ratio <= 2.0:
+            raise ValueError(f"ratio of stiffness {self.ratio} is not within 0.05 and 2")
+        if not 5.0 <= self.until <= 1000.0:
+            raise ValueError(f"end of the path {self.until} is not within 5 and 1000")
+        if not 0.0 < self.first < self.until or not self.growth > 1.0 or not self.steps > 0:
+            raise ValueError("steps of the path do not lead to its end")
+        if not 0.0 < self.least_smoothing <= self.most_smoothing:
+            raise ValueError("the least smoothing is not below the most")

@@ -1,0 +1,42 @@
+"""Shares of the stiffness of joints that the contact points of a reduced program have.
+
+Normal stiffness is in proportion to area, and the points of an interface share it equally: shares by the area nearest
+to each point would hang on rounding of the coordinates. Ties are as stiff as the mean of the points.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.program.program import Program
+
+
+def equal_shares(contacts: Contacts) -> FloatArray:
+    """Area of each point of all contacts, (n_points,), interfaces divided equally; of ties the mean."""
+    of_point = contacts.interface_of_point
+    shares = (contacts.areas / np.maximum(np.diff(contacts.point_start), 1))[of_point]
+    joints = np.ones(len(shares), dtype=bool)
+    joints[contacts.tie_points] = False
+    shares[~joints] = shares[joints].mean() if joints.any() else 1.0
+    return np.asarray(shares)
+
+
+def shares_of(program: Program, full: FloatArray) -> FloatArray:
+    """Those of a program's points, (n_points,) with mean 1, from those of the points of the full model.
+
+    Points that stand for several, as those of a planar program, are as stiff as these together.
+    """
+    shares = _through(program, full)
+    return np.asarray(shares / shares.mean()) if len(shares) else shares
+
+
+def _through(program: Program, full: FloatArray) -> FloatArray:
+    reduction = program.reduction
+    if reduction is None:
+        return full
+    above = _through(reduction.full, full)
+    normal = abs(reduction.forces).tocsr()[:: reduction.full.components][:, :: program.components]
+    shares = np.asarray((normal != 0.0).astype(float).T @ above)
+    return np.asarray(np.where(shares > 0.0, shares, above.mean()))

@@ -1,0 +1,1 @@
+"""The law of elastic joints, and one implicit step of it."""

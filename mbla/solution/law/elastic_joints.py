@@ -1,0 +1,166 @@
+"""Elastic joints of a program, a step of them, and what they remember from step to step.
+
+A contact point is a spring of stiffness k_N across the joint and k_T along it, in series with the rigid law of the
+joint: no force in an open joint beyond its tensile strength f_t, Coulomb friction with cohesion, compression up to f_c,
+sliding that lifts by the point's own dilatancy δ = tan ψ. In one implicit step of length h, with the velocities v = Aᵀu
+of the contacts, positive products instead of the alternatives of the law, and l = μ n + c::
+
+    A x + f_D + λ f_L = 0,  f_L·u = 1
+    y − z = v_N + (n − n̄)/(k_N h) − δ s,    N y = σ with N = n + f_t,    (f_c − n) z = σ
+    w     = v_T + (t − t̄)/(k_T h),          l s + t·w = σ,    l w + s t = 0,    ‖t‖ < l, ‖w‖ < s
+
+At σ = 0 these are the alternatives: a joint is closed or without force, sticks or slides against its friction. What a
+joint remembers are the normal force n̄ that its gap would have without the law, and its shear t̄.
+
+Units are those of the program. Arrays of components stand first: (components − 1, n_points) for shear.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.program import Program
+from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
+
+LEAST_LIMIT = 1e-9
+"""Least limit of shear, in mean loads of a block: the cone of a joint without friction has no inside."""
+
+
+@dataclass(frozen=True)
+class ElasticJoints:
+    """Contact points of a program with their law and stiffness, all (n_points,).
+
+    matrix    : the pattern of A C Aᵀ of the program
+    dilatancy : tangent of the angle
+    normal    : k_N, with mean 1
+    shear     : k_T
+    """
+
+    matrix: Stiffness
+    dilatancy: FloatArray
+    normal: FloatArray
+    shear: FloatArray
+
+    @staticmethod
+    def of(program: Program, shares: FloatArray, ratio: float, dilatancy: FloatArray | None = None) -> ElasticJoints:
+        """Joints of a program.
+
+        shares    : (n_points,) of the stiffness, mean 1
+        ratio     : k_T over k_N
+        dilatancy : (n_points,) tangents of its angles; none unless given
+        """
+        slope = np.zeros(program.n_points) if dilatancy is None else dilatancy
+        return ElasticJoints(stiffness_of(program), slope, shares, ratio * shares)
+
+    @property
+    def program(self) -> Program:
+        """The program whose points they are."""
+        return self.matrix.program
+
+    @cached_property
+    def friction(self) -> FloatArray:
+        """μ, (n_points,)."""
+        return np.maximum(self.program.limits.friction, 0.0)
+
+    @cached_property
+    def crushable(self) -> IntArray:
+        """Numbers of the points with a compressive strength."""
+        return np.flatnonzero(np.isfinite(self.program.limits.compression))
+
+    @property
+    def dilates(self) -> bool:
+        """Whether any joint lifts as it slides."""
+        return bool(self.dilatancy.any())
+
+    def limit(self, normal: FloatArray) -> FloatArray:
+        """Limit of shear l at normal forces n, (n_points,)."""
+        return np.maximum(self.friction * normal + self.program.limits.cohesion, LEAST_LIMIT)
+
+    def room(self, normal: FloatArray) -> FloatArray:
+        """f_c − n of the points that can crush, (n_crushable,)."""
+        return np.asarray(self.program.limits.compression[self.crushable] - normal[self.crushable])
+
+    def velocities(self, u: FloatArray) -> FloatArray:
+        """Of the contacts, (components, n_points), from those of the blocks, (n_rows,)."""
+        return self.matrix.velocities(u).T
+
+    def carried(self, normal: FloatArray, shear: FloatArray) -> FloatArray:
+        """A x, (n_rows,): what contact forces do to the blocks."""
+        return np.asarray(self.program.equilibrium_matrix @ np.vstack([normal[None], shear]).T.ravel())
+
+    def unbalanced(self, state: StepState) -> FloatArray:
+        """Forces that a state leaves without balance, (n_rows,)."""
+        program = self.program
+        return self.carried(state.normal, state.shear) + program.dead_load + state.factor * program.live_load
+
+
+@dataclass(frozen=True)
+class StepState:
+    """Unknowns of a step, or a change of them.
+
+    u, factor     : velocities of the blocks, (n_rows,), and load factor
+    normal        : (n_points,) n
+    opening       : (n_points,) y
+    shear, slip   : (components − 1, n_points) t and w
+    speed         : (n_points,) s
+    crushing      : (n_crushable,) z
+    """
+
+    u: FloatArray
+    factor: float
+    normal: FloatArray
+    opening: FloatArray
+    shear: FloatArray
+    slip: FloatArray
+    speed: FloatArray
+    crushing: FloatArray
+
+    def plus(self, change: StepState, length: float) -> StepState:
+        """The state a length along a direction."""
+        return StepState(*(a + length * b for a, b in zip(vars(self).values(), vars(change).values(), strict=True)))
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What joints remember from before a step: n̄, (n_points,), and t̄, (components − 1, n_points)."""
+
+    normal: FloatArray
+    shear: FloatArray
+
+    @staticmethod
+    def stress_free(joints: ElasticJoints) -> Memory:
+        """Of joints that just touch."""
+        n, components = joints.program.n_points, joints.program.components
+        return Memory(np.zeros(n), np.zeros((components - 1, n)))
+
+    def after(self, joints: ElasticJoints, moved: FloatArray, normal: FloatArray) -> Memory:
+        """After the joints have moved.
+
+        moved  : (components, n_points) displacements of the contacts
+        normal : (n_points,) normal forces after it, which limit the shear: smoothing of the law must not make it creep
+        """
+        trial = self.shear - joints.shear * moved[1:]
+        shear = within(trial, joints.limit(normal))
+        gap = self.normal - joints.normal * moved[0]
+        if joints.dilates:
+            gap = gap + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
+        if len(joints.crushable):
+            gap[joints.crushable] = np.minimum(
+                gap[joints.crushable], joints.program.limits.compression[joints.crushable]
+            )
+        return Memory(gap, shear)
+
+
+def lengths(vectors: FloatArray) -> FloatArray:
+    """Of vectors, (components, n), each: (n,)."""
+    return np.abs(vectors[0]) if len(vectors) == 1 else np.sqrt((vectors * vectors).sum(axis=0))
+
+
+def within(vectors: FloatArray, limit: FloatArray, share: float = 1.0) -> FloatArray:
+    """Vectors, (components, n), cut to a share of a limit, (n,), where they are longer."""
+    size = lengths(vectors)
+    return np.asarray(vectors * np.where(size > share * limit, share * limit / np.maximum(size, 1e-300), 1.0))
