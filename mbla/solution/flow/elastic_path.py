@@ -183,8 +183,18 @@ class _Path:
         self.force = max(self.gravity.force, self.associative * float(np.abs(live).sum()) / n)
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
-        at_rest = replace(self.gravity.state, u=motion / float(live @ motion))
+        at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())
         self.state = self._centred(at_rest, 0.99)
+
+    def _pressed(self) -> FloatArray:
+        """Normal forces at rest, smoothed as the first step is: (N − N̄) N = σ k_N h, (n_points,)."""
+        joints, limits = self.joints, self.joints.program.limits
+        trial, product = self.memory.normal + limits.tension, self.sigma * joints.normal * self.h
+        root = np.sqrt(trial**2 + 4.0 * product)
+        pressed = np.where(trial > 0.0, 0.5 * (trial + root), 2.0 * product / (root + np.abs(trial))) - limits.tension
+        middle = 0.5 * (pressed + limits.compression)[joints.crushable]
+        pressed[joints.crushable] = np.minimum(pressed[joints.crushable], middle)
+        return np.asarray(pressed)
 
     @property
     def sigma(self) -> float:

@@ -1,4 +1,14 @@
-"""One implicit step of the dead load on the stress-free assembly: where the path of elastic joints begins."""
+"""One implicit step of the dead load on the stress-free assembly: where the path of elastic joints begins.
+
+The dead load acts at once on joints without stress, and each block is held where it stands by a very weak spring::
+
+    A x + f_D − ε S u = 0,   S the diagonal of A Aᵀ
+
+Springs keep blocks in place that nothing pushes, and make a solution exist always. What they carry of a structure that
+stands is next to nothing, and falls in proportion with ε; of one that falls it is a share of its weight whatever ε is.
+The products of the law fall tenfold after every step that goes most of its way, so that the balance and the law are
+reached together: with larger ones joints push each other apart, and a history is remembered that nothing has caused.
+"""
 
 from __future__ import annotations
 
@@ -10,32 +20,45 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_step import JointStep, direction_of, length_of, residual_of
 
 STEPS = 100
-"""At most; where a dead load is carried 2 to 20 are usual, near the limit of standing 60 and more."""
+"""At most; 8 to 20 are usual where a dead load is carried."""
 
-FALL, LEAST = 0.1, 0.01
-"""Factor on the products when a state is in balance, and their least over those at first."""
+HELD = 1e-10
+"""ε, over the mean stiffness of a joint."""
+
+FALL, LONG, LEAST = 0.1, 0.5, 1e-8
+"""Factor on the products after a step that goes more than a share of its way, and their least over n₀²."""
 
 BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
+
+STANDS = 2e-5
+"""Force of a spring, in mean loads of a block, up to which the structure stands."""
 
 
 @dataclass(frozen=True)
 class Gravity:
     """The structure at rest under its dead load.
 
-    state : forces and displacements (as velocities over a time of 1)
-    memory : what the joints remember of it
-    force : n₀, the mean dead load of a point
-    carried : whether the state is in balance within the number of steps
-    steps : factorisations
+    state   : forces and displacements (as velocities over a time of 1)
+    memory  : what the joints remember of it
+    force   : n₀, the mean dead load of a point
+    settled : whether the step was solved
+    held    : largest force of a spring, in mean loads of a block
+    steps   : factorisations
     """
 
     state: StepState
     memory: Memory
     force: float
-    carried: bool
+    settled: bool
+    held: float
     steps: int
+
+    @property
+    def carried(self) -> bool:
+        """Whether the joints carry the dead load."""
+        return self.settled and self.held <= STANDS
 
 
 def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
@@ -45,26 +68,23 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force
-    sigma, step = force**2, JointStep(joints, Memory.stress_free(joints), 1.0, driven=False)
-    state, carried, count, reach = _start(joints, force), False, 0, 1.0
+    springs, fresh = HELD * joints.matrix.size, Memory.stress_free(joints)
+    sigma, step = force**2, JointStep(joints, fresh, 1.0, driven=False, held=springs)
+    state, settled, count = _start(joints, force), False, 0
     for count in range(STEPS):
         residual = residual_of(step, state)
-        if residual.unbalanced < BALANCED and residual.incompatible(joints, state) < COMPATIBLE:
-            low = sigma < 2.0 * LEAST * force**2
-            if low and float(residual.products.normal.max(initial=0.0)) < EVEN * sigma:
-                carried = True
-                break
-            sigma = max(FALL * sigma, LEAST * force**2)
-        found = direction_of(step, state, residual, sigma)
+        even = sigma <= LEAST * force**2 and float(residual.products.normal.max(initial=0.0)) < EVEN * sigma
+        settled = even and residual.unbalanced < BALANCED and residual.incompatible(joints, state) < COMPATIBLE
+        found = None if settled else direction_of(step, state, residual, sigma)
         if found is None:
             break
         direction, reach = found
         state = state.plus(direction, length_of(reach))
-    at_rest = Memory(-joints.normal * joints.velocities(state.u)[0], state.shear)
-    if joints.dilates or len(joints.crushable):
-        at_rest = Memory.stress_free(joints).after(joints, joints.velocities(state.u), state.normal)
-        at_rest = Memory(at_rest.normal, state.shear)
-    return Gravity(state, at_rest, force, carried, count)
+        if reach > LONG:
+            sigma = max(FALL * sigma, LEAST * force**2)
+    memory = fresh.after(joints, joints.velocities(state.u), state.normal)
+    held = float(np.abs(springs * state.u).max(initial=0.0))
+    return Gravity(state, Memory(memory.normal, state.shear), force, settled, held, count)
 
 
 def _start(joints: ElasticJoints, force: float) -> StepState:

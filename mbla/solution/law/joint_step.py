@@ -46,12 +46,14 @@ class JointStep:
     memory : of the joints before it
     length : h
     driven : whether the live work f_L·u is 1; else the load factor stays and the structure finds its rest
+    held   : (n_rows,) stiffness of springs that hold the blocks where they are; none unless given
     """
 
     joints: ElasticJoints
     memory: Memory
     length: float
     driven: bool = True
+    held: FloatArray | float = 0.0
 
     @property
     def normal_compliance(self) -> FloatArray:
@@ -117,7 +119,8 @@ def residual_of(step: JointStep, state: StepState) -> Residual:
         normal = normal - joints.dilatancy * state.speed
     normal[joints.crushable] += state.crushing
     shear = v[1:] + step.shear_compliance * (state.shear - memory.shear) - state.slip
-    return Residual(np.append(joints.unbalanced(state), work), normal, shear, products_of(joints, state))
+    balance = joints.unbalanced(state) - step.held * state.u
+    return Residual(np.append(balance, work), normal, shear, products_of(joints, state))
 
 
 def products_of(joints: ElasticJoints, state: StepState) -> Products:
@@ -260,7 +263,7 @@ class Eliminated:
         tangents[:, 1:, :] -= follows.T[:, :, None] * tangents[:, 0, None, :]
         if not np.isfinite(tangents).all():
             return None
-        shift = SHIFT * float(np.mean(tangents[:, 0, 0])) * joints.matrix.size
+        shift = SHIFT * float(np.mean(tangents[:, 0, 0])) * joints.matrix.size + step.held
         solve = joints.matrix.factorized(tangents, shift, fixed_load=not step.driven)
         if solve is None:
             return None

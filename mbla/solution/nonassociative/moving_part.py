@@ -40,19 +40,26 @@ class MovingPart:
         return np.asarray(self.program.reduction.velocities @ velocities)
 
 
-def moving_part(program: Program, velocities: FloatArray) -> MovingPart | None:
+def moving_part(
+    program: Program,
+    velocities: FloatArray,
+    *,
+    rings: int = RINGS,
+    few: int = FEW_POINTS,
+    worthwhile: float = WORTHWHILE,
+) -> MovingPart | None:
     """The part that velocities, (n_rows,), move; None where that is hardly smaller, or blocks are guided."""
     size = 3 if program.components == 2 else 6
-    if program.guided or len(velocities) % size or program.n_points <= FEW_POINTS:
+    if program.guided or len(velocities) % size or program.n_points <= few:
         return None
     speed = np.abs(velocities.reshape(-1, size)).max(axis=1)
     moves, pattern = speed > AT_REST * speed.max(initial=0.0), sp.csr_array(abs(program.equilibrium_matrix))
     across = sp.csr_array(pattern.T)
     points = _any(across @ np.repeat(moves, size), program.components)
-    for _ in range(RINGS):
+    for _ in range(rings):
         moves = _any(pattern @ np.repeat(points, program.components), size)
         points = _any(across @ np.repeat(moves, size), program.components)
-    if points.sum() > WORTHWHILE * len(points):
+    if points.sum() > worthwhile * len(points):
         return None
     blocks, chosen = np.flatnonzero(moves), np.flatnonzero(points)
     ways = selection(blocks, len(moves), size)

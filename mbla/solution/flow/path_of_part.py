@@ -1,0 +1,112 @@
+"""The path of elastic joints of one part of a structure: of what moves where that is less, and once more where it is lost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.program.program import Program
+from mbla.solution.flow.elastic_path import ElasticPath, Stop, elastic_motion, follow
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
+
+MOST_STEPS_OF_PART = 900
+"""Steps of a path that follows what moves alone: each costs less."""
+
+HELD, FALLEN = 0.985, 0.9
+"""Shares of the peak: a path that is stuck above the one, or lies below the other after it was brought back, is lost."""
+
+
+@dataclass(frozen=True)
+class PathOfPart:
+    """What was followed.
+
+    path    : of the program, or of what moves in it
+    gravity : where it began
+    joints  : of what was followed
+    points  : (n,) points of the program that were followed; None for all
+    again   : whether the path was lost and followed once more
+    factorizations : spent on all of it
+    """
+
+    path: ElasticPath
+    gravity: Gravity
+    joints: ElasticJoints
+    points: IntArray | None
+    again: bool
+    factorizations: int
+
+    @property
+    def load_factor(self) -> float:
+        """λ_p, of the program; nan where no step counts."""
+        return self.path.load_factor
+
+
+def path_of_part(
+    program: Program,
+    shares: FloatArray,
+    associative: float,
+    velocities: FloatArray,
+    settings: PathSettings,
+    dilatancy: FloatArray | None = None,
+) -> PathOfPart:
+    """The path of a part.
+
+    shares      : (n_points,) of the stiffness, mean 1
+    associative : load factor of associative flow; velocities, (n_rows,), of its mechanism
+    dilatancy   : (n_points,) tangents of its angles; none unless given
+    """
+    part, unit = moving_part(program, velocities, rings=3, few=1500, worthwhile=0.8), None
+    followed = ElasticJoints.of(program, shares, settings.ratio, dilatancy)
+    points = None if part is None else part.points
+    if part is not None:
+        followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy)
+    gravity = gravity_step(followed, _force_of_live(followed, associative))
+    path = follow(followed, gravity, associative, settings, unit)
+    spent, again = path.factorizations, is_lost(path)
+    if again:
+        smoother = replace(settings, most_smoothing=2.0, first=0.5 * settings.first)
+        other = follow(followed, gravity, associative, smoother, unit)
+        spent += other.factorizations - gravity.steps
+        path = other if other.load_factor > path.load_factor or path.peak is None else path
+    return PathOfPart(path, gravity, followed, points, again, spent)
+
+
+def is_lost(path: ElasticPath) -> bool:
+    """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
+    if path.peak is None:
+        return True
+    if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
+        return path.last.factor > HELD * path.load_factor
+    return path.stop is Stop.FALLS and path.recentred > 0 and path.last.factor < FALLEN * path.load_factor
+
+
+def _of_moving(
+    part: MovingPart,
+    whole: ElasticJoints,
+    associative: float,
+    settings: PathSettings,
+    dilatancy: FloatArray | None,
+) -> tuple[ElasticJoints, float, PathSettings]:
+    """Joints of what moves, the unit of displacement of the whole, and settings for it."""
+    slope = None if dilatancy is None else dilatancy[part.points]
+    joints = ElasticJoints.of(part.program, whole.normal[part.points], settings.ratio, slope)
+    unit, own = _unit(whole, associative), _unit(joints, associative)
+    first = settings.first * min(1.0, 2.0 * own / unit)
+    share, _ = settings.smoothed
+    return joints, unit, replace(settings, first=first, smoothed=(share, np.inf), steps=MOST_STEPS_OF_PART)
+
+
+def _unit(joints: ElasticJoints, associative: float) -> float:
+    """Elastic displacement at the associative load."""
+    return float(joints.program.live_load @ elastic_motion(joints)) * abs(associative)
+
+
+def _force_of_live(joints: ElasticJoints, associative: float) -> float:
+    """Mean live load of a point at the associative load."""
+    n = max(joints.program.n_points, 1)
+    return abs(associative) * float(np.abs(joints.program.live_load).sum()) / n
