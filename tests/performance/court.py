@@ -8,9 +8,9 @@
 
 Sets: ``decks`` (every deck by its own flow rule, associative and without dilatancy), ``walls`` (20 to 100 courses, in
 the plane and in space), ``corpora`` (random assemblies of tests/trust), ``experiments`` (dry-stone walls that were
-pushed). A run of a set goes on where the file ends, so that it may be stopped. Each deck runs in a process of its own on
-one thread; seconds are of the processor and of the solver stage. Associative figures must agree to 1e-9, statuses must
-be the same; other figures are printed where they differ by more than 1e-6.
+pushed). A run of a set goes on where the file ends, so that it may be stopped. Each deck runs in a process of its own
+on one thread; seconds are of the processor, for all that the solver stage does. Associative figures must agree to 1e-9,
+statuses must be the same; other figures are printed where they differ by more than 1e-6.
 """
 
 from __future__ import annotations
@@ -191,7 +191,7 @@ def _verdict(name: str, deck: str, case: dict[str, object]) -> Verdict:
         number("least_load_factor"),
         number("associative_load_factor"),
         str(standing.get("verdict", "") if isinstance(standing, dict) else standing or ""),
-        number("seconds"),
+        number("time"),
         str(case.get("reason") or ""),
     )
 
@@ -200,12 +200,14 @@ def read(path: Path) -> list[Verdict]:
     """Rows of a file; none where there is no file."""
     if not path.exists():
         return []
-    floats = {field.name for field in fields(Verdict) if field.type == "float"}
     with path.open(newline="", encoding="utf-8") as file:
-        return [
-            Verdict(**{key: float(value) if key in floats else value for key, value in row.items()})
-            for row in csv.DictReader(file)
-        ]
+        return [_row(row) for row in csv.DictReader(file)]
+
+
+def _row(row: dict[str, str]) -> Verdict:
+    factors = (float(row[name]) for name in ("load_factor", "least", "associative"))
+    words = row["set"], row["deck"], row["case"], row["status"]
+    return Verdict(*words, *factors, row["standing"], float(row["seconds"]), row["reason"])
 
 
 def compare(before: str, after: str) -> None:

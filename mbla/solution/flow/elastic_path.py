@@ -76,6 +76,7 @@ class ElasticPath:
 
     peak         : step of the greatest load factor, without smoothing where it could be solved so; None where no step
                    counts
+    half         : the same up to half of the displacement; None where the path ends before
     last         : state at the end
     stop         : why it ended
     steps        : the curve
@@ -85,6 +86,7 @@ class ElasticPath:
     """
 
     peak: PeakStep | None
+    half: PeakStep | None
     last: StepState
     stop: Stop
     steps: tuple[PathStep, ...]
@@ -102,10 +104,12 @@ class ElasticPath:
         """At the end, in units."""
         return self.steps[-1].displacement if self.steps else 0.0
 
+    @property
     def gain(self) -> float:
-        """Share of the greatest load factor that was gained over the last half of the displacement."""
-        before = [step.load_factor for step in self.steps if step.counted and step.displacement <= 0.5 * self.displacement]
-        return 1.0 - max(before, default=0.0) / self.load_factor if self.peak is not None else float("nan")
+        """Share of the greatest load factor that was gained over the last half of the path; 0 where it ends before."""
+        if self.peak is None or self.half is None:
+            return 0.0
+        return 1.0 - self.half.state.factor / self.load_factor
 
 
 def elastic_motion(joints: ElasticJoints) -> FloatArray:
@@ -150,6 +154,7 @@ class _Path:
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
     top      : step of the greatest load factor so far
+    half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
     low      : steps in a row below the peak, and the displacement of the first of them
     blocked  : steps in a row that were blocked, since the last re-centring and in all
@@ -169,6 +174,7 @@ class _Path:
     good: float = field(init=False)
     displacement: float = 0.0
     top: PeakStep | None = None
+    half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
     low: tuple[int, float] = (0, 0.0)
     blocked: tuple[int, int] = (0, 0)
@@ -235,6 +241,8 @@ class _Path:
         direction, reach = found
         length = length_of(reach)
         self.state = before.plus(direction, length)
+        if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.half is None:
+            self.half = self.top
         self.displacement += length * self.h / self.unit
         moved = length * self.h * self.joints.velocities(self.state.u)
         self.memory = self.memory.after(self.joints, moved, self.state.normal)
@@ -319,10 +327,15 @@ class _Path:
         self.state = self._centred(self.state, 0.95)
 
     def result(self, stop: Stop) -> ElasticPath:
-        """The path, with its peak once more without smoothing."""
-        peak, more = (None, 0) if self.top is None else sharpened_peak(self.top, self.settings)
-        spent = self.factorizations + more + self.gravity.steps
-        return ElasticPath(peak, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred)
+        """The path, with its peaks once more without smoothing."""
+        spent = self.factorizations + self.gravity.steps
+        peaks = [self.top, self.half if stop is Stop.FAR else None]
+        for place, peak in enumerate(peaks):
+            if peak is not None:
+                peaks[place], more = sharpened_peak(peak, self.settings)
+                spent += more
+        top, half = peaks
+        return ElasticPath(top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred)
 
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
@@ -344,8 +357,9 @@ which it is at rest."""
 def sharpened_peak(peak: PeakStep, settings: PathSettings) -> tuple[PeakStep, int]:
     """The step of the peak again from its history, with ever smaller products; factorisations spent."""
     step, state, sigma, best = peak.step, peak.state, peak.sigma, peak
-    count = 0
-    for count in range(1, SHARPENINGS + 1):
+    spent = 0
+    while spent < SHARPENINGS:
+        spent += 1
         sigma *= SHARPER
         before = with_openings(step, state, sigma)
         residual: Residual = residual_of(step, before)
@@ -357,4 +371,4 @@ def sharpened_peak(peak: PeakStep, settings: PathSettings) -> tuple[PeakStep, in
             best = PeakStep(step, sigma, state, peak.displacement)
         if abs(state.factor - last.factor) < AT_REST * abs(state.factor):
             break
-    return best, count
+    return best, spent

@@ -70,8 +70,8 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force
     springs, fresh = HELD * joints.matrix.size, Memory.stress_free(joints)
     sigma, step = force**2, JointStep(joints, fresh, 1.0, driven=False, held=springs)
-    state, settled, count = _start(joints, force), False, 0
-    for count in range(STEPS):
+    state, settled, spent = _start(joints, force), False, 0
+    while spent < STEPS:
         residual = residual_of(step, state)
         even = sigma <= LEAST * force**2 and float(residual.products.normal.max(initial=0.0)) < EVEN * sigma
         settled = even and residual.unbalanced < BALANCED and residual.incompatible(joints, state) < COMPATIBLE
@@ -79,12 +79,13 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
         if found is None:
             break
         direction, reach = found
+        spent += 1
         state = state.plus(direction, length_of(reach))
         if reach > LONG:
             sigma = max(FALL * sigma, LEAST * force**2)
     memory = fresh.after(joints, joints.velocities(state.u), state.normal)
     held = float(np.abs(springs * state.u).max(initial=0.0))
-    return Gravity(state, Memory(memory.normal, state.shear), force, settled, held, count)
+    return Gravity(state, Memory(memory.normal, state.shear), force, settled, held, spent)
 
 
 def _start(joints: ElasticJoints, force: float) -> StepState:

@@ -1,4 +1,4 @@
-"""The path of elastic joints of one part of a structure: of what moves where that is less, and once more where it is lost."""
+"""The path of elastic joints of one part: of what moves where that is less, and once more where it is lost."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MOST_STEPS_OF_PART = 900
 """Steps of a path that follows what moves alone: each costs less."""
 
 HELD, FALLEN = 0.985, 0.9
-"""Shares of the peak: a path that is stuck above the one, or lies below the other after it was brought back, is lost."""
+"""Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
 
 
 @dataclass(frozen=True)

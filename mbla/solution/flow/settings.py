@@ -1,6 +1,6 @@
 """Settings of the path of elastic joints, in one record.
 
-What each is worth was measured on whole corpora, tests/performance; none is a key of a deck but the two of ``analysis.path``.
+What each is worth was measured on whole corpora (tests/performance); ``ratio`` and ``until`` alone are keys of decks.
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ to each point would hang on rounding of the coordinates. Ties are as stiff as th
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
@@ -37,6 +38,8 @@ def _through(program: Program, full: FloatArray) -> FloatArray:
     if reduction is None:
         return full
     above = _through(reduction.full, full)
-    normal = abs(reduction.forces).tocsr()[:: reduction.full.components][:, :: program.components]
-    shares = np.asarray((normal != 0.0).astype(float).T @ above)
+    normal = sp.csr_array(reduction.forces[:: reduction.full.components][:, :: program.components])
+    normal.eliminate_zeros()
+    normal.data = np.ones_like(normal.data)
+    shares = np.asarray(normal.T @ above)
     return np.asarray(np.where(shares > 0.0, shares, above.mean()))

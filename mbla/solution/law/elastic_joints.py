@@ -157,7 +157,7 @@ class Memory:
 
 def lengths(vectors: FloatArray) -> FloatArray:
     """Of vectors, (components, n), each: (n,)."""
-    return np.abs(vectors[0]) if len(vectors) == 1 else np.sqrt((vectors * vectors).sum(axis=0))
+    return np.asarray(np.abs(vectors[0]) if len(vectors) == 1 else np.sqrt((vectors * vectors).sum(axis=0)))
 
 
 def within(vectors: FloatArray, limit: FloatArray, share: float = 1.0) -> FloatArray:

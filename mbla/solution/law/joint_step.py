@@ -9,9 +9,9 @@ factorisation of A C Aᵀ, bordered by the live load, remains. With cone = l I �
     dn = g_n + [−dv_n − (δ/l) t·dv_t + b·H⁻¹cone dv_t]/a,    dt = g_t' − H⁻¹cone dv_t − h_v dn
 
 m are the residuals of compatibility, r the changes wanted of the products. Without dilatancy the normal force does not
-see the sliding while the sliding sees the normal force: the matrix is not symmetric. The direction goes towards products
-σ; where it is blocked early, second-order terms are taken in (Mehrotra 1992, doi:10.1137/0802028), then corrections of
-products that lie far off (Gondzio 1996, doi:10.1007/BF00249643).
+see the sliding while the sliding sees the normal force: the matrix is not symmetric. The direction goes towards
+products σ; where it is blocked early, second-order terms are taken in (Mehrotra 1992, doi:10.1137/0802028), then
+corrections of products that lie far off (Gondzio 1996, doi:10.1007/BF00249643).
 """
 
 from __future__ import annotations

@@ -1,0 +1,105 @@
+"""The greatest load on the path of elastic joints: closed forms, published walls, associative flow, invariance."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from mbla.solution.flow.elastic_path import Stop
+from mbla.solution.flow.settings import PathSettings
+from tests.decks.folder import BENCHMARKS
+from tests.line import BLOCK, Line, line_of, line_of_file
+from tests.solution.flow.paths import load_factor_of, path_of
+from tests.solution.nonassociative.structures import FERRIS_1, FERRIS_3
+
+CLOSE = 1e-5
+"""Relative: what is left of the smoothing at the peak."""
+
+COLUMNS = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 2], repeat: {count: 2, translate: [0, 0, 2]}}
+contacts: {joint: dry}
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("overrides", "expected"),
+    [
+        (("parameters.mu=0.4",), 0.4),
+        (("parameters.mu=0.6",), 0.5),
+        (("parameters.mu=0.2", "parameters.c=1000"), 0.2 + 1000.0 / (2000 * 9.81 * 2)),
+    ],
+    ids=["slides", "rocks", "cohesion"],
+)
+def test_a_block(overrides: tuple[str, ...], expected: float) -> None:
+    assert load_factor_of(line_of(BLOCK, *overrides)) == pytest.approx(expected, rel=CLOSE)
+
+
+@pytest.mark.parametrize(
+    ("name", "case", "expected"),
+    [
+        ("mortar_joint", 1, 1.5096839959225279),
+        ("mortar_joint", 2, 0.7548419979612639),
+        ("leaning_block", 0, 0.25751072961373395),
+        ("guided_blocks", 2, 1.0),
+        ("arch_20_voussoirs", 0, 0.14935017),
+        ("eccentric_compression_spacing", 0, 0.45538),
+    ],
+)
+def test_closed_forms(name: str, case: int, expected: float) -> None:
+    line = line_of_file(BENCHMARKS[name], case=case)
+    assert load_factor_of(line) == pytest.approx(expected, rel=2.0 * CLOSE)
+
+
+@pytest.mark.parametrize(("deck", "published"), [(FERRIS_1, 0.640), (FERRIS_3, 0.356)])
+def test_walls_of_ferris_and_tin_loi(deck: str, published: float) -> None:
+    """doi:10.1016/S0020-7403(99)00111-3; rigid blocks in time come to .6396 to .6413 and .3553 to .3563."""
+    assert load_factor_of(line_of(deck)) == pytest.approx(published, rel=3e-3)
+
+
+def test_with_associative_flow_it_is_the_associative_load_factor() -> None:
+    line = line_of(FERRIS_3, "analysis.flow_rule=associative")
+    assert load_factor_of(line, associative_flow=True) == pytest.approx(0.403694, rel=3e-4)  # at D = 50 it still rises
+
+
+@pytest.mark.parametrize("ratio", [0.2, 1.0])
+def test_the_stiffness_does_not_count_where_the_load_factor_is_unique(ratio: float) -> None:
+    assert load_factor_of(line_of(COLUMNS), PathSettings(ratio=ratio)) == pytest.approx(0.25, rel=CLOSE)
+
+
+def _forms() -> list[Line]:
+    lengths = COLUMNS.replace("[1, 1, 2]", "[1e3, 1e3, 2e3]").replace("[0, 0, 2]", "[0, 0, 2e3]")
+    return [line_of(deck) for deck in (FERRIS_3, FERRIS_3.replace("[1, 0, 0]", "[-1, 0, 0]"))] + [line_of(lengths)]
+
+
+def test_mirrors_and_units() -> None:
+    wall, mirrored, column = (load_factor_of(line) for line in _forms())
+    assert mirrored == pytest.approx(wall, rel=1e-4)
+    assert column == pytest.approx(0.25, rel=CLOSE)
+
+
+def test_a_path_ends_as_far_as_it_is_told() -> None:
+    found = path_of(line_of(BLOCK), PathSettings(until=5.0))
+    assert found.path.stop is Stop.FAR
+    assert found.path.displacement == pytest.approx(5.0)
+    assert math.isclose(found.path.gain, 0.0, abs_tol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (PathSettings(ratio=0.01), "ratio"),
+        (PathSettings(until=2000.0), "end of the path"),
+        (PathSettings(growth=1.0), "steps"),
+        (PathSettings(least_smoothing=0.0), "smoothing"),
+    ],
+)
+def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        wrong.validate()

@@ -1,0 +1,43 @@
+"""The dead load on the stress-free assembly: what stands, what falls, and that nothing drifts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.solution.flow.gravity_step import STANDS
+from tests.decks.folder import BENCHMARKS
+from tests.line import BLOCK, line_of, line_of_file
+from tests.solution.flow.paths import rest_of
+
+INCLINE = "load_cases.push.dead=[{gravity: [%s, 0, -9.81]}]"
+
+
+def test_a_block_rests_on_its_corners() -> None:
+    gravity = rest_of(line_of(BLOCK))
+    assert gravity.carried
+    np.testing.assert_allclose(gravity.state.normal, gravity.force, rtol=1e-6)
+    np.testing.assert_allclose(gravity.memory.normal, gravity.force, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("side", "stands"), [(0.499, True), (0.501, False)])
+@pytest.mark.parametrize("ratio", [0.2, 1.0])
+def test_a_block_slides_down_where_its_weight_is_beyond_friction(side: float, stands: bool, ratio: float) -> None:
+    line = line_of(BLOCK, "parameters.h=0.5", INCLINE % (side * 9.81))
+    gravity = rest_of(line, ratio)
+    assert gravity.settled
+    assert gravity.carried is stands
+    assert stands or gravity.held > 10.0 * STANDS  # of what falls a share of its weight
+
+
+@pytest.mark.parametrize("name", ["cocchetti_rizzi_mu_700", "cocchetti_rizzi_mu_380", "cocchetti_rizzi_mu_310"])
+def test_arches_at_their_least_thickness(name: str) -> None:
+    assert rest_of(line_of_file(BENCHMARKS[f"{name}_stands"])).carried
+    assert not rest_of(line_of_file(BENCHMARKS[f"{name}_falls"])).carried
+
+
+def test_a_block_that_nothing_pushes_stays_at_its_neighbour() -> None:
+    line = line_of_file(BENCHMARKS["open_and_frictionless_joints"])
+    gravity = rest_of(line)
+    assert gravity.carried
+    assert float(gravity.memory.normal.min()) > -20.0 * gravity.force  # in elastic displacements: no gap of note

@@ -1,0 +1,130 @@
+"""The step of elastic joints: its direction solves the linearised equations, and joints remember by the law."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from mbla.program.program import Program
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, lengths
+from mbla.solution.law.joint_step import (
+    Eliminated,
+    JointStep,
+    Products,
+    direction_of,
+    products_of,
+    reach_of,
+    residual_of,
+)
+from tests.line import WALL, line_of
+from tests.solution.planar import planar_program
+
+MORTAR = "joints.dry.cohesion=3000", "joints.dry.tensile_strength=2000", "joints.dry.compressive_strength=60000"
+SIGMA = 0.3
+STEP = 1e-6
+
+
+def programs() -> dict[str, Program]:
+    return {
+        "dry, plane": planar_program(line_of(WALL, "parameters.n=3")),
+        "mortar, plane": planar_program(line_of(WALL, "parameters.n=3", *MORTAR)),
+        "mortar, space": line_of(WALL, "parameters.n=3", *MORTAR).program,
+    }
+
+
+def some_step(program: Program, dilatancy: float) -> tuple[JointStep, StepState]:
+    """A step with a history, and a state strictly within the law."""
+    rng = np.random.default_rng(3)
+    n, rows = program.n_points, len(program.dead_load)
+    slope = dilatancy * program.limits.friction
+    joints = ElasticJoints.of(program, rng.uniform(0.5, 2.0, n), 0.4, slope)
+    memory = Memory(rng.normal(size=n), rng.normal(size=(program.components - 1, n)))
+    normal = rng.uniform(0.1, 1.0, n)
+    shear = rng.normal(size=memory.shear.shape)
+    shear *= 0.5 * joints.limit(normal) / np.maximum(lengths(shear), 1e-12)
+    slip = rng.normal(size=memory.shear.shape)
+    state = StepState(
+        u=rng.normal(size=rows),
+        factor=0.3,
+        normal=normal,
+        opening=rng.uniform(0.1, 1.0, n),
+        shear=shear,
+        slip=slip,
+        speed=1.5 * lengths(slip),
+        crushing=rng.uniform(0.1, 1.0, len(joints.crushable)),
+    )
+    return JointStep(joints, memory, 0.7), state
+
+
+@pytest.mark.parametrize("dilatancy", [0.0, 0.6])
+@pytest.mark.parametrize("name", programs())
+def test_a_direction_solves_the_linearised_equations(name: str, dilatancy: float) -> None:
+    step, state = some_step(programs()[name], dilatancy)
+    before = residual_of(step, state)
+    linear = Eliminated.at(step, state)
+    assert linear is not None
+    products = before.products
+    wanted = Products(SIGMA - products.normal, SIGMA - products.sliding, -products.turning, SIGMA - products.crushing)
+    direction = linear.direction(before, wanted)
+    after = residual_of(step, state.plus(direction, STEP))
+    for value, was in ((after.balance, before.balance), (after.normal, before.normal), (after.shear, before.shear)):
+        np.testing.assert_allclose(value, (1.0 - STEP) * was, atol=1e-9)
+    for field in fields(Products):
+        was, now = getattr(before.products, field.name), getattr(after.products, field.name)
+        np.testing.assert_allclose((now - was) / STEP, getattr(wanted, field.name), atol=2e-4)
+
+
+def test_a_step_stays_within_the_law() -> None:
+    step, state = some_step(programs()["mortar, space"], 0.0)
+    found = direction_of(step, state, residual_of(step, state), SIGMA)
+    assert found is not None
+    direction, reach = found
+    joints = step.joints
+
+    def least(length: float) -> float:
+        there = state.plus(direction, length)
+        room = joints.room(there.normal).min()
+        cone = (joints.limit(there.normal) - lengths(there.shear)).min()
+        turning = (there.speed - lengths(there.slip)).min()
+        return float(
+            min((there.normal + joints.program.limits.tension).min(), there.opening.min(), room, cone, turning)
+        )
+
+    exact = reach_of(joints, state, direction)
+    assert reach == min(1.0, exact)
+    assert least(0.999 * exact) > 0.0 > least(1.001 * exact)
+
+
+def test_joints_remember_slip_and_gap() -> None:
+    program = programs()["dry, plane"]
+    joints = ElasticJoints.of(program, np.ones(program.n_points), 0.4)
+    fresh, normal = Memory.stress_free(joints), np.ones(program.n_points)
+    moved = np.zeros((2, program.n_points))
+    moved[0], moved[1] = 0.1, 10.0  # opens, and slides further than friction lets it
+    after = fresh.after(joints, moved, normal)
+    np.testing.assert_allclose(after.normal, -0.1)
+    np.testing.assert_allclose(after.shear, -program.limits.friction[None])
+    back = after.after(joints, -moved, normal)
+    np.testing.assert_allclose(back.shear, program.limits.friction[None])
+
+
+def test_sliding_with_dilatancy_lifts() -> None:
+    program = programs()["dry, plane"]
+    joints = ElasticJoints.of(program, np.ones(program.n_points), 0.4, np.full(program.n_points, 0.2))
+    moved = np.zeros((2, program.n_points))
+    moved[1] = 10.0
+    after = Memory.stress_free(joints).after(joints, moved, np.ones(program.n_points))
+    slid = 10.0 - program.limits.friction / 0.4
+    np.testing.assert_allclose(after.normal, 0.2 * slid)
+
+
+def test_products_are_those_of_the_state() -> None:
+    step, state = some_step(programs()["dry, plane"], 0.0)
+    central = replace(state, shear=0.0 * state.shear, slip=0.0 * state.slip)
+    limit = step.joints.limit(central.normal)
+    products = products_of(step.joints, replace(central, opening=SIGMA / central.normal, speed=SIGMA / limit))
+    np.testing.assert_allclose(products.normal, SIGMA)
+    np.testing.assert_allclose(products.sliding, SIGMA)
+    np.testing.assert_allclose(products.turning, 0.0)
