@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +18,10 @@ from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
 MOST_STEPS_OF_PART = 900
 """Steps of a path that follows what moves alone: each costs less."""
 
+LOW, SHARPER, SAME = 0.1, (1e3, 1e5, 1e7), 0.01
+"""Share of the associative load factor below which smoothing is taken back, κ with which that is done in turn, and
+change of the load factor that counts as none."""
+
 HELD, FALLEN = 0.985, 0.9
 """Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
 
@@ -29,7 +34,7 @@ class PathOfPart:
     gravity : where it began
     joints  : of what was followed
     points  : (n,) points of the program that were followed; None for all
-    again   : whether the path was lost and followed once more
+    paths   : how many were followed: more than one where it was lost, or is at the limit of standing
     factorizations : spent on all of it
     """
 
@@ -37,7 +42,7 @@ class PathOfPart:
     gravity: Gravity
     joints: ElasticJoints
     points: IntArray | None
-    again: bool
+    paths: int
     factorizations: int
 
     @property
@@ -66,20 +71,43 @@ def path_of_part(
     if part is not None:
         followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy)
     gravity = gravity_step(followed, _force_of_live(followed, associative))
-    path = follow(followed, gravity, associative, settings, unit)
-    spent, again = path.factorizations, is_lost(path)
-    if again:
-        smoother = replace(settings, most_smoothing=2.0, first=0.5 * settings.first)
-        other = follow(followed, gravity, associative, smoother, unit)
-        spent += other.factorizations - gravity.steps
-        path = other if other.load_factor > path.load_factor or path.peak is None else path
-    return PathOfPart(path, gravity, followed, points, again, spent)
+
+    def along(by: PathSettings) -> ElasticPath:
+        return follow(followed, gravity, associative, by, unit)
+
+    path = along(settings)
+    paths = [path]
+    if is_at_limit(path, associative):
+        paths += sharper_paths(path, along, settings)
+        path = paths[-1]
+    elif is_lost(path):
+        paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
+        path = max(paths, key=lambda one: one.load_factor)
+    spent = sum(one.factorizations - gravity.steps for one in paths) + gravity.steps
+    return PathOfPart(path, gravity, followed, points, len(paths), spent)
+
+
+def is_at_limit(path: ElasticPath, associative: float) -> bool:
+    """Whether smoothing may be more than the load factor, because the dead load is nearly all that is carried."""
+    return path.peak is None or path.load_factor < LOW * abs(associative)
+
+
+def sharper_paths(
+    path: ElasticPath, along: Callable[[PathSettings], ElasticPath], settings: PathSettings
+) -> list[ElasticPath]:
+    """Paths with less and less smoothing, until the load factor no longer changes."""
+    paths = [path]
+    for kappa in SHARPER:
+        first = 0.1 * settings.first
+        paths.append(along(replace(settings, smoothing=kappa, least_smoothing=kappa, most_smoothing=kappa, first=first)))
+        before, now = (one.load_factor for one in paths[-2:])
+        if abs(now - before) <= SAME * abs(now):
+            break
+    return paths[1:]
 
 
 def is_lost(path: ElasticPath) -> bool:
     """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
-    if path.peak is None:
-        return True
     if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
         return path.last.factor > HELD * path.load_factor
     return path.stop is Stop.FALLS and path.recentred > 0 and path.last.factor < FALLEN * path.load_factor
