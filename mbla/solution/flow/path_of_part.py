@@ -98,8 +98,7 @@ def sharper_paths(
     """Paths with less and less smoothing, until the load factor no longer changes."""
     paths = [path]
     for kappa in SHARPER:
-        first = 0.1 * settings.first
-        paths.append(along(replace(settings, smoothing=kappa, least_smoothing=kappa, most_smoothing=kappa, first=first)))
+        paths.append(along(settings.smoothed_by(kappa)))
         before, now = (one.load_factor for one in paths[-2:])
         if abs(now - before) <= SAME * abs(now):
             break

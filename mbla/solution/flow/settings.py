@@ -5,7 +5,7 @@ What each is worth was measured on whole corpora (tests/performance); ``ratio`` 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,10 @@ class PathSettings:
     short: float = 0.03
     recentred: int = 12
     steps: int = 300
+
+    def smoothed_by(self, kappa: float) -> PathSettings:
+        """The same with one κ throughout, and a shorter first step."""
+        return replace(self, smoothing=kappa, least_smoothing=kappa, most_smoothing=kappa, first=0.1 * self.first)
 
     def validate(self) -> None:
         """Raise a ValueError where a path could not be followed with them."""

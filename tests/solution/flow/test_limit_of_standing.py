@@ -5,7 +5,8 @@ Limit equilibrium from the top down (Goodman and Bray 1976): a column of height 
     P' = (P (M − μ d) + W/2 (y (sin ψ + k) − d cos ψ)) / L     where it topples,
     P' = P − W (μ cos ψ − sin ψ − k)/(1 − μ²)                  where it slides,
 
-M and L the heights at which its neighbours above and below touch; k is the load factor at which the toe is left nothing.
+M and L the heights at which its neighbours above and below touch; k is the load factor at which the toe has nothing
+left.
 """
 
 from __future__ import annotations
