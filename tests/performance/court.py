@@ -102,17 +102,17 @@ def experiments() -> Iterator[Deck]:
 def dry_wall(
     height: float, course: float, level: float, load: float, strength: float, friction: float
 ) -> dict[str, object]:
-    """A wall of 1.0 × 0.2 m in running bond under a beam that carries the vertical load and is pushed at a level.
+    """A wall of 1.0 × 0.2 m in running bond under a beam, of no weight, that carries a load and is pushed at a level.
 
     height, course, level : m; load : kN; strength : Pa
     """
     depth = 2.0 * (level - height)
-    beam = {"group": "beam", "material": "stone", "min": [0, 0, height], "max": [1.0, 0.2, height + depth]}
+    beam = {"group": "beam", "material": "light", "min": [0, 0, height], "max": [1.0, 0.2, height + depth]}
     unit = {"material": "stone", "unit": [0.2, 0.2, course], "length": 1.0, "courses": round(height / course)}
     middle = [0.5, 0.1, height + depth]
     return {
         "mbla": 1,
-        "materials": {"stone": {"density": 2039.0}},
+        "materials": {"stone": {"density": 2039.0}, "light": {"density": 1.0}},
         "joints": {"dry": {"friction": friction, "compressive_strength": strength}},
         "blocks": [{"wall": unit}, {"box": beam}],
         "contacts": {"joint": "dry"},
@@ -134,7 +134,7 @@ def run(label: str, sets: list[str], limit: int) -> None:
     path = COURT / f"{label}.csv"
     known = {(verdict.set, verdict.deck) for verdict in read(path)}
     path.parent.mkdir(exist_ok=True)
-    fresh = not path.exists()
+    fresh = not path.exists() or not path.stat().st_size
     with path.open("a", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         if fresh:
@@ -206,9 +206,18 @@ def read(path: Path) -> list[Verdict]:
 
 
 def _row(row: dict[str, str]) -> Verdict:
-    factors = (float(row[name]) for name in ("load_factor", "least", "associative"))
-    words = row["set"], row["deck"], row["case"], row["status"]
-    return Verdict(*words, *factors, row["standing"], float(row["seconds"]), row["reason"])
+    return Verdict(
+        row["set"],
+        row["deck"],
+        row["case"],
+        row["status"],
+        float(row["load_factor"]),
+        float(row["least"]),
+        float(row["associative"]),
+        row["standing"],
+        float(row["seconds"]),
+        row["reason"],
+    )
 
 
 def compare(before: str, after: str) -> None:

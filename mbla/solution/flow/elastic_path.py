@@ -30,6 +30,7 @@ LIMP = 1e-6
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
+
 class Stop(StrEnum):
     """Why a path ended: the first three are answers."""
 
