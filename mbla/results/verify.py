@@ -159,7 +159,9 @@ def _unproved(results: Results, case: CaseResult) -> list[str]:
     if associative is not None:
         least, most = checks.static_bound, checks.kinematic_bound
         scale = load_scale(model, contacts, case.load_case, yield_limits(model, contacts))  # also without dead load
-        nothing = max(least_factor(model, case.load_case), scale.least_factor(associative.mechanism))
+        nothing = least_factor(model, case.load_case)
+        if scale.live > 0.0:  # of a support that gives way, or a force that is sought, the unit is another
+            nothing = max(nothing, scale.least_factor(associative.mechanism))
         room = SOLVED_RESIDUAL * max(abs(most), abs(least), nothing)
         if associative.load_factor < least - room or associative.load_factor > most + room:
             found.append(

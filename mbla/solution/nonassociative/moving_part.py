@@ -44,11 +44,16 @@ def moving_part(
     program: Program,
     velocities: FloatArray,
     *,
-    rings: int = RINGS,
-    few: int = FEW_POINTS,
-    worthwhile: float = WORTHWHILE,
+    rings: int | None = None,
+    few: int | None = None,
+    worthwhile: float | None = None,
 ) -> MovingPart | None:
-    """The part that velocities, (n_rows,), move; None where that is hardly smaller, or blocks are guided."""
+    """The part that velocities, (n_rows,), move; None where that is hardly smaller, or blocks are guided.
+
+    rings, few, worthwhile : in the place of ``RINGS``, ``FEW_POINTS`` and ``WORTHWHILE``
+    """
+    rings, few = RINGS if rings is None else rings, FEW_POINTS if few is None else few
+    worthwhile = WORTHWHILE if worthwhile is None else worthwhile
     size = 3 if program.components == 2 else 6
     if program.guided or len(velocities) % size or program.n_points <= few:
         return None
