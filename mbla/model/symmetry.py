@@ -198,16 +198,13 @@ def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
     result, images = [], []
     for ground in grounds:
         carried = None if ground.blocks is None else mirror.image_of[ground.blocks]
-        if abs(float(ground.normal @ mirror.normal)) <= ACROSS and ground.outline is None:
+        across = abs(float(ground.normal @ mirror.normal)) <= ACROSS and ground.outline is None
+        if across or (ground.outline is not None and _own_image(ground, mirror)):
             both = None if ground.blocks is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
             result.append(replace(ground, blocks=both))
             continue
         result.append(ground)
         point, normal = mirror.reflection.points(ground.point), mirror.reflection.directions(ground.normal)
-        if ground.outline is not None and _own_image(ground, mirror):
-            both = None if carried is None else np.union1d(ground.blocks, carried)  # type: ignore[arg-type]
-            result[-1] = replace(ground, blocks=both)
-            continue
         outline = None if ground.outline is None else mirror.reflection.points(ground.outline)[::-1].copy()
         images.append(Ground(point, normal, ground.joint, carried, f"image of {ground.label}", outline))
     return (*result, *images)
