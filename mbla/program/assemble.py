@@ -22,6 +22,7 @@ from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.restrict import guide_projector, guided_program
+from mbla.program.stiffness_shares import equal_shares
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -57,6 +58,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
         scaling=scaling,
         allowed=guide_projector(model, free, scaling),
         settles=load_case.settlement is not None,
+        areas=equal_shares(contacts),
     )
 
 

@@ -89,6 +89,8 @@ class Program:
                          v_N; None where all touch
     settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
                          structure stands
+    areas              : of the program of the full model: (n_points,) by which contact points share stiffness
+                         (:mod:`mbla.program.stiffness_shares`); None elsewhere
     """
 
     equilibrium_matrix: sp.csr_array
@@ -105,6 +107,7 @@ class Program:
     allowed: sp.csr_array | None = None
     settles: bool = False
     gaps: FloatArray | None = None
+    areas: FloatArray | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
         """Aᵀu, (n_points, components), from (n_rows,); openings from where a point touches on."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.elastic_path import ElasticPath, Stop, elastic_motion, follow
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.settings import PathSettings
@@ -53,7 +54,6 @@ class PathOfPart:
 
 def path_of_part(
     program: Program,
-    shares: FloatArray,
     associative: float,
     velocities: FloatArray,
     settings: PathSettings,
@@ -61,12 +61,11 @@ def path_of_part(
 ) -> PathOfPart:
     """The path of a part.
 
-    shares      : (n_points,) of the stiffness, mean 1
     associative : load factor of associative flow; velocities, (n_rows,), of its mechanism
     dilatancy   : (n_points,) tangents of its angles; none unless given
     """
     part, unit = moving_part(program, velocities, rings=3, few=1500, worthwhile=0.8), None
-    followed = ElasticJoints.of(program, shares, settings.ratio, dilatancy)
+    followed = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy)
     points = None if part is None else part.points
     if part is not None:
         followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy)

@@ -6,11 +6,11 @@ import numpy as np
 
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
+from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.stiffness_shares import equal_shares, shares_of
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.settings import SolverSettings
 from tests.line import Line
@@ -32,9 +32,8 @@ def path_of(line: Line, settings: PathSettings = DEFAULT, *, associative_flow: b
     program = reduced(line)
     answer = solve_associative(program, SETTINGS, lambda record: None, stress_free=False)
     assert answer.state is not None
-    shares = shares_of(program, equal_shares(line.contacts))
     slope = program.limits.friction if associative_flow else None
-    return path_of_part(program, shares, answer.state.load_factor, answer.state.velocities, settings, slope)
+    return path_of_part(program, answer.state.load_factor, answer.state.velocities, settings, slope)
 
 
 def load_factor_of(line: Line, settings: PathSettings = DEFAULT, *, associative_flow: bool = False) -> float:
@@ -46,4 +45,4 @@ def load_factor_of(line: Line, settings: PathSettings = DEFAULT, *, associative_
 def rest_of(line: Line, ratio: float = 0.4) -> Gravity:
     """The structure under its dead load."""
     program = reduced(line)
-    return gravity_step(ElasticJoints.of(program, shares_of(program, equal_shares(line.contacts)), ratio))
+    return gravity_step(ElasticJoints.of(program, shares_of(program), ratio))

@@ -24,20 +24,21 @@ def equal_shares(contacts: Contacts) -> FloatArray:
     return np.asarray(shares)
 
 
-def shares_of(program: Program, full: FloatArray) -> FloatArray:
-    """Those of a program's points, (n_points,) with mean 1, from those of the points of the full model.
+def shares_of(program: Program) -> FloatArray:
+    """Those of a program's points, (n_points,) with mean 1, from the areas of the points of the full model.
 
     Points that stand for several, as those of a planar program, are as stiff as these together.
     """
-    shares = _through(program, full)
+    shares = _through(program)
     return np.asarray(shares / shares.mean()) if len(shares) else shares
 
 
-def _through(program: Program, full: FloatArray) -> FloatArray:
+def _through(program: Program) -> FloatArray:
     reduction = program.reduction
     if reduction is None:
-        return full
-    above = _through(reduction.full, full)
+        assert program.areas is not None  # of the full model
+        return program.areas
+    above = _through(reduction.full)
     normal = sp.csr_array(reduction.forces[:: reduction.full.components][:, :: program.components])
     normal.eliminate_zeros()
     normal.data = np.ones_like(normal.data)
