@@ -34,6 +34,7 @@ from mbla.solution.standing.standing import (
     stress_free_state,
 )
 from mbla.solution.standing.standing_path import StandingPath
+from mbla.solution.standing.weak_spring_continuation import Outcome
 from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
 
 NO_MECHANISM_AT_DILATANCY = (
@@ -290,7 +291,9 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
         return result
     first = result.sequence.first if result.sequence is not None else None
     reached = state.load_factor if first is None else max(first, state.load_factor)
-    if 0.0 < SUSPECT * most < reached and not _falls_before(result, state, most, settings):
+    start = result.associative.stress_free
+    stands = start is None or start.outcome is not Outcome.UNDECIDED
+    if stands and 0.0 < SUSPECT * most < reached and not _falls_before(result, state, most, settings):
         return result
     rough = state.residual > RANGE_RESIDUAL
     unasked = result.program.n_points > FEW_POINTS and not settings.analysis.peak
@@ -321,10 +324,10 @@ def _falls_before(result: PartResult, state: LawState, most: float, settings: So
 def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
     """The range where it is asked for; where lower states are searched its lower end is the answer, asked for or not.
 
-    Only of a state that fits the law: the mechanism of another one is meaningless.
+    Only of a state that is claimed and fits the law: the mechanism of another one is meaningless.
     """
     state = None if result.sequence is None else result.sequence.state
-    if state is None:
+    if state is None or result.status not in WITH_VALUE:
         return result
     if state.residual > RANGE_RESIDUAL:
         return result.with_remark(NO_RANGE.format(state.residual)) if settings.range else result

@@ -160,7 +160,9 @@ def _range(found: Found, deck: Deck, case: CaseResult) -> None:
     """Both ends of the range of a state that fits the law, and what the programs found for them."""
     solution, own = case.solution, case.solution.mechanics
     knobs = settings_for(case.load_case, solver_settings(deck.analysis))
-    if own is None or solution.conditions_on_interfaces or not knobs.range or by_normality(solution):
+    if own is None or solution.status not in WITH_VALUE or solution.conditions_on_interfaces:
+        return
+    if not knobs.range or by_normality(solution):
         return
     for name in ("lower", "upper"):
         end: Mechanics | None = getattr(solution, name)

@@ -41,6 +41,11 @@ class Stop(StrEnum):
     BROKE_DOWN = "breaks down"
     BUDGET = "budget"
 
+    @property
+    def answers(self) -> bool:
+        """Whether the greatest load factor was seen."""
+        return self in (Stop.FALLS, Stop.FLAT, Stop.FAR)
+
 
 @dataclass(frozen=True)
 class PathStep:

@@ -9,9 +9,11 @@ Forces and mechanism may fit the joint law at a load factor that the structure n
   load it collapses at the end of the path then, its peak, and the lower figure is what is left while it moves;
 - below zero, which is no load factor at all of a structure that stands.
 
-The forces of the last state that stands balance the loads within the yield conditions, which shows that the peak is
-carried. It belongs to joints of equal stiffness. A plank clamped in a wall and pulled out (associative 3.3086) has its
-peak at 2.17 and is at rest at 1.0720.
+Looks at single loads forget what joints go through on the way, so that a peak is no higher than elastic joints reach
+from the dead load on (:mod:`mbla.solution.flow.least_reached`), and what is left below it hangs on how the structure
+moves: it is approximate. The forces of a peak balance the loads within the yield conditions, which shows that it is
+carried. A plank clamped in a wall and pulled out (associative 3.3086) stands at 2.17 under all of its load at once,
+comes to 1.47 step by step, and is at rest at 1.0720.
 """
 
 from __future__ import annotations
@@ -25,11 +27,11 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.flow.least_reached import BOTH, least_reached
 from mbla.solution.nonassociative.default_scheme import state_near
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.standing.standing_path import GROWTH, SMALL, PathState, StandingPath
-from mbla.solution.standing.weak_spring_continuation import Outcome
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 PEAK = 1e-3
@@ -72,7 +74,7 @@ def judged_by_path(
     if state is None:
         return PathVerdict(sequence)
     if not path.last.stands:
-        return PathVerdict(_lower_in_doubt(path, sequence, log), remark=NOT_STANDING)
+        return _at_its_limit(path, sequence, most, log)
     margin = _margin(path, state)
     if most - state.load_factor <= margin:
         return PathVerdict(sequence)
@@ -94,20 +96,39 @@ def judged_by_path(
     return replace(verdict, sequence=sequence, programs=(_record(path, first_program, time.perf_counter() - started),))
 
 
-def _lower_in_doubt(path: StandingPath, sequence: SequenceResult, log: Log) -> SequenceResult:
-    """A lower state in the motion in which a structure whose standing is in doubt falls; in the plane, else none.
+def _at_its_limit(path: StandingPath, sequence: SequenceResult, most: float, log: Log) -> PathVerdict:
+    """Where standing is in doubt: no figure above the load that elastic joints of either stiffness reach.
 
     Columns that topple down a slope fall with joints of one stiffness and stand with another: the state that belongs to
     their fall may be a tenth of what a search from other states comes to.
     """
-    program, found, last = path.program, sequence.state, path.last.weakening
+    found, reached = sequence.state, least_reached(path.program, most) if np.isfinite(most) else None
     assert found is not None
-    if program.components != 2 or last.outcome is not Outcome.UNDECIDED or last.forces is None:
-        return sequence
-    records = list(sequence.programs)
-    there = state_near(program, _moving_from(path, last.forces, 0.0), found.load_factor, path.settings, log, records)
-    lower = there is not None and there.residual <= SOLVED_RESIDUAL and 0.0 <= there.load_factor < found.load_factor
-    return replace(sequence, state=there if lower else found, programs=tuple(records))
+    if reached is None or reached.load_factor >= found.load_factor:
+        return PathVerdict(sequence, remark=NOT_STANDING)
+    live, records = path.program.scaling.live, list(sequence.programs)
+    reason = REACHED.format(f"{reached.load_factor * live:.6g}", f"{found.load_factor * live:.6g}")
+    near = state_near(path.program, reached, (1.0 + NEAR) * reached.load_factor, path.settings, log, records)
+    if near is None or near.residual > SOLVED_RESIDUAL or near.load_factor < 0.0:
+        unknown = replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(records))
+        return PathVerdict(unknown, peak=reached, remark=reason)
+    lower = replace(sequence, status=Status.APPROXIMATE, state=near, reason=reason, programs=tuple(records))
+    return PathVerdict(lower, remark=reason)
+
+
+def _as_it_falls(path: StandingPath, sequence: SequenceResult, most: float) -> PathVerdict:
+    """With a peak, no higher than the load that elastic joints reach: what is left below hangs on how it moves."""
+    state, peak, live = sequence.state, _peak(path), path.program.scaling.live
+    assert state is not None
+    reached = least_reached(path.program, most, BOTH[:1]) if np.isfinite(most) else None
+    if reached is not None and reached.load_factor < peak.load_factor:
+        peak = reached
+    height, rest = (f"{each.load_factor * live:.6g}" for each in (peak, state))
+    if peak.load_factor <= state.load_factor:
+        reason = REACHED.format(height, rest)
+        return PathVerdict(replace(sequence, status=Status.APPROXIMATE, state=peak, reason=reason), remark=reason)
+    remark = FALLS.format(height, rest)
+    return PathVerdict(_at_most_approximate(sequence, remark), peak=peak, remark=remark)
 
 
 def _contradicted(path: StandingPath, sequence: SequenceResult, beyond: PathState) -> PathVerdict:
@@ -164,7 +185,7 @@ def _verdict(path: StandingPath, sequence: SequenceResult, most: float, margin: 
         remark = STANDS_ON.format(height, rest)
         unknown = replace(sequence, status=Status.NOT_VERIFIED, reason=remark)
         return PathVerdict(unknown, peak=_peak(path), remark=remark)
-    return PathVerdict(sequence, peak=_peak(path), remark=FALLS.format(height, rest))
+    return _as_it_falls(path, sequence, most)
 
 
 def _at_most_approximate(sequence: SequenceResult, reason: Message) -> SequenceResult:
@@ -207,6 +228,11 @@ NOT_STANDING = Message(
 NOT_SEEN = Message(
     "path-not-seen",
     "the load path was followed to {} only, and whether the structure stands up to the load factor was not seen: {}",
+)
+REACHED = Message(
+    "found-above-path",
+    "joints of a stiffness lead from the dead load to {} and no further; forces and mechanism fit the joint law of "
+    "rigid ones at {} as well, which this loading does not reach",
 )
 LOWER = Message(
     "found-above-path",

@@ -1,0 +1,50 @@
+"""The load that a structure reaches by elastic joints, where other figures without dilatancy are in doubt.
+
+Forces and a mechanism may fit the law of rigid joints at loads far apart, where the structure stands at its limit, or
+where the load falls as it moves. Elastic joints lead from the dead load to one load (:mod:`.elastic_path`), and the
+forces there balance it within the yield conditions, as statics can show. The mechanism is that of the last step: next
+to what the joints still give it fits the law of rigid ones roughly, and is not claimed to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mbla.program.program import Program
+from mbla.solution.associative.repair import repaired_forces
+from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.nonassociative.law_state import LawState, law_state
+
+BOTH = (0.4, 1.0)
+"""Ratios of shear to normal stiffness that are held against each other where a figure hangs on them."""
+
+
+def least_reached(program: Program, associative: float, ratios: Sequence[float] = BOTH) -> LawState | None:
+    """The state at the least load reached with joints of some ratios of stiffness; None where one has no answer.
+
+    associative : load factor of associative flow
+    """
+    states = [_reached(program, associative, ratio) for ratio in ratios]
+    known = [state for state in states if state is not None]
+    return min(known, key=lambda state: state.load_factor) if len(known) == len(states) else None
+
+
+def _reached(program: Program, associative: float, ratio: float) -> LawState | None:
+    settings = PathSettings(ratio=ratio)
+    everything = np.ones(len(program.live_load))  # the whole is followed, whatever moves in it
+    return state_of(program, path_of_part(program, associative, everything, settings))
+
+
+def state_of(program: Program, found: PathOfPart) -> LawState | None:
+    """The state at the greatest load of a path that followed the whole; None where the path has no answer."""
+    peak = found.path.peak
+    if peak is None or not found.path.stop.answers or not found.gravity.carried:
+        return None
+    forces, factor = np.vstack([peak.state.normal[None], peak.state.shear]).T, peak.state.factor
+    repaired = repaired_forces(program, forces, factor)
+    if repaired is None:
+        return None
+    return law_state(program, 0.0, repaired[0], peak.state.u, repaired[1])
