@@ -27,6 +27,9 @@ from mbla.solution.law.joint_step import JointStep, direction_of, length_of, res
 LIMP = 1e-6
 """Stiffness of ties over that of joints in the measure of displacement: they may be slack."""
 
+RIGID = 1e8
+"""Stiffness of interfaces with a motion of their own in that measure: none of it is elastic."""
+
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
@@ -108,11 +111,13 @@ class ElasticPath:
 def elastic_motion(joints: ElasticJoints) -> FloatArray:
     """Displacements of the blocks under the live load with all joints stuck, (n_rows,)."""
     program = joints.program
-    tangents = np.zeros((program.n_points, program.components, program.components))
+    n_all = joints.matrix.program.n_points
+    tangents = np.zeros((n_all, program.components, program.components))
+    tangents[program.n_points :] = RIGID * np.eye(program.components)
     holds = (joints.friction > 0.0) | (program.limits.cohesion > 0.0)
-    tangents[:, 0, 0] = np.where(holds, joints.normal, LIMP * joints.normal)
+    tangents[: program.n_points, 0, 0] = np.where(holds, joints.normal, LIMP * joints.normal)
     for tangent in range(1, program.components):
-        tangents[:, tangent, tangent] = joints.shear
+        tangents[: program.n_points, tangent, tangent] = joints.shear
     solve = joints.matrix.factorized(tangents, 1e-12 * joints.matrix.size, fixed_load=True)
     if solve is None:
         return np.asarray(program.live_load / float(program.live_load @ program.live_load))
@@ -218,6 +223,9 @@ class _Path:
             slip=-(speed / limit) * shear,
             speed=speed,
             crushing=sigma / joints.room(state.normal),
+            interfaces=tuple(
+                law.centred(one, state.normal, sigma) for law, one in zip(joints.laws, state.interfaces, strict=True)
+            ),
         )
 
     def advance(self) -> Stop | None:
@@ -237,8 +245,7 @@ class _Path:
         if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.half is None:
             self.half = self.top
         self.displacement += length * self.h / self.unit
-        moved = length * self.h * self.joints.velocities(self.state.u)
-        self.memory = self.memory.after(self.joints, moved, self.state.normal)
+        self.memory = self.memory.after(self.joints, length * self.h * self.state.u, self.state.normal)
         counted = self._counts(step, sigma, length)
         self.steps.append(PathStep(self.displacement, self.state.factor, counted, reach))
         return self._ended(counted, reach, sigma) or self._next(reach)
@@ -258,8 +265,8 @@ class _Path:
 
     def _ended(self, counted: bool, reach: float, sigma: float) -> Stop | None:
         """Falls, flat, far, stuck, or None."""
-        settings, n = self.settings, self.joints.program.n_points
-        if 2.0 * n * sigma <= 0.3 * self.associative:
+        settings = self.settings
+        if self.joints.n_products * sigma <= 0.3 * self.associative:
             below = counted and self.peak > 0.0 and reach > 0.2
             below = below and self.state.factor < (1.0 - settings.dropped) * self.peak
             first = self.low[1] if self.low[0] else self.displacement
@@ -306,8 +313,7 @@ class _Path:
         """κ with which smoothing takes its share of the live power."""
         share, from_there = self.settings.smoothed
         share *= min(1.0, from_there / self.displacement) if self.displacement > 0.0 else 1.0
-        n = self.joints.program.n_points
-        wanted = 2.0 * n * self.force**2 / (share * self.associative * self.h)
+        wanted = self.joints.n_products * self.force**2 / (share * self.associative * self.h)
         return max(self.settings.least_smoothing, min(1.0, wanted))
 
     def _recentre(self) -> None:

@@ -12,7 +12,7 @@ reached together: with larger ones joints push each other apart, and a history i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -83,9 +83,9 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
         state = state.plus(direction, length_of(reach))
         if reach > LONG:
             sigma = max(FALL * sigma, LEAST * force**2)
-    memory = fresh.after(joints, joints.velocities(state.u), state.normal)
+    memory = replace(fresh.after(joints, state.u, state.normal), shear=state.shear)
     held = float(np.abs(springs * state.u).max(initial=0.0))
-    return Gravity(state, Memory(memory.normal, state.shear), force, settled, held, spent)
+    return Gravity(state, memory, force, settled, held, spent)
 
 
 def _start(joints: ElasticJoints, force: float) -> StepState:
@@ -104,4 +104,5 @@ def _start(joints: ElasticJoints, force: float) -> StepState:
         slip=none.copy(),
         speed=sigma / joints.limit(normal),
         crushing=sigma / joints.room(normal),
+        interfaces=tuple(law.start(normal, sigma) for law in joints.laws),
     )

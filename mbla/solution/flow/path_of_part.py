@@ -14,6 +14,7 @@ from mbla.solution.flow.elastic_path import ElasticPath, Stop, elastic_motion, f
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
 
 MOST_STEPS_OF_PART = 900
@@ -58,17 +59,19 @@ def path_of_part(
     velocities: FloatArray,
     settings: PathSettings,
     dilatancy: FloatArray | None = None,
+    interfaces: Interfaces = NONE,
 ) -> PathOfPart:
     """The path of a part.
 
     associative : load factor of associative flow; velocities, (n_rows,), of its mechanism
     dilatancy   : (n_points,) tangents of its angles; none unless given
+    interfaces  : of the model that have a law of their own
     """
     part, unit = moving_part(program, velocities, rings=3, few=1500, worthwhile=0.8), None
-    followed = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy)
+    followed = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, interfaces.rows_of(program))
     points = None if part is None else part.points
     if part is not None:
-        followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy)
+        followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy, interfaces)
     gravity = gravity_step(followed, _force_of_live(followed, associative))
 
     def along(by: PathSettings) -> ElasticPath:
@@ -117,10 +120,12 @@ def _of_moving(
     associative: float,
     settings: PathSettings,
     dilatancy: FloatArray | None,
+    interfaces: Interfaces,
 ) -> tuple[ElasticJoints, float, PathSettings]:
     """Joints of what moves, the unit of displacement of the whole, and settings for it."""
     slope = None if dilatancy is None else dilatancy[part.points]
-    joints = ElasticJoints.of(part.program, whole.normal[part.points], settings.ratio, slope)
+    rows = interfaces.rows_of(part.program)
+    joints = ElasticJoints.of(part.program, whole.normal[part.points], settings.ratio, slope, rows)
     unit, own = _unit(whole, associative), _unit(joints, associative)
     first = settings.first * min(1.0, 2.0 * own / unit)
     share, _ = settings.smoothed

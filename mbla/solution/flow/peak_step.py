@@ -25,14 +25,16 @@ class PeakStep:
 
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
-    """The state with the openings that its motion has, where these are not nearly closed."""
+    """The state with the openings that its motion has, where these are not nearly closed, and as much flow."""
     joints, v = step.joints, step.joints.velocities(state.u)
     opening = v[0] + step.normal_compliance * (state.normal - step.memory.normal)
     if joints.dilates:
         opening = opening - joints.dilatancy * state.speed
     opening[joints.crushable] += state.crushing
     floor = OF_FLOOR * sigma / (state.normal + joints.program.limits.tension)
-    return replace(state, opening=np.maximum(opening, floor))
+    flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
+    interfaces = tuple(law.following(one, state.normal, motion) for law, one, motion in flows)
+    return replace(state, opening=np.maximum(opening, floor), interfaces=interfaces)
 
 
 SHARPER, SHARPENINGS, AT_REST = 0.2, 8, 2e-5

@@ -12,11 +12,15 @@ of the contacts, positive products instead of the alternatives of the law, and l
 At σ = 0 these are the alternatives: a joint is closed or without force, sticks or slides against its friction. What a
 joint remembers are the normal force n̄ that its gap would have without the law, and its shear t̄.
 
+Interfaces that crush or twist have a motion and a law of their own beside it
+(:mod:`mbla.solution.law.interface_law`), where a structure has such: the unknowns of all blocks are followed by theirs.
+
 Units are those of the program. Arrays of components stand first: (components − 1, n_points) for shear.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,6 +28,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.solution.law.interface_law import InterfaceLaw, InterfaceState
+from mbla.solution.law.interface_rows import InterfaceRows, with_resultants, with_rows
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 
 LEAST_LIMIT = 1e-9
@@ -34,32 +40,41 @@ LEAST_LIMIT = 1e-9
 class ElasticJoints:
     """Contact points of a program with their law and stiffness, all (n_points,).
 
-    matrix    : the pattern of A C Aᵀ of the program
+    program   : whose points they are, with the rows of interfaces behind those of the blocks
+    matrix    : the pattern of A C Aᵀ, with the resultants of interfaces behind the points
     dilatancy : tangent of the angle
     normal    : k_N, with mean 1
     shear     : k_T
+    laws      : of interfaces with a motion of their own
     """
 
+    program: Program
     matrix: Stiffness
     dilatancy: FloatArray
     normal: FloatArray
     shear: FloatArray
+    laws: tuple[InterfaceLaw, ...] = ()
 
     @staticmethod
-    def of(program: Program, shares: FloatArray, ratio: float, dilatancy: FloatArray | None = None) -> ElasticJoints:
+    def of(
+        program: Program,
+        shares: FloatArray,
+        ratio: float,
+        dilatancy: FloatArray | None = None,
+        interfaces: Sequence[InterfaceRows] = (),
+    ) -> ElasticJoints:
         """Joints of a program.
 
-        shares    : (n_points,) of the stiffness, mean 1
-        ratio     : k_T over k_N
-        dilatancy : (n_points,) tangents of its angles; none unless given
+        shares     : (n_points,) of the stiffness, mean 1
+        ratio      : k_T over k_N
+        dilatancy  : (n_points,) tangents of its angles; none unless given
+        interfaces : of the program that have a law of their own
         """
         slope = np.zeros(program.n_points) if dilatancy is None else dilatancy
-        return ElasticJoints(stiffness_of(program), slope, shares, ratio * shares)
-
-    @property
-    def program(self) -> Program:
-        """The program whose points they are."""
-        return self.matrix.program
+        program = with_rows(program, interfaces)
+        matrix = stiffness_of(with_resultants(program, interfaces))
+        laws = tuple(law for rows in interfaces for law in rows.laws)
+        return ElasticJoints(program, matrix, slope, shares, ratio * shares, laws)
 
     @cached_property
     def friction(self) -> FloatArray:
@@ -84,18 +99,37 @@ class ElasticJoints:
         """f_c − n of the points that can crush, (n_crushable,)."""
         return np.asarray(self.program.limits.compression[self.crushable] - normal[self.crushable])
 
+    @property
+    def n_products(self) -> float:
+        """Products of the law, over which smoothing takes σ each."""
+        return 2.0 * self.program.n_points + sum(
+            law.conditions.weight * law.conditions.n_conditions for law in self.laws
+        )
+
     def velocities(self, u: FloatArray) -> FloatArray:
         """Of the contacts, (components, n_points), from those of the blocks, (n_rows,)."""
-        return self.matrix.velocities(u).T
+        return self.matrix.velocities(u).T[:, : self.program.n_points]
 
-    def carried(self, normal: FloatArray, shear: FloatArray) -> FloatArray:
-        """A x, (n_rows,): what contact forces do to the blocks."""
-        return np.asarray(self.program.equilibrium_matrix @ np.vstack([normal[None], shear]).T.ravel())
+    def motions(self, u: FloatArray) -> tuple[FloatArray, ...]:
+        """Of what carries the resultants of each law, (components, m) each."""
+        if not self.laws:
+            return ()
+        return self._by_law(self.matrix.velocities(u).T[:, self.program.n_points :])
+
+    def _by_law(self, values: FloatArray) -> tuple[FloatArray, ...]:
+        ends = np.cumsum([law.rows.shape[1] // self.program.components for law in self.laws])
+        return tuple(np.split(values, ends[:-1], axis=1))
+
+    def carried(self, normal: FloatArray, shear: FloatArray, resultants: Sequence[FloatArray] = ()) -> FloatArray:
+        """A x, (n_rows,): what contact forces, and resultants of interfaces, do to the blocks and interfaces."""
+        forces = np.hstack([np.vstack([normal[None], shear]), *resultants]).T.ravel()
+        return np.asarray(self.matrix.program.equilibrium_matrix @ forces)
 
     def unbalanced(self, state: StepState) -> FloatArray:
         """Forces that a state leaves without balance, (n_rows,)."""
         program = self.program
-        return self.carried(state.normal, state.shear) + program.dead_load + state.factor * program.live_load
+        carried = self.carried(state.normal, state.shear, [one.resultants for one in state.interfaces])
+        return carried + program.dead_load + state.factor * program.live_load
 
 
 @dataclass(frozen=True)
@@ -108,6 +142,7 @@ class StepState:
     shear, slip   : (components − 1, n_points) t and w
     speed         : (n_points,) s
     crushing      : (n_crushable,) z
+    interfaces    : of each law of interfaces
     """
 
     u: FloatArray
@@ -118,31 +153,40 @@ class StepState:
     slip: FloatArray
     speed: FloatArray
     crushing: FloatArray
+    interfaces: tuple[InterfaceState, ...] = ()
 
     def plus(self, change: StepState, length: float) -> StepState:
         """The state a length along a direction."""
-        return StepState(*(a + length * b for a, b in zip(vars(self).values(), vars(change).values(), strict=True)))
+        others = {key: mine + length * getattr(change, key) for key, mine in vars(self).items() if key != "interfaces"}
+        of_laws = tuple(one.plus(turn, length) for one, turn in zip(self.interfaces, change.interfaces, strict=True))
+        return StepState(**others, interfaces=of_laws)
 
 
 @dataclass(frozen=True)
 class Memory:
-    """What joints remember from before a step: n̄, (n_points,), and t̄, (components − 1, n_points)."""
+    """What joints remember from before a step: n̄, (n_points,), and t̄, (components − 1, n_points).
+
+    interfaces : Ψ̄ of each law of interfaces, (components, m)
+    """
 
     normal: FloatArray
     shear: FloatArray
+    interfaces: tuple[FloatArray, ...] = ()
 
     @staticmethod
     def stress_free(joints: ElasticJoints) -> Memory:
         """Of joints that just touch."""
         n, components = joints.program.n_points, joints.program.components
-        return Memory(np.zeros(n), np.zeros((components - 1, n)))
+        none = tuple(np.zeros((components, law.rows.shape[1] // components)) for law in joints.laws)
+        return Memory(np.zeros(n), np.zeros((components - 1, n)), none)
 
-    def after(self, joints: ElasticJoints, moved: FloatArray, normal: FloatArray) -> Memory:
-        """After the joints have moved.
+    def after(self, joints: ElasticJoints, u: FloatArray, normal: FloatArray) -> Memory:
+        """After the blocks have moved.
 
-        moved  : (components, n_points) displacements of the contacts
+        u      : (n_rows,) displacements
         normal : (n_points,) normal forces after it, which limit the shear: smoothing of the law must not make it creep
         """
+        moved = joints.velocities(u)
         trial = self.shear - joints.shear * moved[1:]
         shear = within(trial, joints.limit(normal))
         gap = self.normal - joints.normal * moved[0]
@@ -152,7 +196,8 @@ class Memory:
             gap[joints.crushable] = np.minimum(
                 gap[joints.crushable], joints.program.limits.compression[joints.crushable]
             )
-        return Memory(gap, shear)
+        own = zip(joints.laws, self.interfaces, joints.motions(u), strict=True)
+        return Memory(gap, shear, tuple(was + by if law.conditions.remembers else was for law, was, by in own))
 
 
 def lengths(vectors: FloatArray) -> FloatArray:

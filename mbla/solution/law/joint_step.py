@@ -23,6 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.cone_vectors import cones_to_boundary, lines_to_boundary
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, lengths
+from mbla.solution.law.interface_law import EliminatedInterface, InterfaceState
 from mbla.solution.linear_algebra.stiffness import BorderedFactors
 
 LONG = 0.9
@@ -65,6 +66,12 @@ class JointStep:
         """1/(k_T h), (n_points,)."""
         return 1.0 / (self.joints.shear * self.length)
 
+    def motions(self, u: FloatArray) -> list[FloatArray]:
+        """v_r + Ψ̄/h of each law of interfaces, (components, m)."""
+        return [
+            v + before / self.length for v, before in zip(self.joints.motions(u), self.memory.interfaces, strict=True)
+        ]
+
 
 @dataclass(frozen=True)
 class Products:
@@ -72,16 +79,32 @@ class Products:
 
     normal   : (n_points,) N y                crushing : (n_crushable,) (f_c − n) z
     sliding  : (n_points,) l s + t·w          turning  : (components − 1, n_points) l w + s t
+    interfaces : g z of each law of interfaces, (k, m)
     """
 
     normal: FloatArray
     sliding: FloatArray
     turning: FloatArray
     crushing: FloatArray
+    interfaces: tuple[FloatArray, ...] = ()
 
     def plus(self, other: Products) -> Products:
         """The sum of both."""
-        return Products(*(a + b for a, b in zip(vars(self).values(), vars(other).values(), strict=True)))
+        sums = {key: mine + getattr(other, key) for key, mine in vars(self).items() if key != "interfaces"}
+        of_laws = tuple(a + b for a, b in zip(self.interfaces, other.interfaces, strict=True))
+        return Products(**sums, interfaces=of_laws)
+
+    def towards(self, sigma: float, joints: ElasticJoints) -> Products:
+        """Changes that bring them all to σ."""
+        return Products(
+            normal=sigma - self.normal,
+            sliding=sigma - self.sliding,
+            turning=-self.turning,
+            crushing=sigma - self.crushing,
+            interfaces=tuple(
+                law.conditions.weight * sigma - one for law, one in zip(joints.laws, self.interfaces, strict=True)
+            ),
+        )
 
 
 @dataclass(frozen=True)
@@ -91,12 +114,14 @@ class Residual:
     balance       : (n_rows + 1,) unbalanced forces, and f_L·u − 1
     normal, shear : (n_points,), (components − 1, n_points) incompatible velocities m_n, m_t
     products      : of the law
+    interfaces    : of the flow of each law of interfaces, (components, m)
     """
 
     balance: FloatArray
     normal: FloatArray
     shear: FloatArray
     products: Products
+    interfaces: tuple[FloatArray, ...] = ()
 
     @property
     def unbalanced(self) -> float:
@@ -120,7 +145,9 @@ def residual_of(step: JointStep, state: StepState) -> Residual:
     normal[joints.crushable] += state.crushing
     shear = v[1:] + step.shear_compliance * (state.shear - memory.shear) - state.slip
     balance = joints.unbalanced(state) - step.held * state.u
-    return Residual(np.append(balance, work), normal, shear, products_of(joints, state))
+    flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
+    interfaces = tuple(law.residual(one, state.normal, motion) for law, one, motion in flows)
+    return Residual(np.append(balance, work), normal, shear, products_of(joints, state), interfaces)
 
 
 def products_of(joints: ElasticJoints, state: StepState) -> Products:
@@ -131,6 +158,9 @@ def products_of(joints: ElasticJoints, state: StepState) -> Products:
         sliding=limit * state.speed + (state.shear * state.slip).sum(axis=0),
         turning=limit * state.slip + state.speed * state.shear,
         crushing=joints.room(state.normal) * state.crushing,
+        interfaces=tuple(
+            law.products(one, state.normal) for law, one in zip(joints.laws, state.interfaces, strict=True)
+        ),
     )
 
 
@@ -139,15 +169,15 @@ def direction_of(step: JointStep, state: StepState, residual: Residual, sigma: f
     linear = Eliminated.at(step, state)
     if linear is None:
         return None
-    joints, products = step.joints, residual.products
-    wanted = Products(sigma - products.normal, sigma - products.sliding, -products.turning, sigma - products.crushing)
+    joints = step.joints
+    wanted = residual.products.towards(sigma, joints)
     direction = linear.direction(residual, wanted)
     if not np.isfinite(direction.u).all():
         return None
     reach = min(1.0, reach_of(joints, state, direction))
     if reach > LONG:
         return direction, reach
-    wanted = wanted.plus(_second_order(joints, direction, reach * reach))
+    wanted = wanted.plus(_second_order(linear, direction, reach * reach))
     trial = linear.direction(residual, wanted)
     longer = min(1.0, reach_of(joints, state, trial))
     if longer > reach:
@@ -156,7 +186,7 @@ def direction_of(step: JointStep, state: StepState, residual: Residual, sigma: f
         if reach > LONG:
             break
         ahead = state.plus(direction, min(1.0, reach + BEYOND))
-        wanted = wanted.plus(_outlying(products_of(joints, ahead), sigma))
+        wanted = wanted.plus(_outlying(joints, products_of(joints, ahead), sigma))
         trial = linear.direction(residual, wanted)
         longer = min(1.0, reach_of(joints, state, trial))
         if longer < reach + GAIN:
@@ -187,21 +217,29 @@ def reach_of(joints: ElasticJoints, state: StepState, direction: StepState) -> f
         inside = np.maximum(radius * radius - (vector * vector).sum(axis=0), 0.0)
         mixed, ahead = radius * growth - (vector * turn).sum(axis=0), growth * growth - (turn * turn).sum(axis=0)
         reach.append(float(cones_to_boundary(inside, mixed, ahead).min(initial=np.inf)))
-    return min(reach)
+    most = min(reach)
+    for law, own, change in zip(joints.laws, state.interfaces, direction.interfaces, strict=True):
+        most = law.reach(own, change, state.normal, direction.normal, min(1.0, most))
+    return most
 
 
-def _second_order(joints: ElasticJoints, direction: StepState, share: float) -> Products:
+def _second_order(linear: Eliminated, direction: StepState, share: float) -> Products:
     """What a direction changes of the products in the second order, with a share taken back."""
+    joints = linear.step.joints
     growth = joints.friction * direction.normal
     return Products(
         normal=-share * direction.normal * direction.opening,
         sliding=-share * (growth * direction.speed + (direction.shear * direction.slip).sum(axis=0)),
         turning=-share * (growth * direction.slip + direction.speed * direction.shear),
         crushing=share * direction.normal[joints.crushable] * direction.crushing,
+        interfaces=tuple(
+            -share * one.second_order(turn, direction.normal)
+            for one, turn in zip(linear.interfaces, direction.interfaces, strict=True)
+        ),
     )
 
 
-def _outlying(ahead: Products, sigma: float) -> Products:
+def _outlying(joints: ElasticJoints, ahead: Products, sigma: float) -> Products:
     """Changes that bring products back within a factor of σ; of a pair those are p ± ‖q‖."""
     least, most = sigma / FAR_OFF, sigma * FAR_OFF
     size = lengths(ahead.turning)
@@ -213,6 +251,10 @@ def _outlying(ahead: Products, sigma: float) -> Products:
         sliding=0.5 * (larger + smaller) - ahead.sliding,
         turning=turned * ahead.turning,
         crushing=np.clip(ahead.crushing, least, most) - ahead.crushing,
+        interfaces=tuple(
+            np.clip(one, law.conditions.weight * least, law.conditions.weight * most) - one
+            for law, one in zip(joints.laws, ahead.interfaces, strict=True)
+        ),
     )
 
 
@@ -225,6 +267,7 @@ class Eliminated:
     across   : the same of H⁻¹ cone
     follows  : (components − 1, n_points) h_v
     lifts    : (components − 1, n_points) b, None without dilatancy
+    interfaces : each law of interfaces by itself
     """
 
     step: JointStep
@@ -237,6 +280,7 @@ class Eliminated:
     follows: FloatArray
     lifts: FloatArray | None
     over: FloatArray
+    interfaces: tuple[EliminatedInterface, ...] = ()
 
     @staticmethod
     def at(step: JointStep, state: StepState) -> Eliminated | None:
@@ -261,13 +305,19 @@ class Eliminated:
         tangents[:, 0, 0] = 1.0 / stiff
         tangents[:, 1:, 1:] = across.transpose(2, 0, 1)
         tangents[:, 1:, :] -= follows.T[:, :, None] * tangents[:, 0, None, :]
-        if not np.isfinite(tangents).all():
+        own = [
+            EliminatedInterface.at(law, one, state.normal)
+            for law, one in zip(joints.laws, state.interfaces, strict=True)
+        ]
+        interfaces = tuple(one for one in own if one is not None)
+        every_tangent = np.concatenate([tangents, *(one.tangents for one in interfaces)])
+        if len(interfaces) < len(own) or not np.isfinite(every_tangent).all():
             return None
         shift = SHIFT * float(np.mean(tangents[:, 0, 0])) * joints.matrix.size + step.held
-        solve = joints.matrix.factorized(tangents, shift, fixed_load=not step.driven)
+        solve = joints.matrix.factorized(every_tangent, shift, fixed_load=not step.driven)
         if solve is None:
             return None
-        return Eliminated(step, state, solve, tangents, cone, inverse, across, follows, lifts, over)
+        return Eliminated(step, state, solve, tangents, cone, inverse, across, follows, lifts, over, interfaces)
 
     def direction(self, residual: Residual, wanted: Products) -> StepState:
         """Direction that changes the products as told and makes up for what else is missing."""
@@ -283,8 +333,9 @@ class Eliminated:
             alone = alone - (self.lifts * free_shear).sum(axis=0)
         free = self.tangents[:, 0, 0] * alone
         free_shear = free_shear - self.follows * free
-        rhs = -residual.balance
-        rhs[:-1] -= joints.carried(free, free_shear)
+        rhs, driving = -residual.balance, self._driving(residual, wanted)
+        alone_too = [one.resultants(drive, 0.0, free) for one, drive in zip(self.interfaces, driving, strict=True)]
+        rhs[:-1] -= joints.carried(free, free_shear, alone_too)
         answer = self.solve.unrefined(rhs)
         dv = joints.velocities(answer[:-1])
         change = np.einsum("nij,jn->in", self.tangents, dv)
@@ -302,6 +353,21 @@ class Eliminated:
             slip=slip,
             speed=speed,
             crushing=(wanted.crushing + state.crushing * normal[joints.crushable]) / room,
+            interfaces=self._interfaces(wanted, driving, answer[:-1], normal),
+        )
+
+    def _driving(self, residual: Residual, wanted: Products) -> list[FloatArray]:
+        """What drives the resultants of each law of interfaces besides motion and normal forces."""
+        each = zip(self.interfaces, residual.interfaces, wanted.interfaces, strict=True)
+        return [one.driving(flow, products) for one, flow, products in each]
+
+    def _interfaces(
+        self, wanted: Products, driving: list[FloatArray], u: FloatArray, normal: FloatArray
+    ) -> tuple[InterfaceState, ...]:
+        """Changes of the laws of interfaces, with those of velocities and normal forces."""
+        each = zip(self.interfaces, driving, self.step.joints.motions(u), wanted.interfaces, strict=True)
+        return tuple(
+            one.change(one.resultants(drive, motion, normal), normal, products) for one, drive, motion, products in each
         )
 
 

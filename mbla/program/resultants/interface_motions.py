@@ -1,0 +1,183 @@
+"""Interfaces with a motion of their own in a reduced program: which rows that makes, and what their crushing bounds.
+
+An interface that crushes moves by ψ between the springs of its points and one of its blocks. With the resultants r of
+the pieces that act there side by side, rows stand behind those of the blocks::
+
+    Σ r − R x = 0,   R from the contact forces of the program to resultants about the centroid of the interface
+
+so that its points have the velocities Aᵀu − Rᵀψ. R comes from the full model through all reductions: the points of a
+planar program stand for several, and an interface and its image move alike there and are one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
+from mbla.model.solids.measures import connected_labels
+from mbla.program.program import Program
+from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes, local_points
+from mbla.program.resultants.stress_blocks import Pieces, Plates, pieces_in_plane, pieces_in_space, with_conditions
+
+NONE = 1e-12
+"""Entry of R, over the largest, that is rounding."""
+
+
+@dataclass(frozen=True)
+class CrushingInterfaces:
+    """Interfaces of a model, some of which crush as stress blocks.
+
+    shapes      : of all interfaces
+    areas       : (n_interfaces,) [m²]
+    places      : (n_points, 2) of the points in their interfaces, from the centroid [m]
+    interface_of_point : (n_points,)
+    compression : (n_interfaces,) f_c A, inf where it is unlimited [force of the deck]
+    tension     : (n_interfaces,) f_t A [force of the deck]
+    """
+
+    shapes: InterfaceShapes
+    areas: FloatArray
+    places: FloatArray
+    interface_of_point: IntArray
+    compression: FloatArray
+    tension: FloatArray
+
+    @classmethod
+    def of(cls, model: Model, contacts: Contacts) -> CrushingInterfaces:
+        """By the joint laws of a model; ties are no interfaces."""
+        laws = [model.joints[contacts.joint_names[joint]] for joint in contacts.joints]
+        strength = np.array([law.compressive_strength for law in laws])
+        strength[contacts.n_surfaces :] = np.inf
+        return cls.with_strengths(contacts, strength, np.array([law.tensile_strength for law in laws]))
+
+    @classmethod
+    def with_strengths(cls, contacts: Contacts, compressive: FloatArray, tensile: FloatArray) -> CrushingInterfaces:
+        """With strengths of each interface, (n_interfaces,) [stress of the deck]."""
+        return cls(
+            shapes=interface_shapes(contacts),
+            areas=contacts.areas,
+            places=local_points(contacts),
+            interface_of_point=contacts.interface_of_point,
+            compression=np.asarray(compressive * contacts.areas),
+            tension=np.asarray(tensile * contacts.areas),
+        )
+
+    @property
+    def radii(self) -> FloatArray:
+        """ρ = √A, (n_interfaces,) [m]."""
+        return np.asarray(np.sqrt(self.areas))
+
+
+@dataclass(frozen=True)
+class CrushingOfProgram:
+    """Interfaces of a program that crush.
+
+    resultants : R, (components n, components n_points) in the unit of force of the program
+    pieces     : each kind by itself, owners numbered by the rows of R
+    points     : (n_points,) which belong to them
+    """
+
+    resultants: sp.csr_array
+    pieces: tuple[Pieces, ...]
+    points: BoolArray
+
+
+def forces_of_full(program: Program) -> tuple[Program, sp.csr_array]:
+    """The program of the full model, and its contact forces from those of a program, (3 n_points of it, …)."""
+    forces = sp.eye_array(program.components * program.n_points, format="csr")
+    while program.reduction is not None:
+        forces, program = sp.csr_array(program.reduction.forces @ forces), program.reduction.full
+    return program, forces
+
+
+def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfProgram | None:
+    """Interfaces of a program, reduced or not, that crush; None where there are none."""
+    full, forces = forces_of_full(program)
+    chosen = np.isfinite(interfaces.compression)
+    here = chosen[interfaces.interface_of_point] & (np.diff(forces[::3].indptr) > 0)
+    if not here.any():
+        return None
+    seen = _in_plane if program.components == 2 else _in_space
+    map_, owners, plates = seen(interfaces, full, forces, here)
+    unit = float(np.abs(map_[:: program.components].data).max())
+    map_ = sp.csr_array(map_ / unit)
+    map_.data[np.abs(map_.data) < NONE] = 0.0
+    map_.eliminate_zeros()
+    of_force = full.scaling.force * unit
+    n = map_.shape[0] // program.components
+    rows = np.flatnonzero(owners >= 0)
+    tension = np.bincount(owners[rows], interfaces.tension[rows], n) / of_force
+    strength = np.bincount(owners[rows], interfaces.compression[rows], n) / of_force + tension
+    pieces = tuple(with_conditions(plate, kind, strength, tension) for kind, plate in plates if len(plate.owner))
+    points = np.zeros(program.n_points, dtype=bool)
+    points[np.unique(map_.indices) // program.components] = True
+    return CrushingOfProgram(map_, pieces, points)
+
+
+Seen = tuple[sp.csr_array, IntArray, tuple[tuple[str, Plates], ...]]
+"""R, the row of R to which each interface belongs, (n_interfaces,), −1 where none, and pieces by their kind."""
+
+
+def _in_space(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_array, here: BoolArray) -> Seen:
+    rows, owner_of_point = np.unique(interfaces.interface_of_point[here], return_inverse=True)
+    owners = np.full(len(interfaces.areas), -1)
+    owners[rows] = np.arange(len(rows))
+    arms = interfaces.places[here] / interfaces.radii[interfaces.interface_of_point[here], None]
+    map_ = _sums(owner_of_point, here, full, forces, [np.ones(len(arms)), *arms.T])
+    flat, triangles = pieces_in_space(interfaces.shapes, rows, interfaces.radii)
+    return map_, owners, (("parallelogram", flat), ("triangle", triangles))
+
+
+def _in_plane(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_array, here: BoolArray) -> Seen:
+    """An interface and its image share points of the program, and are one: widths along the plane add up."""
+    points, shapes = np.flatnonzero(here), interfaces.shapes
+    interface = interfaces.interface_of_point[points]
+    stands_for = np.asarray(forces[3 * points].tocsr().indices // 2, dtype=np.int64)
+    shear = forces[:, 1::2].tocsr()
+    sheared = np.column_stack([shear[3 * points + row].sum(axis=1) for row in (1, 2)])
+    direction = np.asarray(sheared / np.hypot(*sheared.T)[:, None], dtype=np.float64)
+    rows, first, place = np.unique(interface, return_index=True, return_inverse=True)
+    along = direction[first]
+    s = np.asarray((interfaces.places[points] * along[place]).sum(axis=1))
+    leader = np.full(forces.shape[1] // 2, -1)
+    leader[stands_for[::-1]] = place[::-1]  # the first interface that has each point of the program
+    group = connected_labels(np.column_stack([place, leader[stands_for]]), len(rows))
+    turned = _turned(s, stands_for, place, leader, len(rows))
+    along, s = np.asarray(along * turned[:, None]), s * turned[place]
+    owners = np.full(len(interfaces.areas), -1)
+    owners[rows] = group
+    radii = np.sqrt(np.bincount(group, interfaces.areas[rows]))
+    map_ = _sums(group[place], here, full, forces, [np.ones(len(s)), s / radii[group[place]]])
+    outlines: list[list[FloatArray]] = [[] for _ in radii]
+    if not shapes.convex[rows].all():
+        raise ValueError("an interface that can crush is not convex: it has to come in pieces")
+    for row, (a, b), owner in zip(rows.tolist(), along.tolist(), group.tolist(), strict=True):
+        corners = shapes.corners[shapes.start[row] : shapes.start[row + 1]]
+        outlines[owner].append(corners @ np.array([[a, -b], [b, a]]))
+    strips, ramps = pieces_in_plane(outlines, radii)
+    return map_, owners, (("strip", strips), ("triangle", ramps))
+
+
+def _turned(s: FloatArray, stands_for: IntArray, place: IntArray, leader: IntArray, n: int) -> FloatArray:
+    """−1 for interfaces that see the plane the other way round than the first that has their points, else 1, (n,)."""
+    of_first = np.zeros(len(leader))
+    own = place == leader[stands_for]
+    of_first[stands_for[own]] = s[own]
+    return np.where(np.bincount(place, s * of_first[stands_for], n) < 0.0, -1.0, 1.0)
+
+
+def _sums(
+    owner: IntArray, here: BoolArray, full: Program, forces: sp.csr_array, arms: list[FloatArray]
+) -> sp.csr_array:
+    """Sums of normal forces with arms, one behind the other for each owner, from the forces of the program."""
+    points, size = np.flatnonzero(here), len(arms)
+    units = np.broadcast_to(full.scaling.units, here.shape)[points]
+    row = np.concatenate([size * owner + k for k in range(size)])
+    values = np.concatenate([units * arm for arm in arms])
+    shape = (size * (int(owner.max()) + 1), forces.shape[0])
+    return sp.csr_array(sp.csr_array(sp.coo_array((values, (row, np.tile(3 * points, size))), shape=shape)) @ forces)

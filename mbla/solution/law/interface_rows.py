@@ -1,0 +1,65 @@
+"""Rows of interfaces with a motion of their own behind those of the blocks of a program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.program.program import Program
+from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.law.interface_law import InterfaceLaw
+
+
+@dataclass(frozen=True)
+class InterfaceRows:
+    """Rows Σ J r − R x = 0 with the laws that their resultants r have.
+
+    resultants : R, (n_rows, components n_points)
+    laws       : side by side
+    released   : (n_points,) points that have no limit of compression of their own
+    """
+
+    resultants: sp.csr_array
+    laws: tuple[InterfaceLaw, ...]
+    released: BoolArray
+
+
+def with_rows(program: Program, rows: Sequence[InterfaceRows]) -> Program:
+    """The program of the same points with the rows behind those of the blocks."""
+    if not rows:
+        return program
+    released = np.any([one.released for one in rows], axis=0)
+    limits = replace(program.limits, compression=np.where(released, np.inf, program.limits.compression))
+    matrix = sp.vstack([program.equilibrium_matrix, *(-one.resultants for one in rows)])
+    return _longer(replace(program, limits=limits), sp.csr_array(matrix))
+
+
+def with_resultants(program: Program, rows: Sequence[InterfaceRows]) -> Program:
+    """That program with the resultants as further points behind its own, for its tangents."""
+    if not rows:
+        return program
+    acts = sp.block_diag([sp.hstack([law.rows for law in one.laws]) for one in rows])
+    n_others = program.equilibrium_matrix.shape[0] - acts.shape[0]
+    matrix = sp.hstack([program.equilibrium_matrix, sp.vstack([sp.csr_array((n_others, acts.shape[1])), acts])])
+    none = np.zeros(acts.shape[1] // program.components)
+    limits = YieldLimits(**{name: np.append(values, none) for name, values in vars(program.limits).items()})
+    return replace(program, limits=limits, equilibrium_matrix=sp.csr_array(matrix))
+
+
+def _longer(program: Program, matrix: sp.csr_array) -> Program:
+    """With a matrix of more rows, on which nothing acts."""
+    none = np.zeros(matrix.shape[0] - len(program.dead_load))
+
+    def longer(load: FloatArray) -> FloatArray:
+        return np.concatenate([load, none])
+
+    return replace(
+        program,
+        equilibrium_matrix=matrix,
+        dead_load=longer(program.dead_load),
+        live_load=longer(program.live_load),
+    )
