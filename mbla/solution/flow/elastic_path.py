@@ -22,7 +22,8 @@ from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.peak_step import PeakStep, sharpened_peak, with_openings
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
-from mbla.solution.law.joint_step import JointStep, direction_of, length_of, residual_of
+from mbla.solution.law.joint_equations import JointStep, residual_of
+from mbla.solution.law.joint_step import direction_of, length_of
 
 LIMP = 1e-6
 """Stiffness of ties over that of joints in the measure of displacement: they may be slack."""
@@ -152,6 +153,7 @@ class _Path:
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
     top      : step of the greatest load factor so far
+    later    : the same of the steps after it: early steps are smoothed more
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
     low      : steps in a row below the peak, and the displacement of the first of them
@@ -172,6 +174,7 @@ class _Path:
     good: float = field(init=False)
     displacement: float = 0.0
     top: PeakStep | None = None
+    later: PeakStep | None = None
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
     low: tuple[int, float] = (0, 0.0)
@@ -245,7 +248,9 @@ class _Path:
         if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.half is None:
             self.half = self.top
         self.displacement += length * self.h / self.unit
-        self.memory = self.memory.after(self.joints, length * self.h * self.state.u, self.state.normal)
+        moved = length * self.h * self.joints.velocities(self.state.u)
+        motions = [length * self.h * motion for motion in self.joints.motions(self.state.u)]
+        self.memory = self.memory.after(self.joints, moved, self.state.normal, motions)
         counted = self._counts(step, sigma, length)
         self.steps.append(PathStep(self.displacement, self.state.factor, counted, reach))
         return self._ended(counted, reach, sigma) or self._next(reach)
@@ -256,9 +261,11 @@ class _Path:
         force, power = self.settings.counted
         counted = float(np.abs(unbalanced).max(initial=0.0)) < force
         counted = counted and abs(float(unbalanced @ state.u)) < power * self.associative
-        if counted and state.factor > self.peak:
+        if counted and (self.later is None or state.factor > self.later.state.factor):
             gone = replace(step, length=length * step.length)
-            self.top = PeakStep(gone, sigma, state, self.displacement)
+            self.later = PeakStep(gone, sigma, state, self.displacement)
+            if state.factor > self.peak:
+                self.top, self.later = self.later, None
         if counted and state.factor > 1.001 * self.risen[0]:
             self.risen = (state.factor, self.displacement)
         return counted
@@ -334,4 +341,7 @@ class _Path:
                 peaks[place], more = sharpened_peak(peak, self.settings)
                 spent += more
         top, half = peaks
+        if top is not None and self.later is not None and top.state.factor < self.later.state.factor:
+            later, more = sharpened_peak(self.later, self.settings)
+            top, spent = max(top, later, key=lambda peak: peak.state.factor), spent + more
         return ElasticPath(top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred)

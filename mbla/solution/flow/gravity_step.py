@@ -17,7 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
-from mbla.solution.law.joint_step import JointStep, direction_of, length_of, residual_of
+from mbla.solution.law.joint_equations import JointStep, residual_of
+from mbla.solution.law.joint_step import direction_of, length_of
 
 STEPS = 100
 """At most; 8 to 20 are usual where a dead load is carried."""
@@ -83,7 +84,8 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
         state = state.plus(direction, length_of(reach))
         if reach > LONG:
             sigma = max(FALL * sigma, LEAST * force**2)
-    memory = replace(fresh.after(joints, state.u, state.normal), shear=state.shear)
+    memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
+    memory = replace(memory, shear=state.shear)
     held = float(np.abs(springs * state.u).max(initial=0.0))
     return Gravity(state, memory, force, settled, held, spent)
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.law.elastic_joints import StepState
-from mbla.solution.law.joint_step import JointStep, direction_of, length_of, residual_of
+from mbla.solution.law.joint_equations import JointStep, residual_of
+from mbla.solution.law.joint_step import direction_of, length_of
 
 OF_FLOOR = 0.3
 """Least product N y at the beginning of a step, over the one wanted."""

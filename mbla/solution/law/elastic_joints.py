@@ -180,13 +180,15 @@ class Memory:
         none = tuple(np.zeros((components, law.rows.shape[1] // components)) for law in joints.laws)
         return Memory(np.zeros(n), np.zeros((components - 1, n)), none)
 
-    def after(self, joints: ElasticJoints, u: FloatArray, normal: FloatArray) -> Memory:
-        """After the blocks have moved.
+    def after(
+        self, joints: ElasticJoints, moved: FloatArray, normal: FloatArray, motions: Sequence[FloatArray] = ()
+    ) -> Memory:
+        """After the joints have moved.
 
-        u      : (n_rows,) displacements
-        normal : (n_points,) normal forces after it, which limit the shear: smoothing of the law must not make it creep
+        moved   : (components, n_points) displacements of the contacts
+        normal  : (n_points,) normal forces after it, which limit the shear: smoothing of the law must not make it creep
+        motions : of what carries the resultants of each law of interfaces, (components, m)
         """
-        moved = joints.velocities(u)
         trial = self.shear - joints.shear * moved[1:]
         shear = within(trial, joints.limit(normal))
         gap = self.normal - joints.normal * moved[0]
@@ -196,7 +198,7 @@ class Memory:
             gap[joints.crushable] = np.minimum(
                 gap[joints.crushable], joints.program.limits.compression[joints.crushable]
             )
-        own = zip(joints.laws, self.interfaces, joints.motions(u), strict=True)
+        own = zip(joints.laws, self.interfaces, motions, strict=True)
         return Memory(gap, shear, tuple(was + by if law.conditions.remembers else was for law, was, by in own))
 
 

@@ -1,0 +1,134 @@
+"""The equations of elastic joints in one implicit step: its terms, products of the law, what a state leaves of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
+
+
+@dataclass(frozen=True)
+class JointStep:
+    """An implicit step.
+
+    memory : of the joints before it
+    length : h
+    driven : whether the live work f_L·u is 1; else the load factor stays and the structure finds its rest
+    held   : (n_rows,) stiffness of springs that hold the blocks where they are; none unless given
+    """
+
+    joints: ElasticJoints
+    memory: Memory
+    length: float
+    driven: bool = True
+    held: FloatArray | float = 0.0
+
+    @property
+    def normal_compliance(self) -> FloatArray:
+        """1/(k_N h), (n_points,)."""
+        return 1.0 / (self.joints.normal * self.length)
+
+    @property
+    def shear_compliance(self) -> FloatArray:
+        """1/(k_T h), (n_points,)."""
+        return 1.0 / (self.joints.shear * self.length)
+
+    def motions(self, u: FloatArray) -> list[FloatArray]:
+        """v_r + Ψ̄/h of each law of interfaces, (components, m)."""
+        return [
+            v + before / self.length for v, before in zip(self.joints.motions(u), self.memory.interfaces, strict=True)
+        ]
+
+
+@dataclass(frozen=True)
+class Products:
+    """Products of the law, or changes wanted of them.
+
+    normal   : (n_points,) N y                crushing : (n_crushable,) (f_c − n) z
+    sliding  : (n_points,) l s + t·w          turning  : (components − 1, n_points) l w + s t
+    interfaces : g z of each law of interfaces, (k, m)
+    """
+
+    normal: FloatArray
+    sliding: FloatArray
+    turning: FloatArray
+    crushing: FloatArray
+    interfaces: tuple[FloatArray, ...] = ()
+
+    def plus(self, other: Products) -> Products:
+        """The sum of both."""
+        sums = {key: mine + getattr(other, key) for key, mine in vars(self).items() if key != "interfaces"}
+        of_laws = tuple(a + b for a, b in zip(self.interfaces, other.interfaces, strict=True))
+        return Products(**sums, interfaces=of_laws)
+
+    def towards(self, sigma: float, joints: ElasticJoints) -> Products:
+        """Changes that bring them all to σ."""
+        return Products(
+            normal=sigma - self.normal,
+            sliding=sigma - self.sliding,
+            turning=-self.turning,
+            crushing=sigma - self.crushing,
+            interfaces=tuple(
+                law.conditions.weight * sigma - one for law, one in zip(joints.laws, self.interfaces, strict=True)
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class Residual:
+    """What a state leaves of the equations.
+
+    balance       : (n_rows + 1,) unbalanced forces, and f_L·u − 1
+    normal, shear : (n_points,), (components − 1, n_points) incompatible velocities m_n, m_t
+    products      : of the law
+    interfaces    : of the flow of each law of interfaces, (components, m)
+    """
+
+    balance: FloatArray
+    normal: FloatArray
+    shear: FloatArray
+    products: Products
+    interfaces: tuple[FloatArray, ...] = ()
+
+    @property
+    def unbalanced(self) -> float:
+        """Largest entry of the balance, in mean loads of a block."""
+        return float(np.abs(self.balance).max(initial=0.0))
+
+    def incompatible(self, joints: ElasticJoints, state: StepState) -> float:
+        """Largest incompatible velocity over the largest velocity of a contact."""
+        most = max(float(np.abs(self.normal).max(initial=0.0)), float(np.abs(self.shear).max(initial=0.0)))
+        return most / max(float(np.abs(joints.velocities(state.u)).max(initial=0.0)), 1e-300)
+
+
+def residual_of(step: JointStep, state: StepState) -> Residual:
+    """What a state leaves of the equations of a step."""
+    joints, program = step.joints, step.joints.program
+    v, memory = joints.velocities(state.u), step.memory
+    work = float(program.live_load @ state.u) - 1.0 if step.driven else 0.0
+    normal = v[0] + step.normal_compliance * (state.normal - memory.normal) - state.opening
+    if joints.dilates:
+        normal = normal - joints.dilatancy * state.speed
+    normal[joints.crushable] += state.crushing
+    shear = v[1:] + step.shear_compliance * (state.shear - memory.shear) - state.slip
+    balance = joints.unbalanced(state) - step.held * state.u
+    flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
+    interfaces = tuple(law.residual(one, state.normal, motion) for law, one, motion in flows)
+    return Residual(np.append(balance, work), normal, shear, products_of(joints, state), interfaces)
+
+
+def products_of(joints: ElasticJoints, state: StepState) -> Products:
+    """Products of the law in a state."""
+    limit = joints.limit(state.normal)
+    return Products(
+        normal=(state.normal + joints.program.limits.tension) * state.opening,
+        sliding=limit * state.speed + (state.shear * state.slip).sum(axis=0),
+        turning=limit * state.slip + state.speed * state.shear,
+        crushing=joints.room(state.normal) * state.crushing,
+        interfaces=tuple(
+            law.products(one, state.normal) for law, one in zip(joints.laws, state.interfaces, strict=True)
+        ),
+    )
