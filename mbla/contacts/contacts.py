@@ -101,6 +101,7 @@ class TieContacts:
     senses   : (k,) 1 where N is tension, −1 where it is compression
     offsets  : (k,) N of the force that acts as a dead load
     tension, compression : (k,) N
+    brittle  : (k, 2) carries nothing any more once it has given way at its greatest N, and at its least
     points, bodies : (m,) of further forces: contact point, body that it acts on
     places   : (m, 3) m, where it acts
     forces   : (m, 3) of an N of 1
@@ -111,6 +112,7 @@ class TieContacts:
     offsets: FloatArray
     tension: FloatArray
     compression: FloatArray
+    brittle: BoolArray
     points: IntArray
     bodies: IntArray
     places: FloatArray

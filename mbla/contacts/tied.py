@@ -136,6 +136,7 @@ def _tie_contacts(
         offsets=offsets,
         tension=offsets - ends[:, 0],
         compression=ends[:, 1] - offsets,
+        brittle=(ties.breaks_at == 0.0)[:, None] & np.column_stack([ends[:, 1] > 0.0, ends[:, 0] < 0.0]),
         points=n_points + of_tie[left],
         bodies=on[left],
         places=places[left],

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.measures import connected_labels
@@ -59,7 +59,15 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
         allowed=guide_projector(model, free, scaling),
         settles=load_case.settlement is not None,
         areas=equal_shares(contacts),
+        brittle=None if contacts.ties is None else brittle_points(contacts, contacts.ties),
     )
+
+
+def brittle_points(contacts: Contacts, ties: TieContacts) -> BoolArray:
+    """Points that carry nothing any more once they have given way at their greatest and at their least force."""
+    brittle = np.zeros((len(contacts.points), 2), dtype=np.bool_)
+    brittle[contacts.tie_points] = ties.brittle
+    return brittle
 
 
 def yield_limits(model: Model, contacts: Contacts) -> YieldLimits:

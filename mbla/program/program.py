@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -91,6 +91,8 @@ class Program:
                          structure stands
     areas              : of the program of the full model: (n_points,) by which contact points share stiffness
                          (:mod:`mbla.program.stiffness_shares`); None elsewhere
+    brittle            : of the program of the full model: (n_points, 2) whether a point carries nothing once it has
+                         given way at its greatest force, and at its least; None where none does
     """
 
     equilibrium_matrix: sp.csr_array
@@ -108,6 +110,7 @@ class Program:
     settles: bool = False
     gaps: FloatArray | None = None
     areas: FloatArray | None = None
+    brittle: BoolArray | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
         """Aᵀu, (n_points, components), from (n_rows,); openings from where a point touches on."""

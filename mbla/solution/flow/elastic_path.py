@@ -13,130 +13,39 @@ the steps and the larger κ. The step of the greatest load is solved once more w
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.solution.flow.gravity_step import Gravity
+from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import PeakStep, sharpened_peak, with_openings
 from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.unit_of_displacement import Measure
+from mbla.solution.law.brittle import let_go, share_until_break, without
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
-LIMP = 1e-6
-"""Stiffness of ties over that of joints in the measure of displacement: they may be slack."""
-
-RIGID = 1e8
-"""Stiffness of interfaces with a motion of their own in that measure: none of it is elastic."""
-
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
+ENDS = 0.01
+"""Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
+openings than its products allow, and was blocked."""
 
-class Stop(StrEnum):
-    """Why a path ended: the first three are answers."""
+PASSED = 1.1
+"""Displacement over that at which the load last rose, from which a blocked path has its peak behind it, in its second
+half: a dome on its drum snaps there, and no smoothing led on from where it was blocked in fewer than 100 steps."""
 
-    FALLS = "falls"
-    FLAT = "flat"
-    FAR = "far"
-    STUCK = "stuck"
-    BROKE_DOWN = "breaks down"
-    BUDGET = "budget"
-
-    @property
-    def answers(self) -> bool:
-        """Whether the greatest load factor was seen."""
-        return self in (Stop.FALLS, Stop.FLAT, Stop.FAR)
+AT_BREAK, NEARLY = 4, 0.99
+"""Lengths tried for the step to where a tie breaks, and share of the way to there that is near enough."""
 
 
-@dataclass(frozen=True)
-class PathStep:
-    """One step of the path, as the curve has it.
-
-    displacement : after it, in units
-    load_factor  : of the program
-    counted      : whether the state is in balance well enough
-    reach        : of its direction
-    """
-
-    displacement: float
-    load_factor: float
-    counted: bool
-    reach: float
-
-
-@dataclass(frozen=True)
-class ElasticPath:
-    """A path that was followed.
-
-    peak         : step of the greatest load factor, without smoothing where it could be solved so; None where no step
-                   counts
-    half         : the same up to half of the displacement; None where the path ends before
-    last         : state at the end
-    stop         : why it ended
-    steps        : the curve
-    unit         : of displacement, for a live work of 1 in units of the program
-    factorizations : spent
-    recentred    : times that it was blocked
-    """
-
-    peak: PeakStep | None
-    half: PeakStep | None
-    last: StepState
-    stop: Stop
-    steps: tuple[PathStep, ...]
-    unit: float
-    factorizations: int
-    recentred: int
-
-    @property
-    def load_factor(self) -> float:
-        """λ_p, of the program; nan where no step counts."""
-        return float("nan") if self.peak is None else self.peak.state.factor
-
-    @property
-    def displacement(self) -> float:
-        """At the end, in units."""
-        return self.steps[-1].displacement if self.steps else 0.0
-
-    @property
-    def gain(self) -> float:
-        """Share of the greatest load factor that was gained over the last half of the path; 0 where it ends before."""
-        if self.peak is None or self.half is None:
-            return 0.0
-        return 1.0 - self.half.state.factor / self.load_factor
-
-
-def elastic_motion(joints: ElasticJoints) -> FloatArray:
-    """Displacements of the blocks under the live load with all joints stuck, (n_rows,)."""
-    program = joints.program
-    n_all = joints.matrix.program.n_points
-    tangents = np.zeros((n_all, program.components, program.components))
-    tangents[program.n_points :] = RIGID * np.eye(program.components)
-    holds = (joints.friction > 0.0) | (program.limits.cohesion > 0.0)
-    tangents[: program.n_points, 0, 0] = np.where(holds, joints.normal, LIMP * joints.normal)
-    for tangent in range(1, program.components):
-        tangents[: program.n_points, tangent, tangent] = joints.shear
-    solve = joints.matrix.factorized(tangents, 1e-12 * joints.matrix.size, fixed_load=True)
-    if solve is None:
-        return np.asarray(program.live_load / float(program.live_load @ program.live_load))
-    return np.asarray(-solve(np.append(program.live_load, 0.0))[:-1])
-
-
-def follow(
-    joints: ElasticJoints, gravity: Gravity, associative: float, settings: PathSettings, unit: float | None = None
-) -> ElasticPath:
-    """The path from the structure at rest.
-
-    associative : load factor of associative flow
-    unit        : of displacement; by these joints unless given
-    """
-    path = _Path(joints, gravity, abs(associative), settings)
-    motion = elastic_motion(joints)
-    path.unit = float(joints.program.live_load @ motion) * abs(associative) if unit is None else unit
-    path.begin(motion)
+def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
+    """The path from the structure at rest."""
+    path = _Path(joints, gravity, measure.load_factor, measure.displacement, settings)
+    path.begin(measure.motion)
     stop = Stop.BUDGET
     for _ in range(settings.steps):
         ended = path.advance()
@@ -150,6 +59,7 @@ def follow(
 class _Path:
     """A path on its way.
 
+    scale, unit : load factor and displacement that it is measured by
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
     top      : step of the greatest load factor so far
@@ -157,15 +67,17 @@ class _Path:
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
     low      : steps in a row below the peak, and the displacement of the first of them
+    fallen   : load factor from which it falls: the greatest since a tie broke last
     blocked  : steps in a row that were blocked, since the last re-centring and in all
+    in_balance : steps up to the last one that counts
     good     : length of the last step that went well
     """
 
     joints: ElasticJoints
     gravity: Gravity
-    associative: float
+    scale: float
+    unit: float
     settings: PathSettings
-    unit: float = field(init=False)
     state: StepState = field(init=False)
     memory: Memory = field(init=False)
     h: float = field(init=False)
@@ -178,7 +90,10 @@ class _Path:
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
     low: tuple[int, float] = (0, 0.0)
+    fallen: float = 0.0
+    broken: list[tuple[float, int]] = field(default_factory=list)
     blocked: tuple[int, int] = (0, 0)
+    in_balance: int = 0
     recentred: int = 0
     factorizations: int = 1
     steps: list[PathStep] = field(default_factory=list)
@@ -187,7 +102,7 @@ class _Path:
         """At rest, moving as if all joints were stuck."""
         joints, live = self.joints, self.joints.program.live_load
         n = max(joints.program.n_points, 1)
-        self.force = max(self.gravity.force, self.associative * float(np.abs(live).sum()) / n)
+        self.force = max(self.gravity.force, self.scale * float(np.abs(live).sum()) / n)
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
         at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())
@@ -199,7 +114,7 @@ class _Path:
         trial, product = self.memory.normal + limits.tension, self.sigma * joints.normal * self.h
         root = np.sqrt(trial**2 + 4.0 * product)
         pressed = np.where(trial > 0.0, 0.5 * (trial + root), 2.0 * product / (root + np.abs(trial))) - limits.tension
-        middle = 0.5 * (pressed + limits.compression)[joints.crushable]
+        middle = 0.5 * (self.gravity.state.normal + limits.compression)[joints.crushable]
         pressed[joints.crushable] = np.minimum(pressed[joints.crushable], middle)
         return np.asarray(pressed)
 
@@ -233,9 +148,11 @@ class _Path:
 
     def advance(self) -> Stop | None:
         """One step; why the path ends after it, None where it goes on."""
-        left = self.settings.until - self.displacement
-        if self.h > left * self.unit:  # the last step ends where the path does, as smooth as it was
-            self.kappa, self.h = self.kappa * self.h / (left * self.unit), left * self.unit
+        left = (self.settings.until - self.displacement) * self.unit
+        if self.h > left:  # the last steps end where the path does
+            self._shorten(left)
+        elif 2.0 * self.h > left:
+            self._shorten(0.5 * left)
         step, sigma = JointStep(self.joints, self.memory, self.h), self.sigma
         before = with_openings(step, self.state, sigma)
         found = direction_of(step, before, residual_of(step, before), sigma)
@@ -243,39 +160,83 @@ class _Path:
         if found is None or found[1] < BREAKS:
             return Stop.BROKE_DOWN
         direction, reach = found
-        length = length_of(reach)
-        self.state = before.plus(direction, length)
+        self.state, length = before.plus(direction, length_of(reach)), length_of(reach)
         if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.half is None:
             self.half = self.top
         self.displacement += length * self.h / self.unit
-        moved = length * self.h * self.joints.velocities(self.state.u)
-        motions = [length * self.h * motion for motion in self.joints.motions(self.state.u)]
-        self.memory = self.memory.after(self.joints, moved, self.state.normal, motions)
-        counted = self._counts(step, sigma, length)
+        gone = PeakStep(replace(step, length=length * self.h), sigma, self.state, self.displacement)
+        breaking = np.zeros(0, dtype=np.int64)
+        if len(self._share_until_break(gone)[1]):
+            breaking, gone = self._breaking(gone)
+        moved = gone.step.length * self.joints.velocities(gone.state.u)
+        motions = [gone.step.length * motion for motion in self.joints.motions(gone.state.u)]
+        self.memory = self.memory.after(self.joints, moved, gone.state.normal, motions)
+        counted = self._counts(None if len(breaking) else gone)
         self.steps.append(PathStep(self.displacement, self.state.factor, counted, reach))
-        return self._ended(counted, reach, sigma) or self._next(reach)
+        ended = self._ended(counted, reach, sigma)
+        if len(breaking):
+            self._let_go(breaking)
+        return ended or self._next(reach)
 
-    def _counts(self, step: JointStep, sigma: float, length: float) -> bool:
-        """Whether the state is in balance; the peak where it is the greatest."""
+    def _breaking(self, gone: PeakStep) -> tuple[IntArray, PeakStep]:
+        """Points that break in a step that is gone, and the step without smoothing, with which they come there early.
+
+        The peak may be where the first of them breaks.
+        """
+        whole, spent = sharpened_peak(gone, self.settings)
+        self.factorizations += spent
+        share, breaking = self._share_until_break(whole)
+        there = whole
+        for _ in range(AT_BREAK if len(breaking) else 0):
+            there = replace(gone, step=replace(gone.step, length=share * there.step.length))
+            sharp, spent = sharpened_peak(there, self.settings)
+            self.factorizations += spent
+            if sharp is there:
+                break
+            share, there = self._share_until_break(sharp)[0], sharp
+            if NEARLY < share < 1.0 / NEARLY:
+                self.top = sharp if sharp.state.factor > self.peak else self.top
+                break
+        return breaking, whole
+
+    def _share_until_break(self, gone: PeakStep) -> tuple[float, IntArray]:
+        opened = gone.step.length * self.joints.velocities(gone.state.u)[0]
+        return share_until_break(self.joints, self.memory, opened)
+
+    def _shorten(self, h: float) -> None:
+        """A shorter step, as smooth as it was."""
+        self.kappa, self.h = self.kappa * self.h / h, h
+
+    def _let_go(self, points: IntArray) -> None:
+        """Points that break lose their force; whether it falls is seen from there."""
+        self.broken += [(self.displacement, point) for point in points.tolist()]
+        self.state = let_go(self.joints, self.state, points, self.sigma)
+        self.joints, self.memory = without(self.joints, self.memory, points)
+        self.fallen, self.low = 0.0, (0, 0.0)
+
+    def _counts(self, gone: PeakStep | None) -> bool:
+        """Whether the state is in balance; the peak where it is the greatest, unless there is no step for it."""
         unbalanced, state = self.joints.unbalanced(self.state), self.state
         force, power = self.settings.counted
         counted = float(np.abs(unbalanced).max(initial=0.0)) < force
-        counted = counted and abs(float(unbalanced @ state.u)) < power * self.associative
-        if counted and (self.later is None or state.factor > self.later.state.factor):
-            gone = replace(step, length=length * step.length)
-            self.later = PeakStep(gone, sigma, state, self.displacement)
+        counted = counted and abs(float(unbalanced @ state.u)) < power * self.scale
+        if not counted:
+            return False
+        if gone is not None and (self.later is None or state.factor > self.later.state.factor):
+            self.later = gone
             if state.factor > self.peak:
-                self.top, self.later = self.later, None
-        if counted and state.factor > 1.001 * self.risen[0]:
+                self.top, self.later = gone, None
+        self.in_balance, self.fallen = len(self.steps) + 1, max(self.fallen, state.factor)
+        if state.factor > 1.001 * self.risen[0]:
             self.risen = (state.factor, self.displacement)
-        return counted
+        return True
 
     def _ended(self, counted: bool, reach: float, sigma: float) -> Stop | None:
         """Falls, flat, far, stuck, or None."""
         settings = self.settings
-        if self.joints.n_products * sigma <= 0.3 * self.associative:
-            below = counted and self.peak > 0.0 and reach > 0.2
-            below = below and self.state.factor < (1.0 - settings.dropped) * self.peak
+        if self.joints.n_products * sigma <= 0.3 * self.scale:
+            below = counted and self.fallen > 0.0 and reach > 0.2
+            below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
             first = self.low[1] if self.low[0] else self.displacement
             self.low = (self.low[0] + 1, first) if below else (0, 0.0)
         if self.low[0] >= 3 and self.displacement >= 1.02 * self.low[1] and self.displacement > 1.0:
@@ -283,11 +244,12 @@ class _Path:
         settled = self.displacement > settings.settled
         if counted and settled and self.displacement > 2.2 * self.risen[1]:
             return Stop.FLAT
-        if self.displacement >= settings.until * (1.0 - 1e-9):
+        if self.displacement >= settings.until * (1.0 - ENDS):
             return Stop.FAR
         short = reach < settings.short
         self.blocked = (self.blocked[0] + 1, self.blocked[1] + 1) if short else (0, 0)
-        return Stop.STUCK if self.blocked[1] >= 12 else None
+        wandering = len(self.steps) - self.in_balance if self.in_balance else 0
+        return Stop.STUCK if self.blocked[1] >= 12 or wandering >= settings.wandering else None
 
     def _next(self, reach: float) -> Stop | None:
         """Length and smoothing of the next step; a blocked path is brought back, or has gained nothing any more."""
@@ -308,7 +270,8 @@ class _Path:
         self.h = min(self.h, max(settings.longest * self.displacement, settings.first) * self.unit)
         if self.blocked[0] >= 2 and self.displacement > settings.settled and self.peak > 0.0:
             half = [s.load_factor for s in self.steps if s.displacement <= 0.5 * self.displacement and s.counted]
-            if self.peak < 1.005 * max(half, default=0.0):
+            passed = self.displacement > max(0.5 * settings.until, PASSED * self.risen[1])
+            if passed or self.peak < 1.005 * max(half, default=0.0):
                 return Stop.FLAT
         if self.blocked[0] >= 2 and self.recentred < settings.recentred:
             self._recentre()
@@ -320,7 +283,7 @@ class _Path:
         """κ with which smoothing takes its share of the live power."""
         share, from_there = self.settings.smoothed
         share *= min(1.0, from_there / self.displacement) if self.displacement > 0.0 else 1.0
-        wanted = self.joints.n_products * self.force**2 / (share * self.associative * self.h)
+        wanted = self.joints.n_products * self.force**2 / (share * self.scale * self.h)
         return max(self.settings.least_smoothing, min(1.0, wanted))
 
     def _recentre(self) -> None:
@@ -344,4 +307,5 @@ class _Path:
         if top is not None and self.later is not None and top.state.factor < self.later.state.factor:
             later, more = sharpened_peak(self.later, self.settings)
             top, spent = max(top, later, key=lambda peak: peak.state.factor), spent + more
-        return ElasticPath(top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred)
+        found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
+        return ElasticPath(*found)

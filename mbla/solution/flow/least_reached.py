@@ -14,7 +14,7 @@ import numpy as np
 
 from mbla.program.program import Program
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
+from mbla.solution.flow.path_of_part import PathOfPart, path_by
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.nonassociative.law_state import LawState, law_state
 
@@ -33,16 +33,14 @@ def least_reached(program: Program, associative: float, ratios: Sequence[float] 
 
 
 def _reached(program: Program, associative: float, ratio: float) -> LawState | None:
-    settings = PathSettings(ratio=ratio)
-    everything = np.ones(len(program.live_load))  # the whole is followed, whatever moves in it
-    return state_of(program, path_of_part(program, associative, everything, settings))
+    return state_of(program, path_by(program, associative, PathSettings(ratio=ratio)))
 
 
 def state_of(program: Program, found: PathOfPart) -> LawState | None:
     """The state at the greatest load of a path that followed the whole; None where the path has no answer."""
-    peak = found.path.peak
-    if peak is None or not found.path.stop.answers or not found.gravity.carried:
+    if found.path is None or found.path.peak is None or not found.is_answer:
         return None
+    peak = found.path.peak
     forces, factor = np.vstack([peak.state.normal[None], peak.state.shear]).T, peak.state.factor
     repaired = repaired_forces(program, forces, factor)
     if repaired is None:

@@ -1,143 +1,189 @@
-"""The path of elastic joints of one part: of what moves where that is less, and once more where it is lost."""
+"""The path of elastic joints of one part, whatever loads it: of what moves where that is less, again where it is lost.
+
+The path is measured by the load factor of associative flow, ``scale``. Two kinds of part have none:
+
+* Associative flow locks. The part's own unit of load stands for it, then the load factor that was found, until both are
+  of one size. Where nothing gives way λ is proportional to the displacement; twice so, it is unbounded.
+* A support gives way. The gravity step holds it, and its λ there, from which the reaction at rest follows, is where the
+  path begins: the dead load has that reaction then, and λ of the path counts from it. The greatest is the least
+  reaction, and the path does not end because λ falls.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
 from mbla.program.stiffness_shares import shares_of
-from mbla.solution.flow.elastic_path import ElasticPath, Stop, elastic_motion, follow
-from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, followed, measured_by_itself
+from mbla.solution.flow.gravity_step import gravity_step
+from mbla.solution.flow.path_record import ElasticPath, Stop
 from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
+from mbla.solution.solution import Status
 
 MOST_STEPS_OF_PART = 900
 """Steps of a path that follows what moves alone: each costs less."""
 
-LOW, SHARPER, SAME = 0.1, (1e3, 1e5, 1e7), 0.01
-"""Share of the associative load factor below which smoothing is taken back, κ with which that is done in turn, and
-change of the load factor that counts as none."""
-
-HELD, FALLEN = 0.985, 0.9
-"""Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
+NEGLIGIBLE = 1e-9
+"""Load factor over the part's own unit that is none."""
 
 
 @dataclass(frozen=True)
 class PathOfPart:
     """What was followed.
 
-    path    : of the program, or of what moves in it
-    gravity : where it began
-    joints  : of what was followed
-    points  : (n,) points of the program that were followed; None for all
-    paths   : how many were followed: more than one where it was lost, or is at the limit of standing
+    stop    : why it ended, or why nothing was followed
+    path    : of the program, or of what moves in it; None where nothing was followed
+    rest    : where it began; None where no joint holds the part
+    paths   : how many were followed: more than one where it was lost, is at the limit of standing, or has no measure
     factorizations : spent on all of it
     """
 
-    path: ElasticPath
-    gravity: Gravity
-    joints: ElasticJoints
-    points: IntArray | None
-    paths: int
-    factorizations: int
+    stop: Stop
+    path: ElasticPath | None = None
+    rest: AtRest | None = None
+    paths: int = 0
+    factorizations: int = 0
+
+    @property
+    def is_answer(self) -> bool:
+        """Whether it starts to move at the load factor, which is not only how far the path came."""
+        return self.stop.answers and not math.isnan(self.load_factor)
 
     @property
     def load_factor(self) -> float:
-        """λ_p, of the program; nan where no step counts."""
-        return self.path.load_factor
+        """λ_p, of the program; inf where nothing moves, nan where it does not stand or no step counts."""
+        if self.stop in (Stop.UNLOADED, Stop.UNBOUNDED):
+            return math.inf
+        if self.stop is Stop.AT_ONCE:
+            return 0.0
+        return self._from_rest(None if self.path is None else self.path.load_factor)
+
+    @property
+    def moving(self) -> float:
+        """Load factor at the end of the path, while it moves; nan without a path."""
+        return self._from_rest(None if self.path is None else self.path.moving)
+
+    @property
+    def displacement(self) -> float:
+        """D at λ_p; nan without."""
+        return math.nan if self.path is None or self.path.peak is None else self.path.peak.displacement
+
+    @property
+    def gain(self) -> float:
+        """Share of λ_p that was gained over the last half of the path."""
+        return 0.0 if self.path is None else self.path.gain
+
+    def _from_rest(self, of_path: float | None) -> float:
+        return math.nan if of_path is None or self.rest is None else self.rest.begins + of_path
 
 
 def path_of_part(
     program: Program,
-    associative: float,
-    velocities: FloatArray,
+    associative: AssociativeResult,
     settings: PathSettings,
     dilatancy: FloatArray | None = None,
     interfaces: Interfaces = NONE,
+    gaps: FloatArray | None = None,
 ) -> PathOfPart:
-    """The path of a part.
+    """The path of a part, or of what moves in it by associative flow.
 
-    associative : load factor of associative flow; velocities, (n_rows,), of its mechanism
-    dilatancy   : (n_points,) tangents of its angles; none unless given
-    interfaces  : of the model that have a law of their own
+    dilatancy  : (n_points,) tangents of its angles; none unless given
+    interfaces : of the model that have a law of their own
+    gaps       : (n_points,) displacement by which each joint closes before it touches; none unless given
     """
-    part, unit = moving_part(program, velocities, rings=3, few=1500, worthwhile=0.8), None
-    followed = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, interfaces.rows_of(program))
-    points = None if part is None else part.points
-    if part is not None:
-        followed, unit, settings = _of_moving(part, followed, associative, settings, dilatancy, interfaces)
-    gravity = gravity_step(followed, _force_of_live(followed, associative))
-
-    def along(by: PathSettings) -> ElasticPath:
-        return follow(followed, gravity, associative, by, unit)
-
-    path = along(settings)
-    paths = [path]
-    if is_at_limit(path, associative):
-        paths += sharper_paths(path, along, settings)
-        path = paths[-1]
-    elif is_lost(path):
-        paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
-        path = max(paths, key=lambda one: one.load_factor)
-    spent = sum(one.factorizations - gravity.steps for one in paths) + gravity.steps
-    return PathOfPart(path, gravity, followed, points, len(paths), spent)
+    if program.n_points == 0:  # held by guides alone, or by nothing
+        return PathOfPart(Stop.DOES_NOT_STAND if np.any(program.dead_load) else Stop.UNDECIDED)
+    state = associative.state
+    part = None if state is None else moving_part(program, state.velocities, rings=3, few=1500, worthwhile=0.8)
+    known = None if state is None else state.load_factor
+    found = path_by(program, known, settings, dilatancy, interfaces, gaps, part)
+    falls = associative.status is Status.NO_EQUILIBRIUM
+    return PathOfPart(Stop.DOES_NOT_STAND, rest=found.rest, factorizations=found.factorizations) if falls else found
 
 
-def is_at_limit(path: ElasticPath, associative: float) -> bool:
-    """Whether smoothing may be more than the load factor, because the dead load is nearly all that is carried."""
-    return path.peak is None or path.load_factor < LOW * abs(associative)
-
-
-def sharper_paths(
-    path: ElasticPath, along: Callable[[PathSettings], ElasticPath], settings: PathSettings
-) -> list[ElasticPath]:
-    """Paths with less and less smoothing, until the load factor no longer changes."""
-    paths = [path]
-    for kappa in SHARPER:
-        paths.append(along(settings.smoothed_by(kappa)))
-        before, now = (one.load_factor for one in paths[-2:])
-        if abs(now - before) <= SAME * abs(now):
-            break
-    return paths[1:]
-
-
-def is_lost(path: ElasticPath) -> bool:
-    """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
-    if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
-        return path.last.factor > HELD * path.load_factor
-    return path.stop is Stop.FALLS and path.recentred > 0 and path.last.factor < FALLEN * path.load_factor
-
-
-def _of_moving(
-    part: MovingPart,
-    whole: ElasticJoints,
-    associative: float,
+def path_by(
+    program: Program,
+    associative: float | None,
     settings: PathSettings,
-    dilatancy: FloatArray | None,
-    interfaces: Interfaces,
-) -> tuple[ElasticJoints, float, PathSettings]:
-    """Joints of what moves, the unit of displacement of the whole, and settings for it."""
-    slope = None if dilatancy is None else dilatancy[part.points]
+    dilatancy: FloatArray | None = None,
+    interfaces: Interfaces = NONE,
+    gaps: FloatArray | None = None,
+    part: MovingPart | None = None,
+) -> PathOfPart:
+    """The path of a program by its load factor of associative flow, None where it has none.
+
+    part : what alone is followed; the whole unless given
+    """
+    rows = interfaces.rows_of(program)
+    whole = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, rows)
+    gaps = np.zeros(program.n_points) if gaps is None else gaps
+    scale = program.own_unit if associative is None else associative
+    rest = _at_rest(whole if part is None else _of_moving(part, whole, interfaces), scale, settings, gaps, part)
+    ends = _ends_at_rest(rest, program, associative)
+    if ends is not None:
+        return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)
+    if program.settles:
+        rest, scale = as_it_gives_way(rest)
+    elif associative is None:
+        return _record(measured_by_itself(rest, scale), rest)
+    measure = measure_of(rest.joints, scale, rest.pressed)
+    if part is not None:
+        rest, measure = _in_units_of(whole, rest, measure)
+    return _record(followed(rest, measure), rest)
+
+
+def _record(found: Followed, rest: AtRest) -> PathOfPart:
+    spent = sum(path.factorizations - rest.gravity.steps for path in found.paths) + rest.gravity.steps
+    return PathOfPart(found.stop, found.path, rest, len(found.paths), spent)
+
+
+def _at_rest(
+    joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: MovingPart | None
+) -> AtRest:
+    """Under the dead load."""
+    n, points = joints.program.n_points, None if part is None else part.points
+    force_of_live = abs(scale) * float(np.abs(joints.program.live_load).sum()) / n
+    gravity = gravity_step(joints, force_of_live, gaps if points is None else gaps[points])
+    return AtRest(joints, gravity, settings, points)
+
+
+def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> Stop | None:
+    """Why no path begins there; None where one does."""
+    if not rest.gravity.settled:
+        return Stop.UNDECIDED
+    if not rest.gravity.carried:
+        return Stop.DOES_NOT_STAND
+    if not np.any(program.live_load):
+        return Stop.UNLOADED
+    if associative is not None and not program.settles and associative <= NEGLIGIBLE * program.own_unit:
+        return Stop.AT_ONCE
+    return None
+
+
+def _of_moving(part: MovingPart, whole: ElasticJoints, interfaces: Interfaces) -> ElasticJoints:
+    """Joints of what moves, as stiff as in the whole."""
+    points = part.points
+    ratio = float(whole.shear[0] / whole.normal[0])
     rows = interfaces.rows_of(part.program)
-    joints = ElasticJoints.of(part.program, whole.normal[part.points], settings.ratio, slope, rows)
-    unit, own = _unit(whole, associative), _unit(joints, associative)
-    first = settings.first * min(1.0, 2.0 * own / unit)
-    share, _ = settings.smoothed
-    return joints, unit, replace(settings, first=first, smoothed=(share, np.inf), steps=MOST_STEPS_OF_PART)
+    return ElasticJoints.of(part.program, whole.normal[points], ratio, whole.dilatancy[points], rows)
 
 
-def _unit(joints: ElasticJoints, associative: float) -> float:
-    """Elastic displacement at the associative load."""
-    return float(joints.program.live_load @ elastic_motion(joints)) * abs(associative)
-
-
-def _force_of_live(joints: ElasticJoints, associative: float) -> float:
-    """Mean live load of a point at the associative load."""
-    n = max(joints.program.n_points, 1)
-    return abs(associative) * float(np.abs(joints.program.live_load).sum()) / n
+def _in_units_of(whole: ElasticJoints, rest: AtRest, own: Measure) -> tuple[AtRest, Measure]:
+    """What moves, measured by displacements of the whole."""
+    pressed: BoolArray = np.ones(whole.program.n_points, dtype=np.bool_)
+    pressed[rest.points] = rest.pressed
+    unit = float(whole.program.live_load @ elastic_motion(whole, pressed)) * own.load_factor
+    settings, (share, _) = rest.settings, rest.settings.smoothed
+    first = settings.first * min(1.0, 2.0 * own.displacement / unit)
+    settings = replace(settings, first=first, smoothed=(share, np.inf), steps=MOST_STEPS_OF_PART)
+    return replace(rest, settings=settings), replace(own, displacement=unit)

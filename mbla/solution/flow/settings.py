@@ -25,6 +25,7 @@ class PathSettings:
     counted      : unbalanced force, in mean loads of a block, and share of its power up to which a step counts
     short        : reach of a direction below which a step is blocked
     recentred    : times that a blocked path is brought back to the central path, at most
+    wandering    : steps in a row out of balance, once it was reached, after which a path is stuck
     steps        : at most
     """
 
@@ -42,6 +43,7 @@ class PathSettings:
     counted: tuple[float, float] = (1e-5, 1e-3)
     short: float = 0.03
     recentred: int = 12
+    wandering: int = 30
     steps: int = 300
 
     def smoothed_by(self, kappa: float) -> PathSettings:

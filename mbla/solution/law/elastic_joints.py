@@ -26,8 +26,9 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.program import Program
+from mbla.program.stiffness_shares import brittle_of
 from mbla.solution.law.interface_law import InterfaceLaw, InterfaceState
 from mbla.solution.law.interface_rows import InterfaceRows, with_resultants, with_rows
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
@@ -46,6 +47,7 @@ class ElasticJoints:
     normal    : k_N, with mean 1
     shear     : k_T
     laws      : of interfaces with a motion of their own
+    brittle   : (n_points, 2) which carry nothing once they have given way at f_c, and at −f_t
     """
 
     program: Program
@@ -53,6 +55,7 @@ class ElasticJoints:
     dilatancy: FloatArray
     normal: FloatArray
     shear: FloatArray
+    brittle: BoolArray
     laws: tuple[InterfaceLaw, ...] = ()
 
     @staticmethod
@@ -70,11 +73,11 @@ class ElasticJoints:
         dilatancy  : (n_points,) tangents of its angles; none unless given
         interfaces : of the program that have a law of their own
         """
-        slope = np.zeros(program.n_points) if dilatancy is None else dilatancy
+        slope, brittle = np.zeros(program.n_points) if dilatancy is None else dilatancy, brittle_of(program)
         program = with_rows(program, interfaces)
         matrix = stiffness_of(with_resultants(program, interfaces))
         laws = tuple(law for rows in interfaces for law in rows.laws)
-        return ElasticJoints(program, matrix, slope, shares, ratio * shares, laws)
+        return ElasticJoints(program, matrix, slope, shares, ratio * shares, brittle, laws)
 
     @cached_property
     def friction(self) -> FloatArray:
@@ -174,11 +177,11 @@ class Memory:
     interfaces: tuple[FloatArray, ...] = ()
 
     @staticmethod
-    def stress_free(joints: ElasticJoints) -> Memory:
-        """Of joints that just touch."""
+    def stress_free(joints: ElasticJoints, gaps: FloatArray | float = 0.0) -> Memory:
+        """Of joints that just touch, or that close by gaps, (n_points,), before they do: a slack tie by its slack."""
         n, components = joints.program.n_points, joints.program.components
         none = tuple(np.zeros((components, law.rows.shape[1] // components)) for law in joints.laws)
-        return Memory(np.zeros(n), np.zeros((components - 1, n)), none)
+        return Memory(-gaps * joints.normal, np.zeros((components - 1, n)), none)
 
     def after(
         self, joints: ElasticJoints, moved: FloatArray, normal: FloatArray, motions: Sequence[FloatArray] = ()
@@ -194,10 +197,8 @@ class Memory:
         gap = self.normal - joints.normal * moved[0]
         if joints.dilates:
             gap = gap + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
-        if len(joints.crushable):
-            gap[joints.crushable] = np.minimum(
-                gap[joints.crushable], joints.program.limits.compression[joints.crushable]
-            )
+        yields = joints.crushable[~joints.brittle[joints.crushable, 0]]
+        gap[yields] = np.minimum(gap[yields], joints.program.limits.compression[yields])
         own = zip(joints.laws, self.interfaces, motions, strict=True)
         return Memory(gap, shear, tuple(was + by if law.conditions.remembers else was for law, was, by in own))
 

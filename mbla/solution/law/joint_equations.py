@@ -16,7 +16,8 @@ class JointStep:
 
     memory : of the joints before it
     length : h
-    driven : whether the live work f_L·u is 1; else the load factor stays and the structure finds its rest
+    driven : whether the live work f_L·u is given; else the load factor stays and the structure finds its rest
+    work   : that work: 1, or 0 of a support that is held
     held   : (n_rows,) stiffness of springs that hold the blocks where they are; none unless given
     """
 
@@ -24,6 +25,7 @@ class JointStep:
     memory: Memory
     length: float
     driven: bool = True
+    work: float = 1.0
     held: FloatArray | float = 0.0
 
     @property
@@ -108,7 +110,7 @@ def residual_of(step: JointStep, state: StepState) -> Residual:
     """What a state leaves of the equations of a step."""
     joints, program = step.joints, step.joints.program
     v, memory = joints.velocities(state.u), step.memory
-    work = float(program.live_load @ state.u) - 1.0 if step.driven else 0.0
+    work = float(program.live_load @ state.u) - step.work if step.driven else 0.0
     normal = v[0] + step.normal_compliance * (state.normal - memory.normal) - state.opening
     if joints.dilates:
         normal = normal - joints.dilatancy * state.speed

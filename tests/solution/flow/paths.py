@@ -35,10 +35,8 @@ def path_of(
     """Its path; with associative flow joints lift by their friction angle."""
     program = reduced(line)
     answer = solve_associative(program, SETTINGS, lambda record: None, stress_free=False)
-    assert answer.state is not None
     slope = program.limits.friction if associative_flow else None
-    state = answer.state
-    return path_of_part(program, state.load_factor, state.velocities, settings, slope, interfaces)
+    return path_of_part(program, answer, settings, slope, interfaces)
 
 
 def load_factor_of(

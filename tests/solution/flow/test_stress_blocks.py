@@ -10,7 +10,7 @@ import pytest
 import shapely
 import yaml
 
-from mbla.solution.flow.path_of_part import path_of_part
+from mbla.solution.flow.path_of_part import path_by
 from tests.analytic.test_crushing import PIER
 from tests.decks.folder import PATHS
 from tests.line import Line, line_of, line_of_file
@@ -72,9 +72,7 @@ def as_a_whole(line: Line, expected: float) -> float:
     program = reduced(line)
     assert len(line.contacts) == 1
     live = line.program.scaling.live
-    found = path_of_part(
-        program, expected / live, np.ones(len(program.dead_load)), DEFAULT, interfaces=stress_blocks(line, 2e4)
-    )
+    found = path_by(program, expected / live, DEFAULT, interfaces=stress_blocks(line, 2e4))
     return float(live * found.load_factor)
 
 

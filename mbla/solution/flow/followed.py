@@ -1,0 +1,140 @@
+"""Paths from one state at rest, until one is an answer: once more where it is lost or smoothing is too much for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, IntArray
+from mbla.solution.flow.elastic_path import follow
+from mbla.solution.flow.gravity_step import Gravity
+from mbla.solution.flow.path_record import ElasticPath, Stop
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.unit_of_displacement import Measure, measure_of, pressed_points
+from mbla.solution.law.elastic_joints import ElasticJoints
+
+LOW, SHARPER, SAME = 0.1, (1e3, 1e5, 1e7), 0.01
+"""Share of the associative load factor below which smoothing is taken back, κ with which that is done in turn, and
+change of the load factor that counts as none."""
+
+HELD, FALLEN = 0.985, 0.9
+"""Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
+
+MEASURES, ALIKE, LINEAR = 6, 2.0, 0.5
+"""Load factors tried as a measure, factor within which one is of the size of what was found, and share of the elastic
+load at the end of the path from which nothing has given way."""
+
+
+@dataclass(frozen=True)
+class AtRest:
+    """What is followed, under its dead load.
+
+    settings : of its paths
+    points   : (n,) points of the program that have joints; None for all
+    begins   : load factor from which that of its paths counts
+    """
+
+    joints: ElasticJoints
+    gravity: Gravity
+    settings: PathSettings
+    points: IntArray | None = None
+    begins: float = 0.0
+
+    @property
+    def pressed(self) -> BoolArray:
+        """Points that are pressed, (n_points,)."""
+        return pressed_points(self.joints, self.gravity.memory.normal, self.gravity.force)
+
+
+@dataclass(frozen=True)
+class Followed:
+    """The path that counts, why it ended, and all that were followed."""
+
+    path: ElasticPath
+    stop: Stop
+    paths: tuple[ElasticPath, ...]
+
+
+def followed(rest: AtRest, measure: Measure) -> Followed:
+    """By a measure that is known."""
+
+    def along(by: PathSettings) -> ElasticPath:
+        return follow(rest.joints, rest.gravity, measure, by)
+
+    settings = rest.settings
+    path = along(settings)
+    paths = [path]
+    if is_at_limit(path, rest, measure):
+        paths += sharper_paths(path, along, settings)
+        path = paths[-1]
+    elif is_lost(path):
+        paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
+        path = _better(*paths)
+    return Followed(path, path.stop, tuple(paths))
+
+
+def _better(lost: ElasticPath, again: ElasticPath) -> ElasticPath:
+    """Of two paths the one that is an answer, if not lower; else the one with the greater load factor."""
+    if again.stop.answers and again.load_factor >= (1.0 - SAME) * lost.load_factor:
+        return again
+    return again if again.load_factor > lost.load_factor else lost
+
+
+def measured_by_itself(rest: AtRest, first: float) -> Followed:
+    """Without a load factor of associative flow: measured by what is found, beginning with one in its place."""
+    scale, linear, paths = first, False, list[ElasticPath]()
+    for _ in range(MEASURES):
+        found = followed(rest, measure_of(rest.joints, scale, rest.pressed))
+        paths += found.paths
+        peak, last = found.path.load_factor, found.path.displacement * scale
+        was, linear = linear, peak > LINEAR * last and found.stop is Stop.FAR
+        if was and linear:
+            return Followed(found.path, Stop.UNBOUNDED, tuple(paths))
+        if math.isnan(peak) or (not linear and scale / ALIKE <= peak <= ALIKE * scale):
+            break
+        scale = peak
+    return replace(found, paths=tuple(paths))
+
+
+def is_at_limit(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
+    """Whether smoothing may be more than the load factor, because the dead load is nearly all that is carried."""
+    settles = rest.joints.program.settles
+    return path.peak is None or (not settles and path.load_factor < LOW * measure.load_factor)
+
+
+def sharper_paths(
+    path: ElasticPath, along: Callable[[PathSettings], ElasticPath], settings: PathSettings
+) -> list[ElasticPath]:
+    """Paths with less and less smoothing, until the load factor no longer changes."""
+    paths = [path]
+    for kappa in SHARPER:
+        paths.append(along(settings.smoothed_by(kappa)))
+        before, now = (one.load_factor for one in paths[-2:])
+        if abs(now - before) <= SAME * abs(now):
+            break
+    return paths[1:]
+
+
+def is_lost(path: ElasticPath) -> bool:
+    """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
+    if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
+        return path.moving > HELD * path.load_factor
+    return path.stop is Stop.FALLS and path.recentred > 0 and path.moving < FALLEN * path.load_factor
+
+
+def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:
+    """A support that is held, as it gives way; the reaction at rest in units of its live load, to measure paths by.
+
+    The dead load has that reaction in the place of the one that was chosen: λ of its paths is what is lost of it.
+    """
+    program, factor = rest.joints.program, rest.gravity.state.factor
+    live = program.live_load
+    chosen = -float(program.dead_load @ live) / float(live @ live)
+    shifted = replace(program, dead_load=program.dead_load + factor * live)
+    joints = replace(rest.joints, program=shifted)
+    gravity = replace(rest.gravity, state=replace(rest.gravity.state, factor=0.0))
+    own = replace(rest.settings, dropped=np.inf)
+    return replace(rest, joints=joints, gravity=gravity, settings=own, begins=factor), abs(chosen - factor)
