@@ -81,7 +81,9 @@ USUAL: dict[str, dict[str, Usual]] = {
     },
     "joints": {
         "friction": Usual(0.0, 5.0, "is more than masonry has; an angle is given as friction_angle, in degrees"),
-        "friction_angle": Usual(1.0, 90.0, "is less than masonry has; a coefficient is given as friction"),
+        "friction_angle": Usual(
+            1.0, 78.7, "is not that of masonry, 20 to 45 degrees; a coefficient is given as friction"
+        ),
         "cohesion": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
         "tensile_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
         "compressive_strength": Usual(
@@ -111,6 +113,16 @@ USUAL: dict[str, dict[str, Usual]] = {
     "settlement": {
         "step": Usual(0.0, "10 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
         "amount": Usual(0.0, "100 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
+    },
+    "pressure": {
+        "per_depth": Usual(
+            "0.1 kN/m^3",
+            "1000 kN/m^3",
+            "and that of earth and water is 1 to 30 kN/m^3",
+            "unit_weight",
+            ("kN/m^3", "N/m^3"),
+            "10 kN/m^3",
+        ),
     },
     "height": {"period": Usual(0.0, LONGEST_PERIOD, "is in seconds, and no building's first period is so long")},
     "spectrum": {"a_g": Usual(0.0, MOST_GROUND, OF_GROUND)},
@@ -149,6 +161,9 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
         yield ("ties", number), "ties", tie
         if tie.plate is not None:
             yield ("ties", number, "plate"), "plate", tie.plate
+    for path, load in _loads(content):
+        if load.pressure is not None:
+            yield (*path, "pressure"), "pressure", load.pressure
     for name, case in content.load_cases.items():
         if case.pushover is not None:
             yield ("load_cases", name, "pushover"), "pushover", case.pushover

@@ -50,7 +50,7 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPo
         )
         site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
         return None
-    _remark_off_path(axles.forces, [acting for _, _, acting in vehicle], path, site)
+    _remark_off_path(entry.factor * axles.forces, [acting for _, _, acting in vehicle], path, site)
     landing = Landing(
         Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
     )

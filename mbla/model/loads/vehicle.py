@@ -59,7 +59,7 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
     through = None if load.through is None else site.fill[load.through]
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     here = (*path, "vehicle")
-    remark_upwards(axles.forces, ".".join(map(str, here)), site)
+    remark_upwards(load.factor * axles.forces, ".".join(map(str, here)), site)
     landing = Landing(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
     way = unit(stands.along)
     if not landing.sound(axles.forces, way, axles.width):

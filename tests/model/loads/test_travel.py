@@ -112,7 +112,9 @@ def test_axles_beyond_the_path_are_told(tmp_path: Path) -> None:
     assert not {"axles-beyond-path", "axle-upwards"} & {each.identifier for each in alone.notices}
 
 
-def test_an_axle_that_points_upwards(tmp_path: Path) -> None:
-    found = model(tmp_path, "force: [0, 0, 10], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], positions: 4", ROW)
+@pytest.mark.parametrize(("force", "factor"), [(10, 1), (-10, -1)])
+def test_an_axle_that_points_upwards(force: int, factor: int, tmp_path: Path) -> None:
+    given = f"force: [0, 0, {force}], path: [[0.5, 0.5, 1], [3.5, 0.5, 1]], positions: 4"
+    found = model(tmp_path, given, ROW, f", factor: {factor}")
     text = next(each.message for each in found.notices if each.identifier == "axle-upwards")
     assert "1 axle points upwards" in text
