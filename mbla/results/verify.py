@@ -45,7 +45,7 @@ from mbla.solution.sensitivity.sensitivity import with_sensitivity
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.tilt import angle_of_load, found_angle, leads_across
+from mbla.solution.tilt import angle_of_load, found_angle, found_tangent, leads_across
 from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.verify import level_bound, verify
@@ -112,9 +112,11 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         solution = begun_by(model, contacts, solution)
         solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
-        upright = level_bound(model, contacts, load_case, solution)
-        angle = found_angle(load_case.tilt, load_case.live_load, solution)
-        load_case = replace(load_case, tilt=replace(load_case.tilt, upright=upright, angle=angle))
+        tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)
+        tilt = replace(load_case.tilt, tangent=tangent)
+        upright = level_bound(model, contacts, replace(load_case, tilt=tilt), solution)
+        angle = found_angle(tilt, load_case.live_load, solution)
+        load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
     if solution.geometric_safety is not None:
         safety = solution.geometric_safety
         own = proved(model, contacts, load_case, safety)

@@ -136,6 +136,18 @@ def angle_of_load(tilt: Tilt, live_load: FloatArray) -> float:
     return float(np.arctan2(across, 1.0 - lowered))
 
 
+def found_tangent(model: Model, contacts: Contacts, tilt: Tilt, live_load: FloatArray, solution: Solution) -> bool:
+    """Whether a run states the load factor of a live load as tangent of the angle.
+
+    It does of the load across the level table where only directions count, and where that table bears nothing of it.
+    """
+    found = solution.associative
+    if found is None or solution.status not in WITH_VALUE or not leads_across(tilt, live_load):
+        return tilt.tangent
+    at_once = line_of(tilt, found, found.load_factor).first_crossing() <= AT_ONCE
+    return at_once or only_direction_counts(model, contacts, tilt)
+
+
 def found_angle(tilt: Tilt, live_load: FloatArray, solution: Solution) -> float:
     """The angle of collapse in degrees that a run states of a live load and the load factor found for it.
 

@@ -234,14 +234,24 @@ def _remark_invented(results: Results, generator: random.Random) -> Results | No
 
 def _angle(results: Results, generator: random.Random) -> Results | None:
     """Below an angle that the file may state."""
-    tilting = [case for case in results.model.load_cases if case.tilt is not None]
-    if not tilting:
-        return None
-    angle = generator.choice([45.0, 10.0, 0.1])
+    return _of_table(results, angle=generator.choice([45.0, 10.0, 0.1]))
+
+
+def _no_tangent(results: Results, generator: random.Random) -> Results | None:
+    """The load factor is no tangent of the angle any more, and the angle is lost."""
+    return _of_table(results, tangent=False)
+
+
+def _of_table(results: Results, **changes: Any) -> Results | None:
+    """All tilting tables changed."""
     cases = tuple(
-        case if case.tilt is None else replace(case, tilt=replace(case.tilt, angle=angle))
+        case if case.tilt is None else replace(case, tilt=replace(case.tilt, **changes))
         for case in results.model.load_cases
     )
+    if all(
+        case.tilt is None or case.tilt == old.tilt for case, old in zip(cases, results.model.load_cases, strict=True)
+    ):
+        return None
     known = {case.name: case for case in cases}
     solved = tuple(replace(case, load_case=known[case.load_case.name]) for case in results.cases)
     return replace(results, model=replace(results.model, load_cases=cases), cases=solved)
@@ -273,8 +283,9 @@ FORGERIES: Mapping[str, Forgery] = {
     "remark removed": _remark_removed,
     "remark invented": _remark_invented,
     "angle of a table": _angle,
+    "tangent of a table": _no_tangent,
     "search written into the deck": _search_written,
 }
 """by what is done"""
-FOLLOWING = ("angle of a table", "slopes removed")
+FOLLOWING = ("angle of a table", "tangent of a table", "slopes removed")
 """what is forged here follows from the rest, and is not made anew"""
