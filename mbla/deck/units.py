@@ -108,7 +108,9 @@ class Units:
         return value
 
 
-_TERM = r"[A-Za-zµμ°]{1,24}(?:(?:\^|\*\*)-?[1-9]|[²³])?"
+_TERM = r"[A-Za-zµμ°]{1,24}(?:(?:\^|\*\*)-?[1-9]|[23²³])?"
+_BARE_POWER = re.compile(r"(?<=[A-Za-z])[23]")
+"""of ``kg/m3``, as results write it"""
 _UNIT = rf"{_TERM}(?:[ ]*[*/·][ ]*{_TERM}|[ ]+{_TERM}){{0,5}}"
 # A unit is checked against this before pint sees it: pint evaluates what it is given, powers included.
 _QUANTITY = re.compile(
@@ -128,7 +130,7 @@ def _split(text: str, dimension: str) -> tuple[float, str]:
         raise ValueRefused("not-a-number", "is too large for a number")
     if match[2] is None:
         raise ValueRefused("not-a-number", f"is a text: write the number without quotes{remedy}")
-    return number, match[2]
+    return number, _BARE_POWER.sub(r"^\g<0>", match[2])
 
 
 @cache

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from mbla.errors import Message
+from mbla.model.model import Tilt
 from mbla.results.findings import found_notices, magnitude_notices, rounding_of
 from mbla.results.listing.verdict_words import uniqueness_words, verdict
 from mbla.results.outcome import extent_of, factor_unique, notices_of, range_of
@@ -131,6 +133,15 @@ def test_a_load_factor_that_rounding_could_have_made_says_so(friction: float, wo
     (case,) = results.cases
     assert verdict(results.model, case) == words
     assert bool(said_of(results, "load-factor-rounding")) == (friction < 1e-5)
+
+
+def test_an_angle_that_rounding_could_have_made_is_none() -> None:
+    """A table on which blocks slide at once, to within rounding."""
+    results = slender(0.5, 1e-10, contact_model="concave")
+    (case,) = results.cases
+    load = case.load_case.live_load
+    tilted = replace(case.load_case, tilt=Tilt(np.array([0.0, 1.0, 0.0]), load, load, load))
+    assert verdict(results.model, replace(case, load_case=tilted)) == "collapses at 0 degrees of tilt, verified"
 
 
 def test_a_heavy_block_at_rest_makes_no_load_factor_next_to_nothing() -> None:

@@ -90,11 +90,10 @@ def _with_extent(model: Model, case: CaseResult, known: str) -> str:
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
     """A load factor; of one that rounding could have made, how much that is."""
     rounding = rounding_of(model, case)
-    words = load_factor_words(model, case.load_case, load_factor)
+    nothing = abs(load_factor) <= rounding and case.load_case.settlement is None
+    words = load_factor_words(model, case.load_case, 0.0 if nothing else load_factor)
     if rounding == 0.0 or case.load_case.settlement is not None or case.load_case.tilt is not None:
         return words
-    if abs(load_factor) <= rounding:
-        words = load_factor_words(model, case.load_case, 0.0)
     return f"{words} to within {load_factor_words(model, case.load_case, float(f'{rounding:.1e}'))}"
 
 
