@@ -27,7 +27,8 @@ def equal_shares(contacts: Contacts) -> FloatArray:
 def shares_of(program: Program) -> FloatArray:
     """Those of a program's points, (n_points,) with mean 1, from the areas of the points of the full model.
 
-    Points that stand for several, as those of a planar program, are as stiff as these together.
+    A point of a reduced program is as stiff as those that it stands for: with forces x = P y their compliances add up,
+    1/k_y = Σ P² / k_x. Points of light blocks, whose forces have units of their own, are as stiff as others in these.
     """
     shares = _through(program)
     return np.asarray(shares / shares.mean()) if len(shares) else shares
@@ -40,22 +41,21 @@ def brittle_of(program: Program) -> BoolArray:
         none = np.zeros((program.n_points, 2), dtype=np.bool_)
         return none if program.brittle is None else program.brittle
     above = brittle_of(reduction.full)
-    return np.asarray(_stands_for(program, reduction).T @ above.astype(np.float64) > 0.0)
+    return np.asarray(abs(_normal(program, reduction)).T @ above.astype(np.float64) > 0.0)
 
 
 def _through(program: Program) -> FloatArray:
     reduction = program.reduction
     if reduction is None:
         assert program.areas is not None  # of the full model
-        return program.areas
+        units, number = np.unique(np.broadcast_to(program.scaling.units, program.n_points), return_inverse=True)
+        mean = np.bincount(number, program.areas, len(units)) / np.bincount(number, minlength=len(units))
+        return np.asarray(program.areas / mean[number])
     above = _through(reduction.full)
-    shares = np.asarray(_stands_for(program, reduction).T @ above)
-    return np.asarray(np.where(shares > 0.0, shares, above.mean()))
+    compliance = np.asarray(_normal(program, reduction).power(2).T @ (1.0 / above))
+    return np.asarray(np.where(compliance > 0.0, 1.0 / np.maximum(compliance, 1e-300), above.mean()))
 
 
-def _stands_for(program: Program, reduction: Reduction) -> sp.csr_array:
-    """1 where a point, by columns, stands for one of the program that was reduced, by rows."""
-    normal = sp.csr_array(reduction.forces[:: reduction.full.components][:, :: program.components])
-    normal.eliminate_zeros()
-    normal.data = np.ones_like(normal.data)
-    return normal
+def _normal(program: Program, reduction: Reduction) -> sp.csr_array:
+    """P of the normal forces, (n_points of the program that was reduced, n_points)."""
+    return sp.csr_array(reduction.forces[:: reduction.full.components][:, :: program.components])
