@@ -76,11 +76,11 @@ class Gravity:
 def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArray | float = 0.0) -> Gravity:
     """The dead load in one step, from joints without stress.
 
-    least_force : n₀ of a structure without weight
+    least_force : n₀ of a structure without weight; 1 where that is none
     gaps        : (n_points,) displacement by which each joint closes before it touches
     """
     program, n = joints.program, joints.program.n_points
-    force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force
+    force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
     held = program.settles and bool(np.any(program.live_load))
     springs, fresh = HELD * joints.matrix.size, Memory.stress_free(joints, gaps)
     step, spent = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=springs), 0

@@ -70,8 +70,8 @@ class PathOfPart:
 
     @property
     def moving(self) -> float:
-        """Load factor at the end of the path, while it moves; nan without a path."""
-        return self._from_rest(None if self.path is None else self.path.moving)
+        """Load factor at the end of the path, while it moves, λ_p at most; nan without a path."""
+        return self._from_rest(None if self.path is None else min(self.path.moving, self.path.load_factor))
 
     @property
     def displacement(self) -> float:

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
 import numpy as np
 
+from mbla.arrays import FloatArray
+from mbla.contacts.findings import contacts_of
+from mbla.contacts.glue import held_model, solids_of
+from mbla.contacts.tied import tied
+from mbla.deck import read_deck
+from mbla.model import build_model
+from mbla.model.model import LoadCase, select_cases
+from mbla.program.build import build_program
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.program.resultants.interface_motions import CrushingInterfaces
 from mbla.program.stiffness_shares import shares_of
-from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.settings import SolverSettings
+from mbla.solution.settings import SolverSettings, solver_settings
+from mbla.solution.trials import posed
 from tests.line import Line
 
 SETTINGS = SolverSettings(tolerance=1e-8)
@@ -59,3 +72,53 @@ def stress_blocks(line: Line, strength: float | None = None) -> Interfaces:
         return Interfaces(CrushingInterfaces.of(line.model, line.contacts))
     every = np.full(len(line.contacts), strength)
     return Interfaces(CrushingInterfaces.with_strengths(line.contacts, every, 0.0 * every))
+
+
+@dataclass(frozen=True)
+class Case:
+    """One load case of a deck as the program solves it, blocks glued, ties among the contacts."""
+
+    load_case: LoadCase
+    parts: tuple[Program, ...]
+    settings: SolverSettings
+
+    @property
+    def loaded(self) -> Program:
+        """The one part that is loaded."""
+        (program,) = (part for part in self.parts if np.any(part.live_load))
+        return program
+
+    def associative(self) -> AssociativeResult:
+        """Of the loaded part."""
+        return solve_associative(self.loaded, self.settings, lambda record: None, stress_free=False)
+
+    def path(self, settings: PathSettings = DEFAULT, slope: float = 0.0, gaps: FloatArray | None = None) -> PathOfPart:
+        """Of the loaded part; joints dilate by a share of their friction."""
+        program = self.loaded
+        return path_of_part(program, self.associative(), settings, slope * program.limits.friction, gaps=gaps)
+
+    def load_factor(self, settings: PathSettings = DEFAULT, slope: float = 0.0) -> float:
+        """Of the model."""
+        return self.loaded.scaling.load_factor(self.path(settings, slope).load_factor)
+
+    def reaction(self, settings: PathSettings = DEFAULT, slope: float = 0.0) -> float:
+        """That a support that gives way has at least."""
+        settlement = self.load_case.settlement
+        assert settlement is not None
+        return settlement.reference - self.load_factor(settings, slope) * settlement.unit
+
+
+def case_of(deck: Path | str, name: str, *overrides: str, live: FloatArray | None = None) -> Case:
+    """A load case of a deck, on the disk or as text; with another live load where one is given, (n_blocks, 6)."""
+    with TemporaryDirectory() as folder:
+        path = deck if isinstance(deck, Path) else Path(folder) / "deck.yaml"
+        if isinstance(deck, str):
+            path.write_text(deck, encoding="utf-8")
+        read = read_deck(path, ("analysis.flow_rule=non_associative", *overrides))
+        model = build_model(read)
+    contacts = contacts_of(read, model)
+    model, settings = held_model(model, contacts), replace(solver_settings(read.analysis), tolerance=1e-8)
+    (case,) = select_cases(model, [name])
+    case = posed(model, contacts, case, settings) if live is None else replace(case, live_load=live)
+    solids = tied(solids_of(model.of_case(case), contacts, case))
+    return Case(case, build_program(solids, case, settings.analysis).reduced.parts, settings)

@@ -1,0 +1,99 @@
+"""The path of what ties hold: closed forms, whatever their stiffness and slack, and ties that break."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.program.stiffness_shares import shares_of
+from mbla.solution.flow import path_of_part as entry
+from tests.decks.folder import BENCHMARKS
+from tests.line import HEAD
+from tests.solution.flow.paths import case_of
+
+CLOSE = 1e-5
+TIED, ROPES = BENCHMARKS["tied_wall"], BENCHMARKS["ring_rope_and_strip"]
+HELD = [("push", 3.566474), ("push_back", 0.2)]
+"""With two rods, prestressed, and a strut; without."""
+
+LIFTED = (
+    HEAD
+    + """\
+parameters: {C: 1000, D: 3000}
+joints: {dry: {friction: 0.5}}
+blocks:
+  - box: {group: foot, material: stone, min: [0, 0, -1], max: [1, 1, 0]}
+  - box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}
+supports: [{blocks: foot}]
+ties:
+  - {strip: [[0, 0.5, -0.5], [0, 0.5, 0.5]], capacity: "=C"}
+  - {strip: [[1, 0.5, -0.5], [1, 0.5, 0.5]], capacity: "=C"}
+  - {strip: [[0.5, 0, -0.5], [0.5, 0, 0.5]], capacity: "=D"}
+  - {strip: [[0.5, 1, -0.5], [0.5, 1, 0.5]], capacity: "=D"}
+load_cases: {lift: {live: [{acceleration: [0, 0, 1]}]}}
+"""
+)
+WEIGHT = 19620.0
+"""A block of 1 m that is pulled off its foot, with a strip on each side."""
+
+
+@pytest.mark.parametrize(("name", "expected"), HELD)
+@pytest.mark.parametrize("stiffness", [0.01, 1.0, 100.0])
+def test_the_stiffness_of_ties_does_not_count(
+    name: str, expected: float, stiffness: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = case_of(TIED, name)
+    factor = np.where(case.loaded.limits.friction == 0.0, stiffness, 1.0)
+    monkeypatch.setattr(entry, "shares_of", lambda program: factor * shares_of(program))
+    assert case.load_factor() == pytest.approx(expected, rel=CLOSE)
+
+
+@pytest.mark.parametrize(("name", "expected"), HELD)
+@pytest.mark.parametrize("slack", [2.0, 20.0])
+def test_nor_does_their_slack(name: str, expected: float, slack: float) -> None:
+    """In units of displacement, of which the path goes fifty."""
+    case = case_of(TIED, name)
+    program, tight = case.loaded, case.path()
+    assert tight.path is not None
+    gaps = np.where(program.limits.friction == 0.0, slack * tight.path.unit / expected, 0.0)
+    found = program.scaling.load_factor(case.path(gaps=gaps).load_factor)
+    assert found == pytest.approx(expected, rel=CLOSE)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected", "close"), [("burst", 3.3196, 2e-5), ("lift", 0.301937, 1e-3), ("drag", 0.562128, CLOSE)]
+)
+def test_rings_strips_and_ropes(name: str, expected: float, close: float) -> None:
+    """The rings hold two leaves whose joint the load opens; the strip is brittle: where it breaks is found to 1 %."""
+    assert case_of(ROPES, name).load_factor() == pytest.approx(expected, rel=close)
+
+
+@pytest.mark.parametrize(
+    ("capacities", "never", "expected"),
+    [
+        ((1000.0, 3000.0), False, 6000.0),  # the strong ones bear more alone than all where the weak ones break
+        ((1000.0, 1500.0), False, 4000.0),
+        ((1000.0, 3000.0), True, 8000.0),
+        ((1000.0, 1500.0), True, 5000.0),
+    ],
+)
+def test_strips_that_break_one_after_the_other(capacities: tuple[float, float], never: bool, expected: float) -> None:
+    """All get longer alike: at most 4 C, or 2 D once those of the capacity C are gone; 2 C + 2 D of such as yield."""
+    text = LIFTED.replace('"=C"}', '"=C", breaks_at: never}').replace('"=D"}', '"=D", breaks_at: never}')
+    weak, strong = capacities
+    case = case_of(text if never else LIFTED, "lift", f"parameters.C={weak}", f"parameters.D={strong}")
+    found = case.path()
+    assert found.path is not None
+    assert bool(found.path.broken) is not never
+    factor = case.loaded.scaling.load_factor(found.load_factor)
+    assert factor == pytest.approx((WEIGHT + expected) / WEIGHT, rel=1e-3)
+
+
+def test_a_tie_that_breaks_after_an_elongation_does_not_break_within_elastic_displacements() -> None:
+    """They are nothing beside a length: rigid blocks have none."""
+    text = LIFTED.replace("strip: [[0, 0.5, -0.5], [0, 0.5, 0.5]]", "through: [[0, 0.5, -0.5], [0, 0.5, 0.5]]")
+    text = text.replace("strip: [[1, 0.5, -0.5], [1, 0.5, 0.5]]", "through: [[1, 0.5, -0.5], [1, 0.5, 0.5]]")
+    later = case_of(text.replace('"=C"}', '"=C", breaks_at: 0.01}'), "lift").load_factor()
+    once = case_of(text.replace('"=C"}', '"=C", breaks_at: 0}'), "lift").load_factor()
+    assert later == pytest.approx((WEIGHT + 8000.0) / WEIGHT, rel=1e-3)
+    assert once == pytest.approx((WEIGHT + 6000.0) / WEIGHT, rel=1e-3)
