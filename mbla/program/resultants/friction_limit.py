@@ -40,7 +40,7 @@ def friction_limit(limits: TorsionLimits, resultants: FloatArray) -> FrictionLim
     """Sizes of the sets at resultants (n_interfaces, 6)."""
     r, n = resultants[limits.interfaces], len(limits.interfaces)
     total = limits.friction * r[:, 0] + limits.cohesion
-    slopes = _slopes(limits)
+    slopes = reducing_slopes(limits)
     owner = np.repeat(np.arange(n), np.diff(limits.start))
     off = (slopes * np.column_stack([-r[owner, 5], r[owner, 4]])).sum(axis=1)
     # rows of the largest offset of each interface
@@ -58,7 +58,7 @@ def friction_limit(limits: TorsionLimits, resultants: FloatArray) -> FrictionLim
     return FrictionLimit(np.maximum(total, 0.0), np.maximum(share, 0.0), of_total.matrix(shape), of_share.matrix(shape))
 
 
-def _slopes(limits: TorsionLimits) -> FloatArray:
+def reducing_slopes(limits: TorsionLimits) -> FloatArray:
     """S of the edge that leaves each corner q: s·q = 1 at both ends."""
     q = limits.corners
     after = q[next_item(limits.start)]

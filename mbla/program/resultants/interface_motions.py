@@ -19,9 +19,16 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.model.solids.convex import signed_areas
 from mbla.model.solids.measures import connected_labels
 from mbla.program.program import Program
-from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes, local_points
+from mbla.program.resultants.shapes import (
+    SOLID,
+    InterfaceShapes,
+    interface_shapes,
+    local_points,
+    outer_boundaries,
+)
 from mbla.program.resultants.stress_blocks import Pieces, Plates, pieces_in_plane, pieces_in_space, with_conditions
 
 NONE = 1e-12
@@ -33,6 +40,7 @@ class CrushingInterfaces:
     """Interfaces of a model, some of which crush as stress blocks.
 
     shapes      : of all interfaces
+    outlines    : (n_corners, 2) outer boundaries, from the centroids [m], and where each starts, (n_interfaces + 1,)
     areas       : (n_interfaces,) [m²]
     places      : (n_points, 2) of the points in their interfaces, from the centroid [m]
     interface_of_point : (n_points,)
@@ -41,6 +49,7 @@ class CrushingInterfaces:
     """
 
     shapes: InterfaceShapes
+    outlines: tuple[FloatArray, IntArray]
     areas: FloatArray
     places: FloatArray
     interface_of_point: IntArray
@@ -57,15 +66,28 @@ class CrushingInterfaces:
 
     @classmethod
     def with_strengths(cls, contacts: Contacts, compressive: FloatArray, tensile: FloatArray) -> CrushingInterfaces:
-        """With strengths of each interface, (n_interfaces,) [stress of the deck]."""
+        """With strengths of each interface, (n_interfaces,) [stress of the deck].
+
+        Raises ValueError where one that can crush has holes.
+        """
+        shapes, outlines = interface_shapes(contacts), outer_boundaries(contacts)
+        full = signed_areas(*outlines) <= contacts.areas * (1.0 + SOLID)
+        if not (full | ~np.isfinite(compressive))[: contacts.n_surfaces].all():
+            raise ValueError("an interface that can crush has holes: it has to come in pieces")
         return cls(
-            shapes=interface_shapes(contacts),
+            shapes=shapes,
+            outlines=outlines,
             areas=contacts.areas,
             places=local_points(contacts),
             interface_of_point=contacts.interface_of_point,
             compression=np.asarray(compressive * contacts.areas),
             tension=np.asarray(tensile * contacts.areas),
         )
+
+    def outline(self, row: int) -> FloatArray:
+        """Corners of an interface, (n_corners, 2) [m]; of a convex one those alone at which it turns."""
+        corners, start = (self.shapes.corners, self.shapes.start) if self.shapes.convex[row] else self.outlines
+        return corners[start[row] : start[row + 1]]
 
     @property
     def radii(self) -> FloatArray:
@@ -95,6 +117,14 @@ def forces_of_full(program: Program) -> tuple[Program, sp.csr_array]:
     return program, forces
 
 
+def tidied(map_: sp.csr_array) -> sp.csr_array:
+    """A map without entries that are rounding of zero."""
+    found = sp.csr_array(map_)
+    found.data[np.abs(found.data) < NONE * np.abs(found.data).max(initial=0.0)] = 0.0
+    found.eliminate_zeros()
+    return found
+
+
 def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfProgram | None:
     """Interfaces of a program, reduced or not, that crush; None where there are none."""
     full, forces = forces_of_full(program)
@@ -105,9 +135,7 @@ def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfP
     seen = _in_plane if program.components == 2 else _in_space
     map_, owners, plates = seen(interfaces, full, forces, here)
     unit = float(np.abs(map_[:: program.components].data).max())
-    map_ = sp.csr_array(map_ / unit)
-    map_.data[np.abs(map_.data) < NONE] = 0.0
-    map_.eliminate_zeros()
+    map_ = tidied(sp.csr_array(map_ / unit))
     of_force = full.scaling.force * unit
     n = map_.shape[0] // program.components
     rows = np.flatnonzero(owners >= 0)
@@ -129,13 +157,14 @@ def _in_space(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_arra
     owners[rows] = np.arange(len(rows))
     arms = interfaces.places[here] / interfaces.radii[interfaces.interface_of_point[here], None]
     map_ = _sums(owner_of_point, here, full, forces, [np.ones(len(arms)), *arms.T])
-    flat, triangles = pieces_in_space(interfaces.shapes, rows, interfaces.radii)
+    outlines = [interfaces.outline(row) for row in rows.tolist()]
+    flat, triangles = pieces_in_space(interfaces.shapes, outlines, rows, interfaces.radii)
     return map_, owners, (("parallelogram", flat), ("triangle", triangles))
 
 
 def _in_plane(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_array, here: BoolArray) -> Seen:
     """An interface and its image share points of the program, and are one: widths along the plane add up."""
-    points, shapes = np.flatnonzero(here), interfaces.shapes
+    points = np.flatnonzero(here)
     interface = interfaces.interface_of_point[points]
     stands_for = np.asarray(forces[3 * points].tocsr().indices // 2, dtype=np.int64)
     shear = forces[:, 1::2].tocsr()
@@ -154,11 +183,8 @@ def _in_plane(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_arra
     radii = np.sqrt(np.bincount(group, interfaces.areas[rows]))
     map_ = _sums(group[place], here, full, forces, [np.ones(len(s)), s / radii[group[place]]])
     outlines: list[list[FloatArray]] = [[] for _ in radii]
-    if not shapes.convex[rows].all():
-        raise ValueError("an interface that can crush is not convex: it has to come in pieces")
     for row, (a, b), owner in zip(rows.tolist(), along.tolist(), group.tolist(), strict=True):
-        corners = shapes.corners[shapes.start[row] : shapes.start[row + 1]]
-        outlines[owner].append(corners @ np.array([[a, -b], [b, a]]))
+        outlines[owner].append(interfaces.outline(row) @ np.array([[a, -b], [b, a]]))
     strips, ramps = pieces_in_plane(outlines, radii)
     return map_, owners, (("strip", strips), ("triangle", ramps))
 

@@ -84,7 +84,7 @@ def interface_shapes(contacts: Contacts) -> InterfaceShapes:
     if n == 0:
         none, empty = np.zeros(0, dtype=bool), np.zeros((0, 2))
         return InterfaceShapes(empty, starts(none), none, none, empty, np.zeros((0, 2, 2)), np.zeros(0), np.zeros(0))
-    outlines, outline_start = _outlines(contacts)
+    outlines, outline_start = outer_boundaries(contacts)
     convex_outline = convex_loops(outlines, outline_start)
     solid = signed_areas(outlines, outline_start) <= contacts.areas * (1.0 + SOLID)
     corners, start = _hulls(outlines, outline_start, convex_outline)
@@ -112,7 +112,7 @@ def _with_ties(shapes: InterfaceShapes, n_ties: int) -> InterfaceShapes:
     )
 
 
-def _outlines(contacts: Contacts) -> tuple[FloatArray, IntArray]:
+def outer_boundaries(contacts: Contacts) -> tuple[FloatArray, IntArray]:
     """Outer boundaries, (n_corners, 2), and their starts."""
     position = np.arange(len(contacts.points)) - contacts.point_start[contacts.interface_of_point]
     outer = position < contacts.outline[contacts.interface_of_point]

@@ -7,7 +7,8 @@ that each is concave and has the dimension of a force::
 
 Q, P and L are linear in the resultants r of a piece; N', Q_i = N' ∓ P_i and those of the complement, F − N' and −P, for
 a parallelogram, of K = 9/8; for a triangle the forces at its corners, K = 9. Another convex outline is a fan of
-triangles about its centroid: fields of stress add up, so that nothing is lost by dividing it.
+triangles about its centroid, one that is not convex any triangles of its corners: fields of stress add up, so that
+nothing is lost by dividing it.
 
 In the plane stress may be taken constant across it, so that only the width of an outline along the plane counts. Where
 that is constant a strip carries N' ∓ P − N'²/F ≥ 0; where it grows from zero it is a triangle that is its own mirror
@@ -24,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.solids.polygons import polygons_from_rings, triangles
 from mbla.program.resultants.shapes import InterfaceShapes
 
 OF_PARALLELOGRAM, OF_TRIANGLE = 1.125, 9.0
@@ -86,16 +88,15 @@ class Plates:
         )
 
 
-def pieces_in_space(shapes: InterfaceShapes, rows: IntArray, radii: FloatArray) -> tuple[Plates, Plates]:
+def pieces_in_space(
+    shapes: InterfaceShapes, outlines: list[FloatArray], rows: IntArray, radii: FloatArray
+) -> tuple[Plates, Plates]:
     """Parallelograms, and triangles, of the interfaces ``rows``; owners are places in it.
 
-    radii : (n_interfaces,) ρ
-
-    Raises ValueError where an interface is not convex.
+    outlines : (n_corners, 2) of each of these [m]
+    radii    : (n_interfaces,) ρ
     """
-    if not shapes.convex[rows].all():
-        raise ValueError("an interface that can crush is not convex: it has to come in pieces")
-    return _parallelograms(shapes, rows, radii), _triangles(shapes, rows, radii)
+    return _parallelograms(shapes, rows, radii), _triangles(shapes, outlines, rows, radii)
 
 
 def _parallelograms(shapes: InterfaceShapes, rows: IntArray, radii: FloatArray) -> Plates:
@@ -108,13 +109,15 @@ def _parallelograms(shapes: InterfaceShapes, rows: IntArray, radii: FloatArray) 
     return Plates(own, np.ones(len(own)), gauge, np.tile([1.0, 0.0, 0.0], (len(own), 1)))
 
 
-def _triangles(shapes: InterfaceShapes, rows: IntArray, radii: FloatArray) -> Plates:
+def _triangles(shapes: InterfaceShapes, outlines: list[FloatArray], rows: IntArray, radii: FloatArray) -> Plates:
+    """Fans about the centroid, or any triangles of the corners where the outline is not convex."""
     found = []
     for place in np.flatnonzero(~shapes.parallelograms[rows]).tolist():
-        row = rows[place]
-        x = shapes.corners[shapes.start[row] : shapes.start[row + 1]] / radii[row]
+        row, x = rows[place], outlines[place] / radii[rows[place]]
         following = np.roll(x, -1, axis=0)
         loops = x[None] if len(x) == 3 else np.stack([np.zeros_like(x), x, following], axis=1)
+        if not shapes.convex[row]:
+            loops = triangles(polygons_from_rings(x, np.array([0, len(x)]), np.zeros(1, dtype=np.int64)))[0]
         first, second = loops[:, 1] - loops[:, 0], loops[:, 2] - loops[:, 0]
         area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
         of_corners = np.concatenate([np.ones((len(loops), 1, 3)), loops.transpose(0, 2, 1)], axis=1)

@@ -27,6 +27,9 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, w
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
+SMOOTHED = 0.3
+"""Share of the live power up to which a step is smoothed little."""
+
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
@@ -63,7 +66,7 @@ class _Path:
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
     top      : step of the greatest load factor so far
-    later    : the same of the steps after it: early steps are smoothed more
+    later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
     low      : steps in a row below the peak, and the displacement of the first of them
@@ -142,7 +145,8 @@ class _Path:
             speed=speed,
             crushing=sigma / joints.room(state.normal),
             interfaces=tuple(
-                law.centred(one, state.normal, sigma) for law, one in zip(joints.laws, state.interfaces, strict=True)
+                law.centred(one, state.normal, sigma, share)
+                for law, one in zip(joints.laws, state.interfaces, strict=True)
             ),
         )
 
@@ -222,19 +226,23 @@ class _Path:
         counted = counted and abs(float(unbalanced @ state.u)) < power * self.scale
         if not counted:
             return False
-        if gone is not None and (self.later is None or state.factor > self.later.state.factor):
-            self.later = gone
-            if state.factor > self.peak:
-                self.top, self.later = gone, None
+        if gone is not None and state.factor > self.peak:
+            self.top, self.later = gone, None
+        elif gone is not None and self.top is not None and gone.sigma <= 0.5 * self.top.sigma:
+            self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
         self.in_balance, self.fallen = len(self.steps) + 1, max(self.fallen, state.factor)
         if state.factor > 1.001 * self.risen[0]:
             self.risen = (state.factor, self.displacement)
         return True
 
+    def _smoothed_little(self, sigma: float) -> bool:
+        """Whether smoothing takes less than a third of the live power at the associative load."""
+        return self.joints.n_products * sigma <= SMOOTHED * self.scale
+
     def _ended(self, counted: bool, reach: float, sigma: float) -> Stop | None:
         """Falls, flat, far, stuck, or None."""
         settings = self.settings
-        if self.joints.n_products * sigma <= 0.3 * self.scale:
+        if self._smoothed_little(sigma):
             below = counted and self.fallen > 0.0 and reach > 0.2
             below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
             first = self.low[1] if self.low[0] else self.displacement
@@ -304,8 +312,11 @@ class _Path:
                 peaks[place], more = sharpened_peak(peak, self.settings)
                 spent += more
         top, half = peaks
-        if top is not None and self.later is not None and top.state.factor < self.later.state.factor:
-            later, more = sharpened_peak(self.later, self.settings)
-            top, spent = max(top, later, key=lambda peak: peak.state.factor), spent + more
+        if top is not None and self.later is not None:
+            rough = top is self.top and not self._smoothed_little(top.sigma)  # it could not be solved without smoothing
+            if rough or top.state.factor < self.later.state.factor:
+                later, more = sharpened_peak(self.later, self.settings)
+                spent += more
+                top = later if rough else max(top, later, key=lambda peak: peak.state.factor)
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
         return ElasticPath(*found)

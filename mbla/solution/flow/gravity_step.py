@@ -37,8 +37,9 @@ SHORT, BLOCKED = 0.03, 5
 HELD = 1e-10
 """ε, over the mean stiffness of a joint."""
 
-FALL, LONG, LEAST = 0.1, 0.5, 1e-8
-"""Factor on the products after a step that goes more than a share of its way, and their least over n₀²."""
+FALL, LONG, WHOLE, LEAST = 0.1, 0.5, 0.9, 1e-8
+"""Factor on the products after a step that goes more than a share of its way, that share, the same where interfaces
+have a law of their own, whose bounds are curved, and least products over n₀²."""
 
 BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
@@ -110,7 +111,7 @@ def _solved(step: JointStep, force: float, start: float) -> tuple[StepState, boo
         direction, reach = found
         spent, blocked = spent + 1, blocked + 1 if reach < SHORT else 0
         state = state.plus(direction, length_of(reach))
-        if reach > LONG and even:
+        if reach > (WHOLE if step.joints.laws else LONG) and even:
             sigma = max(FALL * sigma, least)
 
 

@@ -25,6 +25,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.program import Program
@@ -122,6 +123,24 @@ class ElasticJoints:
     def _by_law(self, values: FloatArray) -> tuple[FloatArray, ...]:
         ends = np.cumsum([law.rows.shape[1] // self.program.components for law in self.laws])
         return tuple(np.split(values, ends[:-1], axis=1))
+
+    def crossing(self, law: int, by_normal: sp.csr_array, tangents: FloatArray) -> sp.csr_array:
+        """What resultants of a law that follow the normal forces add to A C Aᵀ, (n_rows, n_rows).
+
+        by_normal : (components m, n_points) of its resultants by the normal forces
+        tangents  : (n_points, components, components) C of the points
+        """
+        n, size = self.program.n_points, self.program.components
+        first = size * (n + sum(one.rows.shape[1] // size for one in self.laws[:law]))
+        acts = self._columns[:, first : first + by_normal.shape[0]]
+        moved = sp.csr_array(
+            (tangents[:, 0].ravel(), np.arange(size * n), size * np.arange(n + 1)), shape=(n, size * n)
+        )
+        return sp.csr_array(acts @ (by_normal @ (moved @ self.matrix.compatibility[: size * n])))
+
+    @cached_property
+    def _columns(self) -> sp.csc_array:
+        return sp.csc_array(self.matrix.program.equilibrium_matrix)
 
     def carried(self, normal: FloatArray, shear: FloatArray, resultants: Sequence[FloatArray] = ()) -> FloatArray:
         """A x, (n_rows,): what contact forces, and resultants of interfaces, do to the blocks and interfaces."""

@@ -17,6 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.solution.law.elastic_joints import StepState
@@ -84,7 +85,14 @@ class Eliminated:
         if len(interfaces) < len(own) or not np.isfinite(every_tangent).all():
             return None
         shift = SHIFT * float(np.mean(tangents[:, 0, 0])) * joints.matrix.size + step.held
-        solve = joints.matrix.factorized(every_tangent, shift, fixed_load=not step.driven)
+        further = [
+            joints.crossing(number, one.by_normal(n), tangents)
+            for number, one in enumerate(interfaces)
+            if one.crossed is not None
+        ]
+        solve = joints.matrix.factorized(
+            every_tangent, shift, fixed_load=not step.driven, further=_sum(further) if further else None
+        )
         if solve is None:
             return None
         return Eliminated(step, state, solve, tangents, cone, inverse, across, follows, lifts, over, interfaces)
@@ -139,6 +147,14 @@ class Eliminated:
         return tuple(
             one.change(one.resultants(drive, motion, normal), normal, products) for one, drive, motion, products in each
         )
+
+
+def _sum(matrices: list[sp.csr_array]) -> sp.csr_array:
+    """Sum of one matrix or more."""
+    total = matrices[0]
+    for matrix in matrices[1:]:
+        total = sp.csr_array(total + matrix)
+    return total
 
 
 def small_inverses(matrices: FloatArray) -> FloatArray:

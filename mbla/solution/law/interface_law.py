@@ -29,6 +29,9 @@ from mbla.solution.cone_solvers.cone_vectors import lines_to_boundary
 FACTORS = (0.1, 10.0)
 """Within which multipliers follow the motion when the length of a step changes."""
 
+SHARE = 0.95
+"""Share of the way to the bounds that a step goes."""
+
 HALVINGS, CLOSE = 30, 1e-3
 """How closely the way to a curved bound is found: halvings at most, and relative distance."""
 
@@ -109,10 +112,17 @@ class InterfaceLaw:
         resultants = self.conditions.start(normal)
         return self.centred(InterfaceState(resultants, resultants), normal, sigma)
 
-    def centred(self, state: InterfaceState, normal: FloatArray, sigma: float) -> InterfaceState:
-        """The same resultants with multipliers on the central path."""
-        values = self.conditions.values(state.resultants, normal)
-        return InterfaceState(state.resultants, self.conditions.weight * sigma / values)
+    def centred(self, state: InterfaceState, normal: FloatArray, sigma: float, share: float = 1.0) -> InterfaceState:
+        """On the central path at a share of the way from the start to the resultants; less where that is outside."""
+        start = self.conditions.start(normal)
+        resultants = start + share * (state.resultants - start)
+        for _ in range(HALVINGS):
+            outside = ~(self.conditions.values(resultants, normal) > 0.0).all(axis=0)
+            if not outside.any():
+                break
+            resultants = np.where(outside, 0.5 * (resultants + start), resultants)
+        values = self.conditions.values(resultants, normal)
+        return InterfaceState(resultants, self.conditions.weight * sigma / values)
 
     def following(self, state: InterfaceState, normal: FloatArray, motion: FloatArray) -> InterfaceState:
         """Multipliers as large as the motion, (c, m), that they stand for."""
@@ -139,8 +149,17 @@ class InterfaceLaw:
         most = min(most, float(lines_to_boundary(state.multipliers, direction.multipliers).min(initial=np.inf)))
 
         def within(length: float) -> bool:
-            resultants = state.resultants + length * direction.resultants
-            return bool((self.conditions.values(resultants, normal + length * change) > 0.0).all())
+            """Whether it does there and, as conditions need not be concave in n, where a step to there ends."""
+            ends = (length,) if self.conditions.points is None else (length, SHARE * length)
+            return all(
+                bool(
+                    (
+                        self.conditions.values(state.resultants + end * direction.resultants, normal + end * change)
+                        > 0.0
+                    ).all()
+                )
+                for end in ends
+            )
 
         if within(most):
             return most
@@ -219,6 +238,18 @@ class EliminatedInterface:
             r = direction.resultants
             beyond += 0.5 * self.state.multipliers * np.einsum("kabm,am,bm->km", self.found.hessians, r, r)
         return np.asarray(beyond)
+
+    def by_normal(self, n_points: int) -> sp.csr_array:
+        """Derivatives −W⁻¹ X of the resultants by the normal forces of all points, (c m, n_points)."""
+        points = self.law.conditions.points
+        assert points is not None
+        assert self.crossed is not None
+        m, size, _ = self.crossed.shape
+        by = -np.matmul(self.tangents, self.crossed)
+        row = np.broadcast_to((size * np.arange(m)[:, None] + np.arange(size))[:, :, None], by.shape)
+        column = np.broadcast_to(points[:, None, :], by.shape)
+        entries = (by.ravel(), (row.ravel(), column.ravel()))
+        return sp.csr_array(sp.coo_array(entries, shape=(size * m, n_points)))
 
     def _at_points(self, values: FloatArray) -> FloatArray:
         points = self.law.conditions.points

@@ -12,6 +12,7 @@ import numpy as np
 from mbla.solution.cone_solvers.cone_vectors import cones_to_boundary, lines_to_boundary
 from mbla.solution.law.elastic_joints import ElasticJoints, StepState, lengths
 from mbla.solution.law.elimination import Eliminated
+from mbla.solution.law.interface_law import SHARE
 from mbla.solution.law.joint_equations import JointStep, Products, Residual, products_of
 
 LONG = 0.9
@@ -21,8 +22,8 @@ CORRECTIONS, BEYOND, GAIN, FAR_OFF = 2, 0.3, 0.03, 10.0
 """Corrections of outlying products at most; how far beyond the end of the step they look; by how much one must make the
 step longer to be kept; factor from σ from which a product is outlying."""
 
-SHARE = 0.95
-"""Share of the way to the boundary that a step goes."""
+BEYOND_ALL = 1e100
+"""Change of shear or slip with which the equations are as good as singular."""
 
 
 def direction_of(step: JointStep, state: StepState, residual: Residual, sigma: float) -> tuple[StepState, float] | None:
@@ -75,6 +76,8 @@ def reach_of(joints: ElasticJoints, state: StepState, direction: StepState) -> f
     )
     reach = [float(lines_to_boundary(value, change).min(initial=np.inf)) for value, change in lines]
     for radius, vector, growth, turn in cones:
+        if not np.isfinite(turn).all() or float(np.abs(turn).max(initial=0.0)) > BEYOND_ALL:
+            return 0.0
         inside = np.maximum(radius * radius - (vector * vector).sum(axis=0), 0.0)
         mixed, ahead = radius * growth - (vector * turn).sum(axis=0), growth * growth - (turn * turn).sum(axis=0)
         reach.append(float(cones_to_boundary(inside, mixed, ahead).min(initial=np.inf)))

@@ -103,15 +103,23 @@ class Stiffness(Places):
         return (self.compatibility @ u).reshape(-1, self.program.components)
 
     def factorized(
-        self, tangents: FloatArray, shift: FloatArray, *, fixed_load: bool = False
+        self,
+        tangents: FloatArray,
+        shift: FloatArray,
+        *,
+        fixed_load: bool = False,
+        further: sp.csr_array | None = None,
     ) -> BorderedFactors | None:
         """Factorise with C, (n_points, components, components).
 
-        shift : (n_rows,) of the diagonal
+        shift   : (n_rows,) of the diagonal
+        further : (n_rows, n_rows) added to K, within its pattern
 
         None where the matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
+        if further is not None:
+            matrix.data[self._places_of(further)] -= further.data
         finite = bool(np.isfinite(matrix.data).all())
         factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
@@ -134,6 +142,18 @@ class Stiffness(Places):
         matrix = copy(self._pattern)
         matrix.data = entries
         return matrix
+
+    def _places_of(self, further: sp.csr_array) -> IntArray:
+        """Places of the entries of another matrix, (n_entries,)."""
+        n = len(self.order)
+        place = np.empty(n, dtype=np.int64)
+        place[self.order] = np.arange(n)
+        row, column = further.tocoo().coords
+        keys = np.repeat(np.arange(n), np.diff(self.pointers)) * n + self.indices
+        wanted = place[column] * n + place[row]
+        found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+        assert (keys[found] == wanted).all()
+        return found
 
     @cached_property
     def _pattern(self) -> sp.csc_array:

@@ -19,6 +19,7 @@ from mbla.program.build import build_program
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.program.resultants.interface_motions import CrushingInterfaces
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
@@ -72,6 +73,11 @@ def stress_blocks(line: Line, strength: float | None = None) -> Interfaces:
         return Interfaces(CrushingInterfaces.of(line.model, line.contacts))
     every = np.full(len(line.contacts), strength)
     return Interfaces(CrushingInterfaces.with_strengths(line.contacts, every, 0.0 * every))
+
+
+def torsion(line: Line) -> Interfaces:
+    """Its interfaces twist under uniform pressure."""
+    return Interfaces(twisting=TwistingInterfaces.of(line.model, line.contacts))
 
 
 @dataclass(frozen=True)

