@@ -123,7 +123,11 @@ def path_by(
     """The path of a program by its load factor of associative flow, None where it has none.
 
     part : what alone is followed; the whole unless given
+
+    Raises ValueError where joints dilate and interfaces twist: what torsion opens is not known.
     """
+    if interfaces.twisting is not None and dilatancy is not None and np.any(dilatancy):
+        raise ValueError("torsion of interfaces goes with joints without dilatancy")
     rows = interfaces.rows_of(program)
     whole = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, rows)
     gaps = np.zeros(program.n_points) if gaps is None else gaps

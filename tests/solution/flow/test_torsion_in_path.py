@@ -67,3 +67,9 @@ def test_what_moves_in_a_plane_does_not_twist() -> None:
     assert reduced(line).components == 2
     assert torsion(line).rows_of(reduced(line)) == ()
     assert twisting(line) == pytest.approx(0.6, rel=2e-5)
+
+
+def test_torsion_goes_without_dilatancy() -> None:
+    line = line_of(TWIST)
+    with pytest.raises(ValueError, match="without dilatancy"):
+        load_factor_of(line, associative_flow=True, interfaces=torsion(line))
