@@ -7,7 +7,7 @@ units of the elastic displacement of the structure at its associative load (all 
 
 A step is one primal–dual step of :mod:`mbla.solution.law.joint_step` on an implicit step of length h; what is not gone
 of it is made up for in the next one. The products of the law are n₀²/(κ h): they smooth the law, the less the longer
-the steps and the larger κ. The step of the greatest load is solved once more without smoothing.
+the steps and the larger κ. The step of the greatest load is solved once more until the law holds.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
-from mbla.solution.flow.peak_step import PeakStep, sharpened_peak, with_openings
+from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak, with_openings
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure
 from mbla.solution.law.brittle import let_go, share_until_break, without
-from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
@@ -109,7 +109,7 @@ class _Path:
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
         at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())
-        self.state = self._centred(at_rest, 0.99)
+        self.state = centred(joints, at_rest, self.sigma, 0.99)
 
     def _pressed(self) -> FloatArray:
         """Normal forces at rest, smoothed as the first step is: (N − N̄) N = σ k_N h, (n_points,)."""
@@ -130,25 +130,6 @@ class _Path:
     def peak(self) -> float:
         """The greatest load factor so far."""
         return 0.0 if self.top is None else self.top.state.factor
-
-    def _centred(self, state: StepState, share: float) -> StepState:
-        """On the central path for the present normal forces and shear, the latter within a share of its limit."""
-        joints, sigma = self.joints, self.sigma
-        limit = joints.limit(state.normal)
-        shear = within(state.shear, limit, share)
-        speed = sigma * limit / (limit * limit - (shear * shear).sum(axis=0))
-        return replace(
-            state,
-            opening=sigma / (state.normal + joints.program.limits.tension),
-            shear=shear,
-            slip=-(speed / limit) * shear,
-            speed=speed,
-            crushing=sigma / joints.room(state.normal),
-            interfaces=tuple(
-                law.centred(one, state.normal, sigma, share)
-                for law, one in zip(joints.laws, state.interfaces, strict=True)
-            ),
-        )
 
     def advance(self) -> Stop | None:
         """One step; why the path ends after it, None where it goes on."""
@@ -183,19 +164,19 @@ class _Path:
         return ended or self._next(reach)
 
     def _breaking(self, gone: PeakStep) -> tuple[IntArray, PeakStep]:
-        """Points that break in a step that is gone, and the step without smoothing, with which they come there early.
+        """Points that break in a step that is gone, and the step solved, with which they come there early.
 
         The peak may be where the first of them breaks.
         """
-        whole, spent = sharpened_peak(gone, self.settings)
+        whole, spent = solved_peak(gone, self.force)
         self.factorizations += spent
         share, breaking = self._share_until_break(whole)
         there = whole
         for _ in range(AT_BREAK if len(breaking) else 0):
             there = replace(gone, step=replace(gone.step, length=share * there.step.length))
-            sharp, spent = sharpened_peak(there, self.settings)
+            sharp, spent = solved_peak(there, self.force)
             self.factorizations += spent
-            if sharp is there:
+            if sharp.state is there.state:
                 break
             share, there = self._share_until_break(sharp)[0], sharp
             if NEARLY < share < 1.0 / NEARLY:
@@ -301,21 +282,21 @@ class _Path:
         if self.blocked[1] > 2:
             self.h = max(self.h, 0.3 * self.good)
         self.blocked = (0, self.blocked[1])
-        self.state = self._centred(self.state, 0.95)
+        self.state = centred(self.joints, self.state, self.sigma, 0.95)
 
     def result(self, stop: Stop) -> ElasticPath:
-        """The path, with its peaks once more without smoothing."""
+        """The path, with the steps of its peaks solved."""
         spent = self.factorizations + self.gravity.steps
         peaks = [self.top, self.half if stop is Stop.FAR else None]
         for place, peak in enumerate(peaks):
             if peak is not None:
-                peaks[place], more = sharpened_peak(peak, self.settings)
+                peaks[place], more = solved_peak(peak, self.force)
                 spent += more
         top, half = peaks
         if top is not None and self.later is not None:
-            rough = top is self.top and not self._smoothed_little(top.sigma)  # it could not be solved without smoothing
+            rough = self.top is not None and top.state is self.top.state and not self._smoothed_little(top.sigma)
             if rough or top.state.factor < self.later.state.factor:
-                later, more = sharpened_peak(self.later, self.settings)
+                later, more = solved_peak(self.later, self.force)
                 spent += more
                 top = later if rough else max(top, later, key=lambda peak: peak.state.factor)
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))

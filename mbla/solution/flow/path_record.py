@@ -50,7 +50,7 @@ class PathStep:
 class ElasticPath:
     """A path that was followed.
 
-    peak         : step of the greatest load factor, without smoothing where it could be solved so; None where no step
+    peak         : step of the greatest load factor, solved as far as its misfit says; None where no step
                    counts
     half         : the same up to half of the displacement; None where the path ends before
     last         : state at the end

@@ -1,4 +1,9 @@
-"""The step of the greatest load factor of a path, and the same once more without smoothing."""
+"""The step of the greatest load factor of a path, and the same solved until the law of its joints holds.
+
+On the path a step is one direction on smoothed products. Once the peak has passed, its step is solved from what the
+joints remembered before it: the load factor of a path is that of a state whose forces anybody can find again from its
+motion and its history.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.solution.flow.settings import PathSettings
-from mbla.solution.law.elastic_joints import StepState
+from mbla.solution.law.elastic_joints import ElasticJoints, StepState, within
+from mbla.solution.law.exact_law import misfit
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
@@ -17,12 +22,19 @@ OF_FLOOR = 0.3
 
 @dataclass(frozen=True)
 class PeakStep:
-    """The step with the greatest load factor: its equations, the products that were wanted, the state after it."""
+    """The step with the greatest load factor.
+
+    step  : its equations
+    sigma : the products that were wanted
+    state : after it, at ``displacement`` in units
+    misfit : of the law; not measured while the path is followed
+    """
 
     step: JointStep
     sigma: float
     state: StepState
     displacement: float
+    misfit: float = float("inf")
 
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
@@ -38,26 +50,60 @@ def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     return replace(state, opening=np.maximum(opening, floor), interfaces=interfaces)
 
 
-SHARPER, SHARPENINGS, AT_REST = 0.2, 8, 2e-5
-"""Factor on the products when the step of the peak is solved again, times at most, and change of the load factor with
-which it is at rest."""
+def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float) -> StepState:
+    """On the central path for the present normal forces and shear, the latter within a share of its limit."""
+    limit = joints.limit(state.normal)
+    shear = within(state.shear, limit, share)
+    speed = sigma * limit / (limit * limit - (shear * shear).sum(axis=0))
+    return replace(
+        state,
+        opening=sigma / (state.normal + joints.program.limits.tension),
+        shear=shear,
+        slip=-(speed / limit) * shear,
+        speed=speed,
+        crushing=sigma / joints.room(state.normal),
+        interfaces=tuple(
+            law.centred(one, state.normal, sigma) for law, one in zip(joints.laws, state.interfaces, strict=True)
+        ),
+    )
 
 
-def sharpened_peak(peak: PeakStep, settings: PathSettings) -> tuple[PeakStep, int]:
-    """The step of the peak again from its history, with ever smaller products; factorisations spent."""
-    step, state, sigma, best = peak.step, peak.state, peak.sigma, peak
-    spent = 0
-    while spent < SHARPENINGS:
+FALL, LEAST = 0.2, 1e-15
+"""Factor on the products after a direction that is gone more than half, and their least over n₀²."""
+
+EXACT, STEPS = 1e-6, 80
+"""Misfit of the law with which the step is solved, and directions at most."""
+
+BLOCKED, AGAIN = 0.05, (1e3, 10.0, 1e5)
+"""Reach of a direction below which, twice running, the step starts again from the central path, and the products there
+over those of the path, in turn."""
+
+
+def solved_peak(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
+    """The step of the peak from its history with ever smaller products, until the law holds; factorisations spent.
+
+    The state with the least misfit that was met, which says how far it came.
+
+    force : n₀
+    """
+    step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
+    sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
+    best = replace(peak, misfit=misfit(step, peak.state))
+    while best.misfit > EXACT and spent < STEPS:
+        found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
-        sigma *= SHARPER
-        before = with_openings(step, state, sigma)
-        residual = residual_of(step, before)
-        found = direction_of(step, before, residual, sigma)
-        if found is None or found[1] < 0.2:
+        if found is None:
             break
-        last, state = state, before.plus(found[0], length_of(found[1]))
-        if float(np.abs(step.joints.unbalanced(state)).max(initial=0.0)) < settings.counted[0]:
-            best = PeakStep(step, sigma, state, peak.displacement)
-        if abs(state.factor - last.factor) < AT_REST * abs(state.factor):
+        state = state.plus(found[0], length_of(found[1]))
+        off = misfit(step, state)
+        if off < best.misfit:
+            best = PeakStep(step, sigma, state, peak.displacement, off)
+        if found[1] > 0.5:
+            sigma = max(FALL * sigma, LEAST * force**2)
+        blocked = blocked + 1 if found[1] < BLOCKED else 0
+        if blocked >= 2 and not again:
             break
+        if blocked >= 2:
+            sigma, blocked = again.pop(0) * peak.sigma, 0
+            state = centred(joints, state, sigma, 0.95)
     return best, spent

@@ -1,0 +1,29 @@
+"""Forces that joints have for a motion by the law itself, without products: how far a state is from it.
+
+With what they remember, n̄ and t̄, after a step of length h with the velocities v of the contacts::
+
+    t = t̄ − k_T h v_T,  cut to the limit of shear l(n)
+    n = n̄ − k_N h v_N + (k_N/k_T) δ ‖t̄ − k_T h v_T − t‖,  cut to −f_t … f_c
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.solution.law.elastic_joints import StepState, lengths, within
+from mbla.solution.law.joint_equations import JointStep
+
+
+def misfit(step: JointStep, state: StepState) -> float:
+    """Largest difference of a force from the law, over the largest force; what is without balance counts with it."""
+    joints, limits = step.joints, step.joints.program.limits
+    v = joints.velocities(state.u)
+    trial = step.memory.shear - v[1:] / step.shear_compliance
+    shear = within(trial, joints.limit(state.normal))
+    normal = step.memory.normal - v[0] / step.normal_compliance
+    if joints.dilates:
+        normal = normal + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
+    normal = np.clip(normal, -limits.tension, limits.compression)
+    largest = max(float(np.abs(state.normal).max(initial=0.0)), float(np.abs(state.shear).max(initial=0.0)), 1e-300)
+    off = float(np.abs(normal - state.normal).max(initial=0.0)), float(np.abs(shear - state.shear).max(initial=0.0))
+    return max(max(off) / largest, float(np.abs(joints.unbalanced(state)).max(initial=0.0)))
