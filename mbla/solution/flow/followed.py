@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
+from mbla.solution.flow.converged_path import follow_solved
 from mbla.solution.flow.elastic_path import follow
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, Stop
@@ -16,9 +16,9 @@ from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, measure_of, pressed_points
 from mbla.solution.law.elastic_joints import ElasticJoints
 
-LOW, SHARPER, SAME = 0.1, (1e3, 1e5, 1e7), 0.01
-"""Share of the associative load factor below which smoothing is taken back, κ with which that is done in turn, and
-change of the load factor that counts as none."""
+LOW, ROUGH, SAME = 0.1, 0.02, 0.01
+"""Share of the associative load factor below which every step is solved, share by which that of a peak may change
+as its step is solved, and change of the load factor that counts as none."""
 
 HELD, FALLEN = 0.985, 0.9
 """Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
@@ -67,9 +67,9 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     settings = rest.settings
     path = along(settings)
     paths = [path]
-    if is_at_limit(path, rest, measure):
-        paths += sharper_paths(path, along, settings)
-        path = paths[-1]
+    if is_too_rough(path, rest, measure):
+        path = follow_solved(rest.joints, rest.gravity, measure, settings)
+        paths.append(path)
     elif is_lost(path):
         paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
         path = _better(*paths)
@@ -99,23 +99,17 @@ def measured_by_itself(rest: AtRest, first: float) -> Followed:
     return replace(found, paths=tuple(paths))
 
 
-def is_at_limit(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
-    """Whether smoothing may be more than the load factor, because the dead load is nearly all that is carried."""
-    settles = rest.joints.program.settles
-    return path.peak is None or (not settles and path.load_factor < LOW * measure.load_factor)
+def is_too_rough(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
+    """Whether smoothing may be more than the load factor.
 
-
-def sharper_paths(
-    path: ElasticPath, along: Callable[[PathSettings], ElasticPath], settings: PathSettings
-) -> list[ElasticPath]:
-    """Paths with less and less smoothing, until the load factor no longer changes."""
-    paths = [path]
-    for kappa in SHARPER:
-        paths.append(along(settings.smoothed_by(kappa)))
-        before, now = (one.load_factor for one in paths[-2:])
-        if abs(now - before) <= SAME * abs(now):
-            break
-    return paths[1:]
+    That is so where the dead load is nearly all that is carried, and where the step of the peak came to another one as
+    it was solved.
+    """
+    joints, counted = rest.joints, [step.load_factor for step in path.steps if step.counted]
+    if joints.program.settles or joints.laws or joints.brittle.any():
+        return False
+    changed = abs(path.load_factor - max(counted, default=0.0)) > ROUGH * path.load_factor
+    return path.peak is None or changed or path.load_factor < LOW * measure.load_factor
 
 
 def is_lost(path: ElasticPath) -> bool:

@@ -5,7 +5,7 @@ What each is worth was measured on whole corpora (tests/performance); ``ratio`` 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,6 @@ class PathSettings:
     recentred: int = 12
     wandering: int = 30
     steps: int = 300
-
-    def smoothed_by(self, kappa: float) -> PathSettings:
-        """The same with one κ throughout, and a shorter first step."""
-        return replace(self, smoothing=kappa, least_smoothing=kappa, most_smoothing=kappa, first=0.1 * self.first)
 
     def validate(self) -> None:
         """Raise a ValueError where a path could not be followed with them."""

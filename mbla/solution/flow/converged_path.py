@@ -1,0 +1,87 @@
+"""The path of elastic joints with every step solved: a reference for the one of single directions, and for limit cases.
+
+Each implicit step is solved until the law of its joints holds, so that what they remember is exact. The load factor
+does not hang on the length of the steps then, and rises to its limit and stays there. That takes some twenty
+factorisations a step: it pays where the structure stands at its limit, next to which all smoothing is too much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.solution.flow.gravity_step import Gravity
+from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
+from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.unit_of_displacement import PRESSED, Measure, elastic_motion, pressed_points
+from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.law.joint_equations import JointStep
+
+GROWTH, LONGEST = 1.3, 0.15
+"""Factor from step to step, and length over the displacement so far, at most."""
+
+ROUGH, SHORTEST = 100.0 * EXACT, 1e-3
+"""Misfit above which a step is halved, and its length in units below which the path is stuck."""
+
+
+def follow_solved(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
+    """The path from the structure at rest, of joints without laws of interfaces and brittle ties."""
+    path = _Path(joints, gravity, measure, settings)
+    stop = None
+    while stop is None:
+        stop = path.advance()
+    spent = gravity.steps + path.factorizations
+    half = path.half if stop is Stop.FAR else None
+    curve = tuple(path.steps)
+    return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
+
+
+class _Path:
+    """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
+
+    def __init__(self, joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> None:
+        live, n = joints.program.live_load, joints.program.n_points
+        motion = elastic_motion(joints, pressed_points(joints, gravity.memory.normal, gravity.force))
+        self.joints, self.measure, self.settings, self.memory = joints, measure, settings, gravity.memory
+        self.force = max(gravity.force, measure.load_factor * float(np.abs(live).sum()) / n)
+        normal = np.maximum(gravity.state.normal, PRESSED * self.force)
+        self.state = replace(gravity.state, u=motion / float(live @ motion), normal=normal)
+        self.length, self.displacement = settings.first, 0.0
+        self.top: PeakStep | None = None
+        self.half: PeakStep | None = None
+        self.steps: list[PathStep] = []
+        self.factorizations, self.halved = 0, 0
+
+    def advance(self) -> Stop | None:
+        """One step, or half of it next time where it could not be solved; why the path ends, None where it goes on."""
+        until = self.settings.until
+        length = min(self.length, until - self.displacement)
+        there = self._solved(length)
+        if there.misfit > ROUGH:
+            self.length, self.halved = 0.5 * length, self.halved + 1
+            return Stop.STUCK if self.length < SHORTEST else None
+        h = there.step.length
+        moved = h * self.joints.velocities(there.state.u)
+        self.state, self.memory = there.state, self.memory.after(self.joints, moved, there.state.normal)
+        self.displacement += length
+        if self.top is None or there.state.factor > self.top.state.factor:
+            self.top = there
+        if self.displacement <= 0.5 * until:
+            self.half = self.top
+        self.steps.append(PathStep(self.displacement, there.state.factor, counted=True, reach=1.0))
+        self.length = min(GROWTH * length, max(LONGEST * self.displacement, self.settings.first))
+        if there.state.factor < (1.0 - self.settings.dropped) * self.top.state.factor and self.displacement > 1.0:
+            return Stop.FALLS
+        return Stop.FAR if self.displacement >= until * (1.0 - 1e-9) else None
+
+    def _solved(self, length: float) -> PeakStep:
+        """A step of a length in units."""
+        h = length * self.measure.displacement
+        sigma = self.force**2 / (self.settings.smoothing * h)
+        start = centred(self.joints, self.state, sigma, 0.95)
+        step = PeakStep(JointStep(self.joints, self.memory, h), sigma, start, self.displacement + length)
+        there, spent = solved_peak(step, self.force)
+        self.factorizations += spent
+        return there
