@@ -88,14 +88,14 @@ def solved_peak(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
     """
     step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
-    best = replace(peak, misfit=misfit(step, peak.state))
+    best = replace(peak, misfit=misfit(step, peak.state, force))
     while best.misfit > EXACT and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
         if found is None:
             break
         state = state.plus(found[0], length_of(found[1]))
-        off = misfit(step, state)
+        off = misfit(step, state, force)
         if off < best.misfit:
             best = PeakStep(step, sigma, state, peak.displacement, off)
         if found[1] > 0.5:

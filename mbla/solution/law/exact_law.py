@@ -14,8 +14,11 @@ from mbla.solution.law.elastic_joints import StepState, lengths, within
 from mbla.solution.law.joint_equations import JointStep
 
 
-def misfit(step: JointStep, state: StepState) -> float:
-    """Largest difference of a force from the law, over the largest force; what is without balance counts with it."""
+def misfit(step: JointStep, state: StepState, force: float) -> float:
+    """Largest difference of a force from the law, over the largest force; what is without balance counts with it.
+
+    force : n₀; where all joints open, none is larger
+    """
     joints, limits = step.joints, step.joints.program.limits
     v = joints.velocities(state.u)
     trial = step.memory.shear - v[1:] / step.shear_compliance
@@ -24,6 +27,6 @@ def misfit(step: JointStep, state: StepState) -> float:
     if joints.dilates:
         normal = normal + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
     normal = np.clip(normal, -limits.tension, limits.compression)
-    largest = max(float(np.abs(state.normal).max(initial=0.0)), float(np.abs(state.shear).max(initial=0.0)), 1e-300)
+    largest = max(float(np.abs(state.normal).max(initial=0.0)), float(np.abs(state.shear).max(initial=0.0)), force)
     off = float(np.abs(normal - state.normal).max(initial=0.0)), float(np.abs(shear - state.shear).max(initial=0.0))
     return max(max(off) / largest, float(np.abs(joints.unbalanced(state)).max(initial=0.0)))
