@@ -41,6 +41,9 @@ PASSED = 1.1
 """Displacement over that at which the load last rose, from which a blocked path has its peak behind it, in its second
 half: a dome on its drum snaps there, and no smoothing led on from where it was blocked in fewer than 100 steps."""
 
+NOT_LOW = (0, 0.0, np.inf)
+"""No step below the peak."""
+
 AT_BREAK, NEARLY = 4, 0.99
 """Lengths tried for the step to where a tie breaks, and share of the way to there that is near enough."""
 
@@ -69,7 +72,7 @@ class _Path:
     later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
-    low      : steps in a row below the peak, and the displacement of the first of them
+    low      : steps in a row that do not rise below the peak, displacement of the first and least load factor of them
     fallen   : load factor from which it falls: the greatest since a tie broke last
     blocked  : steps in a row that were blocked, since the last re-centring and in all
     in_balance : steps up to the last one that counts
@@ -92,7 +95,7 @@ class _Path:
     later: PeakStep | None = None
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
-    low: tuple[int, float] = (0, 0.0)
+    low: tuple[int, float, float] = NOT_LOW
     fallen: float = 0.0
     broken: list[tuple[float, int]] = field(default_factory=list)
     blocked: tuple[int, int] = (0, 0)
@@ -197,7 +200,7 @@ class _Path:
         self.broken += [(self.displacement, point) for point in points.tolist()]
         self.state = let_go(self.joints, self.state, points, self.sigma)
         self.joints, self.memory = without(self.joints, self.memory, points)
-        self.fallen, self.low = 0.0, (0, 0.0)
+        self.fallen, self.low = 0.0, NOT_LOW
 
     def _counts(self, gone: PeakStep | None) -> bool:
         """Whether the state is in balance; the peak where it is the greatest, unless there is no step for it."""
@@ -226,8 +229,9 @@ class _Path:
         if self._smoothed_little(sigma):
             below = counted and self.fallen > 0.0 and reach > 0.2
             below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
-            first = self.low[1] if self.low[0] else self.displacement
-            self.low = (self.low[0] + 1, first) if below else (0, 0.0)
+            count, first, lowest = self.low if self.low[0] else (0, self.displacement, np.inf)
+            rises = self.state.factor > 1.001 * lowest  # it is on its way back from where it was blocked
+            self.low = (count + 1, first, min(lowest, self.state.factor)) if below and not rises else NOT_LOW
         if self.low[0] >= 3 and self.displacement >= 1.02 * self.low[1] and self.displacement > 1.0:
             return Stop.FALLS
         settled = self.displacement > settings.settled

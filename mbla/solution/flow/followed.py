@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +22,7 @@ as its step is solved, and change of the load factor that counts as none."""
 HELD, FALLEN = 0.985, 0.9
 """Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
 
-MEASURES, ALIKE, LINEAR = 6, 2.0, 0.5
+MEASURES, ALIKE, LINEAR = 6, 4.0, 0.5
 """Load factors tried as a measure, factor within which one is of the size of what was found, and share of the elastic
 load at the end of the path from which nothing has given way."""
 
@@ -93,7 +92,7 @@ def measured_by_itself(rest: AtRest, first: float) -> Followed:
         was, linear = linear, peak > LINEAR * last and found.stop is Stop.FAR
         if was and linear:
             return Followed(found.path, Stop.UNBOUNDED, tuple(paths))
-        if math.isnan(peak) or (not linear and scale / ALIKE <= peak <= ALIKE * scale):
+        if not found.stop.answers or (not linear and scale / ALIKE <= peak <= ALIKE * scale):
             break
         scale = peak
     return replace(found, paths=tuple(paths))
@@ -116,7 +115,7 @@ def is_lost(path: ElasticPath) -> bool:
     """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
     if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
         return path.moving > HELD * path.load_factor
-    return path.stop is Stop.FALLS and path.recentred > 0 and path.moving < FALLEN * path.load_factor
+    return path.recentred > 0 and path.moving < FALLEN * path.load_factor
 
 
 def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:

@@ -43,8 +43,8 @@ class PathSettings:
     counted: tuple[float, float] = (1e-5, 1e-3)
     short: float = 0.03
     recentred: int = 12
-    wandering: int = 30
-    steps: int = 300
+    wandering: int = 60
+    steps: int = 600
 
     def validate(self) -> None:
         """Raise a ValueError where a path could not be followed with them."""
