@@ -8,13 +8,15 @@ import pytest
 
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
-from tests.decks.folder import BENCHMARKS
+from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, Line, line_of, line_of_file
-from tests.solution.flow.paths import load_factor_of, path_of
+from tests.solution.flow.paths import case_of, load_factor_of, path_of
 from tests.solution.nonassociative.structures import FERRIS_1, FERRIS_3
 
 CLOSE = 1e-5
 """Relative: what is left of the smoothing at the peak."""
+
+DECK = {path.stem: path for path in PATHS}
 
 COLUMNS = """\
 mbla: 1
@@ -104,3 +106,31 @@ def test_a_path_ends_as_far_as_it_is_told() -> None:
 def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         wrong.validate()
+
+
+@pytest.mark.parametrize("first", [0.1, 0.2, 0.4])
+@pytest.mark.parametrize(
+    ("deck", "name", "expected"), [("filled_bridge", "lorry@05", 6.71), ("settling_wall", "sinks", 0.2716)]
+)
+def test_a_path_that_was_blocked_comes_back(deck: str, name: str, expected: float, first: float) -> None:
+    """It lies low for some steps: with other first steps that was taken for a fall, or for the end."""
+    found = case_of(DECK[deck], name).path(PathSettings(first=first))
+    factor = case_of(DECK[deck], name).loaded.scaling.load_factor(found.load_factor)
+    assert found.is_answer
+    assert factor == pytest.approx(expected, rel=5e-3)
+
+
+@pytest.mark.long
+def test_a_path_that_is_blocked_with_its_peak_behind_it_has_its_answer() -> None:
+    """A dome on its drum snaps at D = 45, after 0.4135 at D = 41; other smoothing finds 0.4132 to 0.4140."""
+    case = case_of(DECK["dome_on_drum"], "push_x")
+    found = case.path()
+    assert found.is_answer
+    assert case.loaded.scaling.load_factor(found.load_factor) == pytest.approx(0.4135, rel=2e-3)
+
+
+def test_smoothing_that_pushes_back_is_reduced() -> None:
+    """A plank that leans on a rough wall: the load factor was below zero for the first eight units."""
+    found = case_of(DECK["leaning_block_rough_wall"], "away").path()
+    assert found.paths > 1
+    assert found.load_factor == pytest.approx(0.180329, rel=CLOSE)
