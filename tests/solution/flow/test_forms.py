@@ -1,4 +1,4 @@
-"""The path of equivalent programs: other orders of blocks and points, axes turned, reduced or not, parts or the whole."""
+"""The path of equivalent programs: orders of blocks and points, axes turned, reduced or not, parts or the whole."""
 
 from __future__ import annotations
 
