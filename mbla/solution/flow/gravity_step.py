@@ -31,8 +31,9 @@ STARTS = (1.0, 1e2, 1e4)
 """First products over n₀², tried in turn: from 1 a spiral stair was blocked, of 21 structures, from 100 none, in more
 steps."""
 
-SHORT, BLOCKED = 0.03, 5
-"""Reach of a direction that leads nowhere, and of how many in a row an attempt is given up."""
+SHORT, BLOCKED, BLOCKED_BY_LAWS = 0.03, 5, 20
+"""Reach of a direction that leads nowhere, of how many in a row an attempt is given up, and of how many where
+interfaces have a law of their own: what torsion the first forces of a vault allow changes from step to step."""
 
 HELD = 1e-10
 """ε, over the mean stiffness of a joint."""
@@ -99,13 +100,14 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
 def _solved(step: JointStep, force: float, start: float) -> tuple[StepState, bool, int]:
     """The state of the step, whether it solves it, and factorisations; from products ``start`` n₀²."""
     sigma, spent, blocked = start * force**2, 0, 0
+    most = BLOCKED_BY_LAWS if step.joints.laws else BLOCKED
     least, state = LEAST * force**2, _start(step.joints, force, sigma)
     while True:
         residual = residual_of(step, state)
         even = float(residual.products.normal.max(initial=0.0)) < EVEN * sigma
         settled = even and sigma <= least and residual.unbalanced < BALANCED
         settled = settled and residual.incompatible(step.joints, state) < COMPATIBLE
-        found = None if settled or spent == STEPS or blocked == BLOCKED else direction_of(step, state, residual, sigma)
+        found = None if settled or spent == STEPS or blocked == most else direction_of(step, state, residual, sigma)
         if found is None:
             return state, settled, spent
         direction, reach = found

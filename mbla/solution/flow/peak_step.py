@@ -63,7 +63,7 @@ def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float)
         speed=speed,
         crushing=sigma / joints.room(state.normal),
         interfaces=tuple(
-            law.centred(one, state.normal, sigma) for law, one in zip(joints.laws, state.interfaces, strict=True)
+            law.centred(one, state.normal, sigma, share) for law, one in zip(joints.laws, state.interfaces, strict=True)
         ),
     )
 

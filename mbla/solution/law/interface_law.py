@@ -140,11 +140,17 @@ class InterfaceLaw:
         """Products g z, (k, m)."""
         return np.asarray(self.conditions.values(state.resultants, normal) * state.multipliers)
 
+    def misfit(self, state: InterfaceState, normal: FloatArray, motion: FloatArray, length: float) -> float:
+        """How far a state is from the law without products, as a force: with a stiffness of 1 over a step of a length."""
+        closed = np.minimum(self.conditions.values(state.resultants, normal), length * state.multipliers)
+        left = length * np.abs(self.residual(state, normal, motion))
+        return max(float(closed.max(initial=0.0)), float(left.max(initial=0.0)))
+
     def reach(
         self, state: InterfaceState, direction: InterfaceState, normal: FloatArray, change: FloatArray, most: float
     ) -> float:
         """How much of a direction stays within the bounds, at most ``most``; of normal forces with their change."""
-        if not np.isfinite(direction.resultants).all():
+        if not (np.isfinite(direction.resultants).all() and np.isfinite(direction.multipliers).all()):
             return 0.0
         most = min(most, float(lines_to_boundary(state.multipliers, direction.multipliers).min(initial=np.inf)))
 

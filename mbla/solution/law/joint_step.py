@@ -28,6 +28,13 @@ BEYOND_ALL = 1e100
 
 def direction_of(step: JointStep, state: StepState, residual: Residual, sigma: float) -> tuple[StepState, float] | None:
     """Direction towards products σ and how much of it stays within the law, at most 1; None where it is singular."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # seen below, or by the reach
+        return _direction_of(step, state, residual, sigma)
+
+
+def _direction_of(
+    step: JointStep, state: StepState, residual: Residual, sigma: float
+) -> tuple[StepState, float] | None:
     linear = Eliminated.at(step, state)
     if linear is None:
         return None
