@@ -45,7 +45,8 @@ class AtRest:
     @property
     def twists(self) -> bool:
         """Whether normal forces bound interfaces beside their points: where a path is blocked there, brought back it
-        was up to 4 % low on a vault on piers."""
+        was up to 4 % low on a vault on piers.
+        """
         return any(law.conditions.points is not None for law in self.joints.laws)
 
     @property

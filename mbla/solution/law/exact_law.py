@@ -5,8 +5,7 @@ With what they remember, n̄ and t̄, after a step of length h with the velociti
     t = t̄ − k_T h v_T,  cut to the limit of shear l(n)
     n = n̄ − k_N h v_N + (k_N/k_T) δ ‖t̄ − k_T h v_T − t‖,  cut to −f_t … f_c
 
-Interfaces with a law of their own are off it by the lesser of g and h z, and by what their flow leaves of their motion,
-as if they were as stiff as the mean of the points.
+Interfaces with a law of their own are off it by how far they are from the bounds at which they flow.
 """
 
 from __future__ import annotations
@@ -32,6 +31,6 @@ def misfit(step: JointStep, state: StepState, force: float) -> float:
     normal = np.clip(normal, -limits.tension, limits.compression)
     largest = max(float(np.abs(state.normal).max(initial=0.0)), float(np.abs(state.shear).max(initial=0.0)), force)
     off = [float(np.abs(one).max(initial=0.0)) for one in (normal - state.normal, shear - state.shear)]
-    each = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
-    off += [law.misfit(one, state.normal, motion, step.length) for law, one, motion in each]
+    each = zip(joints.laws, state.interfaces, strict=True)
+    off += [law.misfit(one, state.normal, step.length) for law, one in each]
     return max(max(off) / largest, float(np.abs(joints.unbalanced(state)).max(initial=0.0)))

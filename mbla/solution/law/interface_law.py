@@ -140,11 +140,10 @@ class InterfaceLaw:
         """Products g z, (k, m)."""
         return np.asarray(self.conditions.values(state.resultants, normal) * state.multipliers)
 
-    def misfit(self, state: InterfaceState, normal: FloatArray, motion: FloatArray, length: float) -> float:
-        """How far a state is from the law without products, as a force: with a stiffness of 1 over a step of a length."""
-        closed = np.minimum(self.conditions.values(state.resultants, normal), length * state.multipliers)
-        left = length * np.abs(self.residual(state, normal, motion))
-        return max(float(closed.max(initial=0.0)), float(left.max(initial=0.0)))
+    def misfit(self, state: InterfaceState, normal: FloatArray, length: float) -> float:
+        """How far resultants that flow are from their bounds: the lesser of g and h z, a force by a stiffness of 1."""
+        values = self.conditions.values(state.resultants, normal)
+        return float(np.minimum(values, length * state.multipliers).max(initial=0.0))
 
     def reach(
         self, state: InterfaceState, direction: InterfaceState, normal: FloatArray, change: FloatArray, most: float
