@@ -18,13 +18,11 @@ class PathSettings:
     growth       : factor on the length of a step after one that was gone whole
     longest      : length of a step over the displacement so far, at most
     smoothing    : κ at first; the products of the law are n₀²/(κ h)
-    least_smoothing, most_smoothing : κ at least and at most
+    most_smoothing : κ at most
     smoothed     : share of the live power that smoothing may take, and displacement from which less of it
-    settled      : displacement from which a path may end flat
     dropped      : share of the peak by which the load falls where a path ends as a fall
-    counted      : unbalanced force, in mean loads of a block, and share of its power up to which a step counts
+    counted      : unbalanced force, in mean loads of a block, up to which a step counts
     short        : reach of a direction below which a step is blocked
-    recentred    : times that a blocked path is brought back to the central path, at most
     wandering    : steps in a row out of balance, once it was reached, after which a path is stuck
     steps        : at most
     """
@@ -35,14 +33,11 @@ class PathSettings:
     growth: float = 2.0
     longest: float = 0.3
     smoothing: float = 10.0
-    least_smoothing: float = 0.01
     most_smoothing: float = 5.0
     smoothed: tuple[float, float] = (0.2, 4.0)
-    settled: float = 8.0
     dropped: float = 0.015
-    counted: tuple[float, float] = (1e-5, 1e-3)
+    counted: float = 1e-5
     short: float = 0.03
-    recentred: int = 12
     wandering: int = 60
     steps: int = 600
 
@@ -54,5 +49,5 @@ class PathSettings:
             raise ValueError(f"end of the path {self.until} is not within 5 and 1000")
         if not 0.0 < self.first < self.until or not self.growth > 1.0 or not self.steps > 0:
             raise ValueError("steps of the path do not lead to its end")
-        if not 0.0 < self.least_smoothing <= self.most_smoothing:
-            raise ValueError("the least smoothing is not below the most")
+        if not self.smoothing > 0.0 or not self.most_smoothing > 0.0:
+            raise ValueError("without smoothing there is no path")

@@ -100,7 +100,7 @@ def test_a_path_ends_as_far_as_it_is_told() -> None:
         (PathSettings(ratio=0.01), "ratio"),
         (PathSettings(until=2000.0), "end of the path"),
         (PathSettings(growth=1.0), "steps"),
-        (PathSettings(least_smoothing=0.0), "smoothing"),
+        (PathSettings(most_smoothing=0.0), "smoothing"),
     ],
 )
 def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str) -> None:
