@@ -82,10 +82,16 @@ class Crushing:
     def _forms(self, resultants: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Linear forms of edges, (3, n_edges, m), and of corners, (3, n_corners, m)."""
         edges, corners = (
-            forms[:, :, 0] + np.einsum("kfcm,cm->kfm", forms[:, :, 1:], resultants)
-            for forms in (self.pieces.edges, self.pieces.corners)
+            constant + sum(slope * own for slope, own in zip(slopes, resultants, strict=True))
+            for constant, slopes in self._linear
         )
-        return edges.transpose(1, 0, 2), corners.transpose(1, 0, 2)
+        return edges, corners
+
+    @cached_property
+    def _linear(self) -> list[tuple[FloatArray, list[FloatArray]]]:
+        """Constants of the forms of edges and corners, (3, k, m), and their factors of each resultant."""
+        forms = [np.ascontiguousarray(own.transpose(2, 1, 0, 3)) for own in (self.pieces.edges, self.pieces.corners)]
+        return [(own[0], list(own[1:])) for own in forms]
 
     @cached_property
     def _slopes(self) -> tuple[FloatArray, FloatArray]:

@@ -201,16 +201,18 @@ class EliminatedInterface:
         """At a state; None where W is singular."""
         found, z = law.conditions.derivatives(state.resultants, normal), state.multipliers
         ratio, gradients = z / found.values, found.gradients
-        w = np.einsum("km,kam,kbm->mab", ratio, gradients, gradients)
-        w -= np.einsum("km,kabm->mab", z, found.hessians)
+        along = gradients.transpose(2, 1, 0)  # (m, c, k)
+        weighted = np.ascontiguousarray((ratio[:, None] * gradients).transpose(2, 1, 0))
+        w = np.matmul(weighted, along.transpose(0, 2, 1))
+        w -= (z[:, None, None] * found.hessians).sum(axis=0).transpose(2, 0, 1)
         try:
             tangents = np.linalg.inv(w)
         except np.linalg.LinAlgError:
             return None
         crossed = None
         if found.by_normal is not None and found.mixed is not None:
-            crossed = np.einsum("km,kam,kpm->map", ratio, gradients, found.by_normal)
-            crossed -= np.einsum("km,kapm->map", z, found.mixed)
+            crossed = np.matmul(weighted, found.by_normal.transpose(2, 0, 1))
+            crossed -= (z[:, None, None] * found.mixed).sum(axis=0).transpose(2, 0, 1)
         return EliminatedInterface(law, state, found, tangents, crossed)
 
     def driving(self, residual: FloatArray, wanted: FloatArray) -> FloatArray:
@@ -231,7 +233,7 @@ class EliminatedInterface:
 
     def risen(self, resultants: FloatArray, change: FloatArray) -> FloatArray:
         """dg, (k, m)."""
-        risen = np.einsum("kam,am->km", self.found.gradients, resultants)
+        risen = (self.found.gradients * resultants).sum(axis=1)
         if self.found.by_normal is not None:
             risen += np.einsum("kpm,mp->km", self.found.by_normal, self._at_points(change))
         return np.asarray(risen)
