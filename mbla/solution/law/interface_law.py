@@ -32,6 +32,10 @@ FACTORS = (0.1, 10.0)
 SHARE = 0.95
 """Share of the way to the bounds that a step goes."""
 
+RIGID = 1e-14
+"""Share of the softest way of an interface that every way yields by, where rounding leaves none: a strength that is never
+reached bounds hinges no closer than their points do."""
+
 HALVINGS, CLOSE = 30, 1e-3
 """How closely the way to a curved bound is found: halvings at most, and relative distance."""
 
@@ -205,6 +209,7 @@ class EliminatedInterface:
         weighted = np.ascontiguousarray((ratio[:, None] * gradients).transpose(2, 1, 0))
         w = np.matmul(weighted, along.transpose(0, 2, 1))
         w -= (z[:, None, None] * found.hessians).sum(axis=0).transpose(2, 0, 1)
+        w += (RIGID * np.trace(w, axis1=1, axis2=2))[:, None, None] * np.eye(w.shape[1])
         try:
             tangents = np.linalg.inv(w)
         except np.linalg.LinAlgError:

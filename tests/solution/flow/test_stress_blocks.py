@@ -23,6 +23,7 @@ CLOSE = 2e-5
 
 TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.2, 0.9))
 HEXAGON = tuple((math.cos(math.radians(60 * i)), math.sin(math.radians(60 * i))) for i in range(6))
+ANGLE = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.4, 0.4), (0.4, 1.0), (0.0, 1.0))
 KITE = ((0.0, -0.5), (0.9, 0.0), (0.0, 0.5), (-0.4, 0.0))
 
 
@@ -89,7 +90,7 @@ def whole(outline: Sequence[tuple[float, float]], angle: float) -> tuple[str, fl
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0, 77.0])
-@pytest.mark.parametrize("outline", [HEXAGON, KITE], ids=["hexagon", "kite"])
+@pytest.mark.parametrize("outline", [HEXAGON, KITE, ANGLE], ids=["hexagon", "kite", "angle"])
 def test_outlines_that_are_no_parallelograms_crush_as_a_whole(
     outline: tuple[tuple[float, float], ...], angle: float
 ) -> None:
