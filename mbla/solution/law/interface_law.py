@@ -33,8 +33,8 @@ SHARE = 0.95
 """Share of the way to the bounds that a step goes."""
 
 RIGID = 1e-14
-"""Share of the softest way of an interface that every way yields by, where rounding leaves none: a strength that is never
-reached bounds hinges no closer than their points do."""
+"""Share of the softest way of an interface that every way yields by, where rounding leaves none: a strength that is
+never reached bounds hinges no closer than their points do."""
 
 HALVINGS, CLOSE = 30, 1e-3
 """How closely the way to a curved bound is found: halvings at most, and relative distance."""
