@@ -34,6 +34,7 @@ RESIDUALS = {
     "penetration": "of the largest contact velocity",
     "complementarity_residual": "of the power",
     "slip_residual": "of the power",
+    "elastic_residual": "of the largest force",
     "power_balance": "of the power",
 }
 """measures of how badly forces and velocities fit the joint law, and what each is relative to"""

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.tied import tied
@@ -95,6 +95,7 @@ def ties_apart(solution: Solution, solids: Solids) -> Solution:
             modes=mechanics.modes[points],
             tie_forces=forces,
             tie_rates=rates,
+            **_history_apart(mechanics, points, ties.rows, count),
         )
 
     motions, ranges = solution.certificate_motions, solution.force_ranges
@@ -103,6 +104,16 @@ def ties_apart(solution: Solution, solids: Solids) -> Solution:
         certificate_motions=None if motions is None else motions[:surfaces],
         force_ranges=None if ranges is None else ranges[:surfaces],
     )
+
+
+def _history_apart(mechanics: Mechanics, points: BoolArray, rows: IntArray, count: int) -> dict[str, Any]:
+    """What joints of a path of elastic joints remember, and ties by themselves; nothing of rigid ones."""
+    if mechanics.remembered is None or mechanics.stiffness is None:
+        return {}
+    remembered, stiffness = np.full(count, np.nan), np.full(count, np.nan)
+    remembered[rows], stiffness[rows] = mechanics.remembered[~points, 0], mechanics.stiffness[~points, 0]
+    own = {"remembered": mechanics.remembered[points], "stiffness": mechanics.stiffness[points]}
+    return own | {"tie_remembered": remembered, "tie_stiffness": stiffness}
 
 
 def ties_among_contacts(solution: Solution, solids: Solids) -> Solution:
@@ -142,7 +153,22 @@ def with_tie_contacts(mechanics: Mechanics, solids: Solids) -> Mechanics:
         contact_forces=np.vstack([mechanics.contact_forces, forces]),
         contact_velocities=np.vstack([mechanics.contact_velocities, speeds]),
         modes=np.append(mechanics.modes, np.zeros(n, dtype=np.int64)),
+        **_history_among(mechanics, ties.rows),
     )
+
+
+def _history_among(mechanics: Mechanics, rows: IntArray) -> dict[str, Any]:
+    """The way back from ``_history_apart``; ties have no shear, whose stiffness does not matter."""
+    if mechanics.remembered is None or mechanics.stiffness is None:
+        return {}
+    if mechanics.tie_remembered is None or mechanics.tie_stiffness is None:
+        return {}
+    remembered, stiffness = np.zeros((len(rows), 3)), np.zeros((len(rows), 2))
+    remembered[:, 0], stiffness[:] = mechanics.tie_remembered[rows], mechanics.tie_stiffness[rows, None]
+    return {
+        "remembered": np.vstack([mechanics.remembered, remembered]),
+        "stiffness": np.vstack([mechanics.stiffness, stiffness]),
+    }
 
 
 def _padded(values: FloatArray, n: int) -> FloatArray:

@@ -14,11 +14,12 @@ that is no opening. So the verdict does not depend on how far the solver went.
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.solution import ContactMode, Mechanics
 
 AT_REST = 1e-5
@@ -73,6 +74,7 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
     velocities = state.velocities / (program.live_load @ state.velocities)
     contact_forces = scaling.forces(state.forces)
     velocities_of_points = contact_velocities(program, velocities)
+    history = {} if state.history is None else _history(program, state.history)
     return Mechanics(
         load_factor=scaling.load_factor(state.load_factor),
         contact_forces=contact_forces,
@@ -81,7 +83,22 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
         modes=contact_modes(
             state.forces.reshape(-1, 3), velocities_of_points, program.limits, program.limits.dilatancy_by(flow_rule)
         ),
+        **history,
     )
+
+
+def _history(program: Program, history: StepHistory) -> dict[str, FloatArray]:
+    """The history of a state of the full model in the deck's units.
+
+    A force is that of the program in units of its point, a velocity that of the program over the same: stiffness grows
+    with the square of the unit.
+    """
+    scaling = program.scaling
+    unit = scaling.force * np.broadcast_to(scaling.units, len(history.normal))
+    return {
+        "remembered": scaling.forces(history.remembered),
+        "stiffness": np.stack([history.normal, history.shear], axis=1) * (unit**2 / scaling.live)[:, None],
+    }
 
 
 def motion_of(program: Program, velocities: FloatArray) -> FloatArray:
@@ -105,9 +122,28 @@ def forces_of(program: Program, forces: FloatArray) -> FloatArray:
 def lifted(program: Program, state: LawState) -> LawState:
     """The same state in the program that was reduced to this one."""
     assert program.reduction is not None
-    full = program.reduction.full
-    forces = (program.reduction.forces @ state.forces.ravel()).reshape(-1, full.components)
-    return LawState(forces, program.reduction.velocities @ state.velocities, state.load_factor, state.residual)
+    full, history = program.reduction.full, state.history
+
+    def of(values: FloatArray) -> FloatArray:
+        assert program.reduction is not None
+        return np.asarray((program.reduction.forces @ values.ravel()).reshape(-1, full.components))
+
+    if history is not None:
+        normal, shear = _lifted_stiffness(program, history.normal), _lifted_stiffness(program, history.shear)
+        history = StepHistory(of(history.remembered), normal, shear)
+    velocities = program.reduction.velocities @ state.velocities
+    return LawState(of(state.forces), velocities, state.load_factor, state.residual, history=history)
+
+
+def _lifted_stiffness(program: Program, stiffness: FloatArray) -> FloatArray:
+    """Of the points of the full program, (n_points,), each with its share of the force of a point of the reduced one.
+
+    Points of one share move alike: the velocity of the reduced one is the sum of theirs, each times its share.
+    """
+    assert program.reduction is not None
+    shares = sp.csr_array(program.reduction.forces[:: program.reduction.full.components][:, :: program.components])
+    shares = abs(shares)
+    return np.asarray(shares @ (np.asarray(shares.sum(axis=0)).ravel() * stiffness))
 
 
 def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:

@@ -264,6 +264,11 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     if no_mechanism(program, settings, log):
         return replace(result, associative=replace(associative, reason=LOCKED_BY_CONTACT))
+    if settings.analysis.scheme == "elastic":
+        sequence = solve_nonassociative(program, associative, settings, log)
+        if sequence.status is Status.UNBOUNDED:
+            return replace(result, associative=replace(associative, reason=sequence.reason))
+        return replace(result, associative=replace(associative, reason=""), sequence=sequence)
     path = StandingPath.from_dead_load(program, settings, associative.stress_free)
     decision = non_associative_bounded(path)
     if decision.verdict is Boundedness.UNBOUNDED:
@@ -286,8 +291,8 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
     """
     state, above = result.state, result.associative.state
     most = np.inf if above is None else above.load_factor
-    published = settings.analysis.scheme == "published" and above is not None
-    if state is None or result.status not in WITH_VALUE or result.program.settles or published:
+    other = settings.analysis.scheme == "elastic" or (settings.analysis.scheme == "published" and above is not None)
+    if state is None or result.status not in WITH_VALUE or result.program.settles or other:
         return result
     first = result.sequence.first if result.sequence is not None else None
     reached = state.load_factor if first is None else max(first, state.load_factor)
@@ -327,7 +332,7 @@ def _with_range(result: PartResult, settings: SolverSettings, log: Log) -> PartR
     Only of a state that is claimed and fits the law: the mechanism of another one is meaningless.
     """
     state = None if result.sequence is None else result.sequence.state
-    if state is None or result.status not in WITH_VALUE:
+    if state is None or result.status not in WITH_VALUE or state.history is not None:
         return result
     if state.residual > RANGE_RESIDUAL:
         return result.with_remark(NO_RANGE.format(state.residual)) if settings.range else result

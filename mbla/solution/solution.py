@@ -170,6 +170,11 @@ class Mechanics:
                          1 and tangent 2, scaled as mechanism; the contact points move by the rest
     tie_forces         : (n_ties,) N, tension positive, nan where a tie is between what does not move; None without ties
     tie_rates          : (n_ties,) their elongation rates, scaled as mechanism
+    remembered         : path of elastic joints: (n_points, 3) N, T1, T2 [N] that joints would have if they did not move
+                         in the step of this state; None for rigid joints
+    stiffness          : (n_points, 2) normal and shear stiffness in that step: force lost for a velocity, scaled as
+                         mechanism
+    tie_remembered, tie_stiffness : (n_ties,) the same of ties, as points between their ends, compression positive
     """
 
     load_factor: float
@@ -181,6 +186,10 @@ class Mechanics:
     interface_motions: FloatArray | None = None
     tie_forces: FloatArray | None = None
     tie_rates: FloatArray | None = None
+    remembered: FloatArray | None = None
+    stiffness: FloatArray | None = None
+    tie_remembered: FloatArray | None = None
+    tie_stiffness: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -287,6 +296,8 @@ class Checks:
                                the complementarity residual is opening under force
     lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
     peak_load_factor         : verified greatest load factor of the load path, NaN where there is none
+    elastic_residual         : path of elastic joints: largest force that is off their law, over the largest;
+                               penetration, complementarity and balance of power are those of rigid ones, NaN here
     verified                 : true where everything is within tolerance
     failures                 : what is not
     """
@@ -307,3 +318,4 @@ class Checks:
     lower: float = float("nan")
     upper: float = float("nan")
     peak_load_factor: float = float("nan")
+    elastic_residual: float = float("nan")

@@ -46,6 +46,12 @@ LOCK_NOT_PROVED = (
 )
 
 
+OTHER_HISTORIES = Message(
+    "lower-not-searched",
+    "states of lower load factors, to which only other histories lead, were not looked for: the load factor is the "
+    "greatest on the path of elastic joints from the dead load on",
+)
+
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
 
 
@@ -193,8 +199,9 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
     words = [ends.reason] if ends is not None and ends.reason is not None else []
-    if rule in ("non_associative", "dilatancy") and not looks_lower(stage.parts[first], stage.settings):
-        words.append(NOT_SEARCHED)
+    elastic = sequence.state is not None and sequence.state.history is not None
+    if elastic or (rule in ("non_associative", "dilatancy") and not looks_lower(stage.parts[first], stage.settings)):
+        words.append(OTHER_HISTORIES if elastic else NOT_SEARCHED)
     return replace(
         solution,
         mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),

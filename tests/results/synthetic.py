@@ -237,6 +237,7 @@ def full_results() -> Results:
         lower=0.45,
         upper=0.52,
         peak_load_factor=0.6,
+        elastic_residual=3e-9,
         failures=(Message("penetration", "x"),),
     )
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
@@ -255,6 +256,10 @@ def full_solution(solution: Solution) -> Solution:
         interface_motions=np.arange(24.0).reshape(2, 2, 6),
         tie_forces=np.array([3.0]),
         tie_rates=np.array([0.5]),
+        remembered=tower_mechanics().contact_forces + 1.0,
+        stiffness=np.full((len(tower_mechanics().contact_forces), 2), 2.0),
+        tie_remembered=np.array([2.0]),
+        tie_stiffness=np.array([4.0]),
     )
     with_tie = np.vstack([mechanics.contact_forces, [[3.0, 0, 0]]])
     return replace(

@@ -58,11 +58,12 @@ class AnalysisSection(Section):
         description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
         "convex; clarabel: any; auto: mbla or clarabel by size, the results say which",
     )
-    scheme: Literal["auto", "published"] = Field(
+    scheme: Literal["auto", "published", "elastic"] = Field(
         "auto",
         description="how non-associative flow is solved. auto: an interior-point run on the joint law, then forces for "
         "the mechanism and a mechanism for the forces in turn, and from there states of lower load factors; "
-        "published: the procedure of Portioli et al. 2014",
+        "published: the procedure of Portioli et al. 2014; elastic: the greatest load on the path of joints with a "
+        "stiffness, from the structure at rest under its dead load",
     )
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
@@ -169,18 +170,18 @@ def _with_scheme(*schemes: str) -> Applies:
 
 
 def _by_exact_law(analysis: AnalysisSection) -> bool:
-    published = analysis.scheme == "published" and _no_normality(analysis)
-    return analysis.flow_rule in ("non_associative", "dilatancy") and not published
+    other = analysis.scheme != "auto" and _no_normality(analysis)
+    return analysis.flow_rule in ("non_associative", "dilatancy") and not other
 
 
 APPLIES: Mapping[str, tuple[Applies, str]] = {
     "scheme": (_no_normality, "flow_rule: non_associative"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
     "gap": (_concave, "contact_model: concave"),
-    "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with another scheme than published"),
+    "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with scheme: auto"),
     "search": (
         lambda analysis: _concave(analysis) and _by_exact_law(analysis),
-        "contact_model: concave and flow_rule: non_associative or dilatancy with another scheme than published",
+        "contact_model: concave and flow_rule: non_associative or dilatancy with scheme: auto",
     ),
     "peak": (
         lambda analysis: _concave(analysis) and _no_normality(analysis),

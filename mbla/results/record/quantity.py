@@ -40,6 +40,7 @@ UNITS: dict[UnitKind, str] = {
     "velocities": "1/{force}; 1/({force} {length})",
     "motion": "1; 1/{length}",
     "displacement": "{length}; 1",
+    "stiffness": "{force}2",
 }
 """kinds of units, in those of a deck"""
 HALVES: dict[UnitKind, tuple[UnitKind, UnitKind]] = {

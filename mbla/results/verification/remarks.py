@@ -34,6 +34,7 @@ def _without_dilatancy(case: CaseResult) -> bool:
 POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
     "associative-bounds-apart": lambda case: case.solution.flow_rule != "associative",
     "default-for-published": _without_dilatancy,
+    "elastic-path-rises": _without_dilatancy,
     "found-above-path": _without_dilatancy,
     "law-missed": lambda case: case.solution.flow_rule != "associative",
     "livesley-confirms": lambda case: case.solution.flow_rule == "livesley" and case.status is Status.SOLVED,

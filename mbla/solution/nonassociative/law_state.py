@@ -29,6 +29,19 @@ AS_ASKED = Message(
 
 
 @dataclass(frozen=True)
+class StepHistory:
+    """What elastic joints remember from before a step, and how stiff they are in it.
+
+    remembered : (n_points, components) forces n̄ and t̄ that they would have if they did not move in the step
+    normal, shear : (n_points,) k_N h and k_T h, force for a velocity
+    """
+
+    remembered: FloatArray
+    normal: FloatArray
+    shear: FloatArray
+
+
+@dataclass(frozen=True)
 class LawState:
     """A state of the non-dimensional program, and how badly it fits the law.
 
@@ -36,6 +49,7 @@ class LawState:
     velocities : (n_rows,)
     residual   : largest of the relative residuals, see ``law_state``
     motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing, where there are conditions on them
+    history    : of elastic joints, by which the forces follow from the velocities; None where rigid joints fit them
     """
 
     forces: FloatArray
@@ -43,6 +57,7 @@ class LawState:
     load_factor: float
     residual: float
     motions: FloatArray | None = None
+    history: StepHistory | None = None
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ def solve_nonassociative(
     analysis = settings.analysis
     by_rule: Mapping[str, Scheme] = {"livesley": _livesley, "dilatancy": _dilatancy}
     sequence = by_rule.get(analysis.flow_rule, SCHEMES[analysis.scheme])(program, associative, settings, log)
-    if analysis.flow_rule == "livesley" or (analysis.flow_rule == "non_associative" and analysis.scheme == "published"):
+    if analysis.flow_rule == "livesley" or (analysis.flow_rule == "non_associative" and analysis.scheme != "auto"):
         return sequence
     if settings.residual <= EXACT_RESIDUAL:  # with a state that light blocks fit too, unless a rough one was asked for
         slope = program.limits.dilatancy if analysis.flow_rule == "dilatancy" else 0.0
@@ -77,5 +77,11 @@ def _livesley(program: Program, associative: AssociativeResult, settings: Solver
     return solve_livesley(program, associative, settings, log)
 
 
-SCHEMES: Mapping[str, Scheme] = {"auto": _default, "published": _published}
+def _elastic(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
+    from mbla.solution.nonassociative.elastic import solve_by_elastic_path
+
+    return solve_by_elastic_path(program, associative, settings, log)
+
+
+SCHEMES: Mapping[str, Scheme] = {"auto": _default, "published": _published, "elastic": _elastic}
 """By the deck's word."""

@@ -27,6 +27,7 @@ from mbla.solution.thresholds import (
     SOLVED_RESIDUAL,
 )
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.residuals import Residuals, residuals_of
 
 
@@ -54,22 +55,27 @@ class Bounds:
         return abs(self.kinematic - self.static) / self.size if self.size > 0 else np.nan
 
 
-def checks_of(residuals: Residuals, bounds: Bounds, failures: tuple[Message, ...]) -> Checks:
-    """The record of what was found."""
+def checks_of(residuals: Residuals, bounds: Bounds, failures: tuple[Message, ...], elastic: float = np.nan) -> Checks:
+    """The record of what was found.
+
+    elastic : misfit of the law of elastic joints, NaN for rigid ones
+    """
+    rigid = bool(np.isnan(elastic))
     return Checks(
         equilibrium_residual=residuals.equilibrium,
         yield_violation=residuals.yielding,
-        penetration=residuals.penetration,
-        complementarity_residual=residuals.complementarity,
+        penetration=residuals.penetration if rigid else np.nan,
+        complementarity_residual=residuals.complementarity if rigid else np.nan,
         live_power=residuals.live_power,
-        power_balance=residuals.power_balance,
+        power_balance=residuals.power_balance if rigid else np.nan,
         static_bound=bounds.static,
         kinematic_bound=bounds.kinematic,
         gap=bounds.gap,
         verified=not failures,
         failures=failures,
         tension_violation=residuals.tension,
-        slip_residual=residuals.slip,
+        slip_residual=residuals.slip if rigid else np.nan,
+        elastic_residual=elastic,
     )
 
 
@@ -87,7 +93,8 @@ def checked(case: Case, solution: Solution) -> Checks:
     if associative is not None:
         least_factor = case.scale.least_factor(associative.mechanism)
         bounds = Bounds.of(*associative_bounds(case, associative), least_factor)
-    return checks_of(residuals, bounds, failures_of(residuals, solution, bounds))
+    elastic = elastic_residual(case, solution.mechanics, dilatancy)
+    return checks_of(residuals, bounds, failures_of(residuals, solution, bounds, elastic), elastic)
 
 
 def _checked_without_mechanics(case: Case, solution: Solution) -> Checks:
@@ -109,14 +116,11 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
         return solution.status
     if checks.verified and solution.status is Status.SOLVED:
         return Status.SOLVED
-    measures = [
-        checks.equilibrium_residual,
-        checks.yield_violation,
-        checks.penetration,
-        checks.complementarity_residual,
-        checks.power_balance,
-        abs(checks.live_power - 1.0),
-    ]
+    measures = [checks.equilibrium_residual, checks.yield_violation, abs(checks.live_power - 1.0)]
+    if np.isnan(checks.elastic_residual):
+        measures += [checks.penetration, checks.complementarity_residual, checks.power_balance]
+    else:
+        measures.append(checks.elastic_residual)
     if solution.flow_rule == "associative":
         measures.append(checks.gap)
     elif _above(solution, checks.kinematic_bound, APPROXIMATE_RESIDUAL * abs(checks.kinematic_bound)):
@@ -159,13 +163,23 @@ def tolerances(flow_rule: str) -> dict[str, float]:
         "complementarity_residual": SOLVED_RESIDUAL,
         "power_balance": SOLVED_RESIDUAL,
         "live_power": LIVE_POWER_DEVIATION,
-        **({"gap": GAP_TOLERANCE} if associative else {}),
+        **({"gap": GAP_TOLERANCE} if associative else {"elastic_residual": SOLVED_RESIDUAL}),
     }
 
 
-def failures_of(residuals: Residuals, solution: Solution, bounds: Bounds) -> tuple[Message, ...]:
-    """What is not within tolerance."""
+def failures_of(
+    residuals: Residuals, solution: Solution, bounds: Bounds, elastic: float = np.nan
+) -> tuple[Message, ...]:
+    """What is not within tolerance.
+
+    elastic : misfit of the law of elastic joints, NaN for rigid ones
+    """
     failures = _residual_failures(residuals, solution.flow_rule)
+    if not np.isnan(elastic):
+        failures = [failure for failure in failures if failure.identifier not in OF_RIGID_JOINTS]
+    if elastic > SOLVED_RESIDUAL:
+        words = f"forces are {elastic:.2g} off the law of elastic joints, which exceeds {SOLVED_RESIDUAL:g}"
+        failures.append(Message("elastic-law-residual", words))
     if solution.flow_rule == "associative":
         failures += _bound_failures(solution, bounds)
     elif _above(solution, bounds.kinematic, SOLVED_RESIDUAL * bounds.size):
@@ -176,6 +190,10 @@ def failures_of(residuals: Residuals, solution: Solution, bounds: Bounds) -> tup
         )
         failures.append(Message("above-kinematic-bound", words))
     return tuple(failures)
+
+
+OF_RIGID_JOINTS = ("penetration", "complementarity-residual", "power-balance")
+"""failures that say nothing of joints with a stiffness, which close and store power"""
 
 
 def _residual_failures(residuals: Residuals, flow_rule: str) -> list[Message]:

@@ -125,6 +125,7 @@ def test_every_answer_is_in_the_record() -> None:
         "penetration": 0.0,
         "complementarity": 1e-11,
         "slip": 2e-9,
+        "elastic": 3e-9,
     }
     assert case["size"]["dropped_points"] == 4
     assert case["path"][1] == {"step": 1, "load_factor": 0.6, "open": 2, "slide": 0, "residual": 1e-8}

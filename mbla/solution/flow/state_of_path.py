@@ -1,0 +1,77 @@
+"""The state of a part at the greatest load of its path: forces, motion, and the history that makes one of the other.
+
+Where only what moves was followed, the rest does not move in the step: it has the least forces that carry its loads and
+what is passed on to it, and remembers these.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.program.program import Program
+from mbla.program.reductions.restrict import chosen_limits, restricted, selection
+from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.flow.followed import AtRest
+from mbla.solution.flow.path_of_part import PathOfPart
+from mbla.solution.flow.peak_step import PeakStep
+from mbla.solution.nonassociative.law_state import LawState, StepHistory
+from mbla.solution.settings import SolverSettings
+from mbla.solution.standing.standing import least_forces
+
+
+def state_of_path(program: Program, found: PathOfPart, settings: SolverSettings, log: Log) -> LawState | None:
+    """The state, with the misfit of the law as its residual.
+
+    None where the path has no step that counts, or no forces carry what rests.
+    """
+    if found.path is None or found.path.peak is None or found.rest is None:
+        return None
+    peak, rest, n = found.path.peak, found.rest, program.n_points
+    factor = rest.begins + peak.state.factor
+    points = np.arange(n) if rest.points is None else rest.points
+    forces, history, velocities = _of_followed(program, peak, rest, points)
+    resting = np.setdiff1d(np.arange(n), points)
+    if len(resting):
+        carried = _at_rest(program, forces, factor, resting, settings, log)
+        if carried is None:
+            return None
+        forces[resting] = history.remembered[resting] = carried
+    return LawState(forces, velocities, factor, peak.misfit, history=history)
+
+
+def _of_followed(
+    program: Program, peak: PeakStep, rest: AtRest, points: IntArray
+) -> tuple[FloatArray, StepHistory, FloatArray]:
+    """Forces, history and velocities of all, those of what rests left at nothing and as stiff as the mean."""
+    step, state, joints = peak.step, peak.state, peak.step.joints
+    shape = program.n_points, program.components
+    forces, remembered = np.zeros(shape), np.zeros(shape)
+    forces[points] = np.vstack([state.normal[None], state.shear]).T
+    remembered[points] = np.vstack([step.memory.normal[None], step.memory.shear]).T
+    normal, shear = (np.full(program.n_points, values.mean() * step.length) for values in (joints.normal, joints.shear))
+    normal[points], shear[points] = joints.normal * step.length, joints.shear * step.length
+    velocities = state.u[: len(program.dead_load)]  # those of interfaces are behind
+    if rest.points is not None:
+        assert joints.program.reduction is not None
+        of_part = joints.program.reduction.velocities
+        velocities = np.asarray(of_part @ state.u[: of_part.shape[1]])
+    return forces, StepHistory(remembered, normal, shear), velocities
+
+
+def _at_rest(
+    program: Program, forces: FloatArray, factor: float, resting: IntArray, settings: SolverSettings, log: Log
+) -> FloatArray | None:
+    """Forces of the points that were not followed, (n, components), beside those of all, zero there; None without."""
+    passed = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
+    chosen = selection(resting, program.n_points, program.components)
+    size = 3 if program.components == 2 else 6
+    sums = np.asarray(abs(program.equilibrium_matrix @ chosen).sum(axis=1))
+    touched: BoolArray = np.asarray(sums.reshape(-1, size).any(axis=1), dtype=np.bool_)
+    ways = selection(np.flatnonzero(touched), len(touched), size)
+    loads = replace(program, dead_load=passed, live_load=np.zeros_like(passed))
+    rest = restricted(loads, ways, chosen, chosen_limits(program.limits, resting))
+    carried = least_forces(rest, settings, log)
+    return None if isinstance(carried, ConeSolution) else carried

@@ -1,0 +1,47 @@
+"""Whether forces are those that elastic joints have after a step, from what they remember and how they move in it.
+
+A joint that remembers N̄ and T̄ and moves with v, opening positive, has in the step, with k_N and k_T the force that it
+loses for a velocity::
+
+    T = T̄ − k_T v_T,  shortened to the shear strength μN + c where it is longer
+    N = N̄ − k_N v_N + k_N tan ψ ‖T̄ − k_T v_T − T‖/k_T,  within −f_t … f_c
+
+It slides against the force that shortens T, and an open joint has none: friction and unilateral contact are parts of
+the same law. Forces, motion and history are those of a result; no code of the step is used.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.solution import Mechanics
+from mbla.solution.verification.case import Case
+
+
+def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> float:
+    """Largest force that is off the law, over the largest force of a contact point or the mean weight of a point.
+
+    NaN where the mechanics are those of rigid joints; infinite where a joint has no stiffness.
+
+    dilatancy : (n_points,) tangents
+    """
+    remembered, stiffness = mechanics.remembered, mechanics.stiffness
+    if remembered is None or stiffness is None:
+        return float("nan")
+    if not (np.isfinite(remembered).all() and np.isfinite(stiffness).all() and (stiffness > 0.0).all()):
+        return float("inf")
+    limits, forces = case.limits, mechanics.contact_forces
+    v = case.velocities(mechanics.mechanism)
+    normal_stiffness, shear_stiffness = stiffness.T
+    trial = remembered[:, 1:] - shear_stiffness[:, None] * v[:, 1:]
+    strength = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
+    size = np.hypot(trial[:, 0], trial[:, 1])
+    shear = trial * np.where(size > strength, strength / np.maximum(size, 1e-300), 1.0)[:, None]
+    slid = np.hypot(*(trial - shear).T)
+    normal = remembered[:, 0] - normal_stiffness * v[:, 0] + normal_stiffness * dilatancy * slid / shear_stiffness
+    normal = np.clip(normal, -limits.tension, limits.compression)
+    off = np.hypot(normal - forces[:, 0], np.hypot(*(shear - forces[:, 1:]).T))
+    weight = np.abs(case.load_case.dead_load[case.model.free][:, :3]).sum() / max(len(forces), 1)
+    largest = max(float(np.abs(forces).max(initial=0.0)), float(weight))
+    return float(off.max(initial=0.0)) / largest if largest > 0.0 else float("nan")
