@@ -15,7 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import lifted
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
@@ -54,16 +54,29 @@ def assemble_parts(
         own: LawState | None = state
         if number != part:
             own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log)
+            own = own if own is None or state.history is None else _remembered(other, own)
         if own is None:
             return None
         program, own = to_full(other, own)
-        if total is None:
-            total = own
-        else:
-            forces, velocities = total.forces + own.forces, total.velocities + own.velocities
-            total = LawState(forces, velocities, state.load_factor, state.residual)
+        total = own if total is None else _together(total, own, state)
     assert total is not None
     return program, total
+
+
+def _remembered(program: Program, resting: LawState) -> LawState:
+    """A part at rest beside one of elastic joints: it remembers its forces, and keeps them for it does not move."""
+    stiff = np.ones(program.n_points)
+    return replace(resting, history=StepHistory(resting.forces, stiff, stiff))
+
+
+def _together(one: LawState, other: LawState, deciding: LawState) -> LawState:
+    """States of two parts of the full model, each nothing where the other is."""
+    history = None
+    if one.history is not None and other.history is not None:
+        pairs = zip(vars(one.history).values(), vars(other.history).values(), strict=True)
+        history = StepHistory(*(first + second for first, second in pairs))
+    forces, velocities = one.forces + other.forces, one.velocities + other.velocities
+    return LawState(forces, velocities, deciding.load_factor, deciding.residual, history=history)
 
 
 def _resting(
