@@ -7,7 +7,8 @@ loses for a velocity::
     N = N̄ − k_N v_N + k_N tan ψ ‖T̄ − k_T v_T − T‖/k_T,  within −f_t … f_c
 
 It slides against the force that shortens T, and an open joint has none: friction and unilateral contact are parts of
-the same law. Forces, motion and history are those of a result; no code of the step is used.
+the same law. Stiffness is in proportion to area, shared equally by the points of an interface, and k_T/k_N is that of
+the path. Forces, motion and history are those of a result; no code of the step is used.
 """
 
 from __future__ import annotations
@@ -15,14 +16,20 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.program.stiffness_shares import equal_shares
+from mbla.solution.flow.settings import PathSettings
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
+
+RESTS, ALIKE = 1e-9, 1e-6
+"""Velocity over the largest up to which a joint counts as at rest, and difference of stiffness that is rounding."""
 
 
 def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> float:
     """Largest force that is off the law, over the largest force of a contact point or the mean weight of a point.
 
-    NaN where the mechanics are those of rigid joints; infinite where a joint has no stiffness.
+    NaN where the mechanics are those of rigid joints; infinite where a joint that moves has not the stiffness that it
+    should have.
 
     dilatancy : (n_points,) tangents
     """
@@ -33,6 +40,8 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
         return float("inf")
     limits, forces = case.limits, mechanics.contact_forces
     v = case.velocities(mechanics.mechanism)
+    if not _is_in_proportion(case, stiffness, v):
+        return float("inf")
     normal_stiffness, shear_stiffness = stiffness.T
     trial = remembered[:, 1:] - shear_stiffness[:, None] * v[:, 1:]
     strength = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
@@ -45,3 +54,20 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
     weight = np.abs(case.load_case.dead_load[case.model.free][:, :3]).sum() / max(len(forces), 1)
     largest = max(float(np.abs(forces).max(initial=0.0)), float(weight))
     return float(off.max(initial=0.0)) / largest if largest > 0.0 else float("nan")
+
+
+def _is_in_proportion(case: Case, stiffness: FloatArray, v: FloatArray) -> bool:
+    """Whether the stiffness of joints that move is that of their area, in the units of light blocks.
+
+    stiffness : (n_points, 2); v : (n_points, 3) velocities
+    """
+    speed = np.linalg.norm(v, axis=1)
+    moves = speed > RESTS * speed.max(initial=0.0)
+    joints = moves & ~case.contacts.tie_points
+    if not joints.any():
+        return True
+    units = np.broadcast_to(case.program.scaling.units, len(v))
+    by_area = stiffness[:, 0] / (equal_shares(case.contacts) * units**2)
+    ratio = stiffness[joints, 1] / stiffness[joints, 0]
+    same = float(np.ptp(by_area[joints])) <= ALIKE * float(by_area[joints].max())
+    return same and bool((np.abs(ratio - PathSettings().ratio) <= ALIKE).all())
