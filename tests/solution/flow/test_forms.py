@@ -14,7 +14,7 @@ from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.path_of_part import path_by
 from mbla.solution.nonassociative.moving_part import moving_part
 from tests.decks.folder import PATHS
-from tests.line import line_of
+from tests.line import WALL, line_of
 from tests.solution.flow.paths import DEFAULT, case_of, load_factor_of
 from tests.solution.nonassociative.structures import FERRIS_3
 
@@ -78,4 +78,19 @@ def test_what_moves_alone_leads_to_the_load_factor_of_the_whole(name: str) -> No
     part = moving_part(program, associative.velocities, rings=3, few=1500, worthwhile=0.8)
     assert part is not None
     alone, whole = (path_by(program, associative.load_factor, DEFAULT, part=each) for each in (part, None))
+    assert alone.load_factor == pytest.approx(whole.load_factor, rel=3e-3)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("length", "courses"), [(30, 30), (40, 25)])
+def test_walls_of_which_a_part_moves(length: int, courses: int) -> None:
+    text = WALL.replace('length: "=0.4*n", courses: "=n"', f"length: {0.4 * length}, courses: {courses}")
+    case = case_of(text, "push")
+    program, associative = case.loaded, case.associative().state
+    assert associative is not None
+    part = moving_part(program, associative.velocities, rings=3, few=1500, worthwhile=0.8)
+    assert part is not None
+    alone, whole = (path_by(program, associative.load_factor, DEFAULT, part=each) for each in (part, None))
+    assert alone.is_answer
+    assert whole.is_answer
     assert alone.load_factor == pytest.approx(whole.load_factor, rel=3e-3)
