@@ -10,7 +10,16 @@ import pytest
 import shapely
 import yaml
 
+from mbla.contacts import find_contacts
+from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
+from mbla.deck import read_deck
+from mbla.model import build_model
+from mbla.model.model import select_cases
+from mbla.program import assemble
+from mbla.program.resultants.interface_motions import CrushingInterfaces
 from mbla.solution.flow.path_of_part import path_by
+from mbla.solution.law.interfaces import Interfaces
 from tests.analytic.test_crushing import PIER
 from tests.decks.folder import PATHS
 from tests.line import Line, line_of, line_of_file
@@ -134,3 +143,18 @@ def test_walls_that_were_pushed(load: int, expected: float) -> None:
 def test_a_pier_whose_base_crushes_under_its_weight(strength: float, stands: bool) -> None:
     line = line_of(PIER, f"parameters.fc={strength * 2000 * 9.81}")
     assert rest_of(line, interfaces=stress_blocks(line)).carried is stands
+
+
+def test_ties_beside_stress_blocks() -> None:
+    """Rods and a strut beside a base that crushes: λ W h/2 = W b/2 (1 − W/F) + T h_t + C h_s."""
+    (path,) = (path for path in PATHS if path.stem == "tied_wall")
+    deck = read_deck(path, ("analysis.solver=mbla", "joints.dry.compressive_strength=1e5"))
+    model = build_model(deck)
+    (case,) = select_cases(model, ["push"])
+    solids = tied(solids_of(model, find_contacts(model, deck.contacts), case))
+    program = assemble(solids.model, solids.contacts, solids.load_case(case))
+    weight, full, rods = 15696.0, 1e5 * 0.4, math.pi / 4 * 0.012**2 * 235e6
+    expected = (weight * 0.2 * (1 - weight / full) + rods * 1.8 + 5000.0 * 1.0) / weight
+    interfaces = Interfaces(CrushingInterfaces.of(solids.model, solids.contacts))
+    found = path_by(program, expected / program.scaling.live, DEFAULT, interfaces=interfaces)
+    assert program.scaling.live * found.load_factor == pytest.approx(expected, rel=CLOSE)
