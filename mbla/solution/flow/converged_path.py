@@ -27,7 +27,7 @@ ROUGH, SHORTEST = 100.0 * EXACT, 1e-3
 
 
 def follow_solved(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
-    """The path from the structure at rest, of joints without laws of interfaces and brittle ties."""
+    """The path from the structure at rest, of joints without brittle ties."""
     path = _Path(joints, gravity, measure, settings)
     stop = None
     while stop is None:
@@ -64,7 +64,8 @@ class _Path:
             return Stop.STUCK if self.length < SHORTEST else None
         h = there.step.length
         moved = h * self.joints.velocities(there.state.u)
-        self.state, self.memory = there.state, self.memory.after(self.joints, moved, there.state.normal)
+        motions = [h * motion for motion in self.joints.motions(there.state.u)]
+        self.state, self.memory = there.state, self.memory.after(self.joints, moved, there.state.normal, motions)
         self.displacement += length
         if self.top is None or there.state.factor > self.top.state.factor:
             self.top = there
