@@ -49,7 +49,7 @@ def test_cohesion_twists_with_the_whole_area() -> None:
     assert twisting(line_of(TWIST, "parameters.c=0.7", "parameters.mu=0")) == pytest.approx(0.7 * SQUARE, rel=CLOSE)
 
 
-@pytest.mark.parametrize("strength", [3.2, 3.5])
+@pytest.mark.parametrize("strength", [pytest.param(3.2, marks=pytest.mark.long), 3.5])
 def test_stress_blocks_beside_it_take_nothing_from_torsion(strength: float) -> None:
     """Twice the weight, a fifth of the side off the middle, needs 2/0.6 = 3.33 weights over the area."""
     text = TWIST.replace('cohesion: "=c*W/(a*a)"', f'compressive_strength: "={strength}*W/(a*a)"')
