@@ -74,15 +74,14 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
     velocities = state.velocities / (program.live_load @ state.velocities)
     contact_forces = scaling.forces(state.forces)
     velocities_of_points = contact_velocities(program, velocities)
+    limits = program.limits.scaled(scaling.force * scaling.units)  # in the deck's units
     history = {} if state.history is None else _history(program, state.history)
     return Mechanics(
         load_factor=scaling.load_factor(state.load_factor),
         contact_forces=contact_forces,
         contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
-        modes=contact_modes(
-            state.forces.reshape(-1, 3), velocities_of_points, program.limits, program.limits.dilatancy_by(flow_rule)
-        ),
+        modes=contact_modes(contact_forces, velocities_of_points, limits, limits.dilatancy_by(flow_rule)),
         **history,
     )
 

@@ -394,5 +394,9 @@ def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
     if associative.certificate is not None:
         return replace(result, standing=standing_without_equilibrium(program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
+    if settings.analysis.flow_rule == "non_associative" and settings.analysis.scheme == "elastic":
+        from mbla.solution.standing.gravity_standing import standing_by_gravity  # late: it asks for the engine of paths
+
+        return replace(result, standing=standing_by_gravity(program, True if decided else None))
     state = assess_dead_load(program, settings, True if decided else None, associative.stress_free)
     return replace(result, standing=standing_on_model(program, state))

@@ -38,11 +38,30 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
         return float("nan")
     if not (np.isfinite(remembered).all() and np.isfinite(stiffness).all() and (stiffness > 0.0).all()):
         return float("inf")
-    limits, forces = case.limits, mechanics.contact_forces
     v = case.velocities(mechanics.mechanism)
     if not _is_in_proportion(case, stiffness, v):
         return float("inf")
-    normal_stiffness, shear_stiffness = stiffness.T
+    return _off(case, mechanics.contact_forces, v, remembered, stiffness, dilatancy)
+
+
+def elastic_settlement_residual(case: Case, forces: FloatArray, settlement: FloatArray) -> float:
+    """The same of forces under the dead load and the displacements that cause them, of joints that remember nothing.
+
+    forces     : (n_points, 3) N
+    settlement : (n_blocks, 6) displacements and rotations on joints with a stiffness of 1 per area
+    """
+    units = np.broadcast_to(case.program.scaling.units, len(forces))
+    normal = equal_shares(case.contacts) * units**2
+    stiffness = np.stack([normal, PathSettings().ratio * normal], axis=1)
+    moved = case.velocities(settlement)
+    return _off(case, forces, moved, np.zeros_like(forces), stiffness, np.zeros(len(forces)))
+
+
+def _off(
+    case: Case, forces: FloatArray, v: FloatArray, remembered: FloatArray, stiffness: FloatArray, dilatancy: FloatArray
+) -> float:
+    """Largest force that is off the law."""
+    limits, (normal_stiffness, shear_stiffness) = case.limits, stiffness.T
     trial = remembered[:, 1:] - shear_stiffness[:, None] * v[:, 1:]
     strength = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
     size = np.hypot(trial[:, 0], trial[:, 1])

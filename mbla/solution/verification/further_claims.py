@@ -55,6 +55,10 @@ from mbla.solution.verification.statics import (
     off_guides,
 )
 
+ASTRAY = Message(
+    "standing-not-proved", "forces under the dead load alone do not come from the displacements of the blocks"
+)
+
 UNBALANCED = 3e-6
 """Share of a block's dead load that may be left unbalanced: the rest on springs, measured in another norm."""
 
@@ -104,7 +108,7 @@ def standing_failures(
         failures.append("guided blocks are displaced against their guides")
     displaced = contact_velocities(model, contacts, settlement)
     if _astray(forces, displaced) > AGAINST:
-        failures.append("forces under the dead load alone do not come from the displacements of the blocks")
+        failures.append(ASTRAY.words)
     return tuple(Message("standing-not-proved", words) for words in failures)
 
 
