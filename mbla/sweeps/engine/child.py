@@ -117,20 +117,21 @@ FOLDER = "points"
 
 ON_REQUEST = (
     *("best_iterate", "complete", "factor_unique", "greatest_load_factor", "iterations", "least_load_factor", "path"),
-    *("peak_load_factor", "programs", "range", "reductions", "remarks", "settings", "solver", "spread", "time"),
+    *("programs", "range", "reductions", "remarks", "settings", "solver", "spread", "time"),
 )
-"""first keys of columns that need, or may depend on, the range of the load factor or a peak on the way to it"""
+"""first keys of columns that need, or may depend on, the range of the load factor"""
 
 
 def requested_only(deck: Deck, plan: Plan) -> Deck:
-    """The deck of a point, without range and peak where no column and no file shows them.
+    """The deck of a point, without the range where no column and no file shows it.
 
-    They are further results on the state that was found (``mbla.solution.part``), change no other value, and may take
-    longer than the state itself. The range is computed all the same where its lower end is the load factor.
+    It is a further result on the state that was found (``mbla.solution.part``), changes no other value, and may take
+    longer than the state itself. It is computed all the same where its lower end is the load factor. A peak decides the
+    status of what is left after it.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck
-    analysis = deck.analysis.model_copy(update={"range": False, "peak": False})
+    analysis = deck.analysis.model_copy(update={"range": False})
     return replace(deck, content=deck.content.model_copy(update={"analysis": analysis}))
 
 
