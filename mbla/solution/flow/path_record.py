@@ -8,6 +8,9 @@ from enum import StrEnum
 from mbla.solution.flow.peak_step import PeakStep
 from mbla.solution.law.elastic_joints import StepState
 
+RISES = 5e-3
+"""Share of the load factor gained over the last half of a path, from which it still rises where it ends."""
+
 
 class Stop(StrEnum):
     """Why a path ended, or there is none: the first four are answers."""

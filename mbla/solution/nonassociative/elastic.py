@@ -15,16 +15,13 @@ from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
-from mbla.solution.flow.path_record import Stop
+from mbla.solution.flow.path_record import RISES, Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.state_of_path import state_of_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, EXACT_RESIDUAL
-
-RISES = 5e-3
-"""Share of the load factor gained over the last half of a path, from which a reader is told that it still rises."""
 
 
 def solve_by_elastic_path(

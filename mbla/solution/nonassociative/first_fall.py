@@ -108,27 +108,33 @@ def _at_its_limit(path: StandingPath, sequence: SequenceResult, most: float, log
         return PathVerdict(sequence, remark=NOT_STANDING)
     live, records = path.program.scaling.live, list(sequence.programs)
     reason = REACHED.format(f"{reached.load_factor * live:.6g}", f"{found.load_factor * live:.6g}")
-    near = state_near(path.program, reached, (1.0 + NEAR) * reached.load_factor, path.settings, log, records)
+    near = state_near(path.program, reached.state, (1.0 + NEAR) * reached.load_factor, path.settings, log, records)
     if near is None or near.residual > SOLVED_RESIDUAL or near.load_factor < 0.0:
         unknown = replace(sequence, status=Status.NOT_VERIFIED, reason=reason, programs=tuple(records))
-        return PathVerdict(unknown, peak=reached, remark=reason)
+        return PathVerdict(unknown, peak=reached.state, remark=reason)
     lower = replace(sequence, status=Status.APPROXIMATE, state=near, reason=reason, programs=tuple(records))
     return PathVerdict(lower, remark=reason)
 
 
 def _as_it_falls(path: StandingPath, sequence: SequenceResult, most: float) -> PathVerdict:
-    """With a peak, no higher than the load that elastic joints reach: what is left below hangs on how it moves."""
+    """With a peak, no higher than the load that elastic joints reach: what is left below hangs on how it moves.
+
+    Where they still gain at the end of their path they say nothing of a figure above it.
+    """
     state, peak, live = sequence.state, _peak(path), path.program.scaling.live
     assert state is not None
     reached = least_reached(path.program, most, BOTH[:1]) if np.isfinite(most) else None
-    if reached is not None and reached.load_factor < peak.load_factor:
-        peak = reached
+    ends = reached is not None and (reached.load_factor > state.load_factor or not reached.rises)
+    if reached is not None and ends and reached.load_factor < peak.load_factor:
+        peak = reached.state
     height, rest = (f"{each.load_factor * live:.6g}" for each in (peak, state))
     if peak.load_factor <= state.load_factor:
         reason = REACHED.format(height, rest)
         return PathVerdict(replace(sequence, status=Status.APPROXIMATE, state=peak, reason=reason), remark=reason)
     remark = FALLS.format(height, rest)
-    return PathVerdict(_at_most_approximate(sequence, remark), peak=peak, remark=remark)
+    if peak.load_factor > (1.0 + NEAR) * state.load_factor:
+        sequence = _at_most_approximate(sequence, remark)
+    return PathVerdict(sequence, peak=peak, remark=remark)
 
 
 def _contradicted(path: StandingPath, sequence: SequenceResult, beyond: PathState) -> PathVerdict:
