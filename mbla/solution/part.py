@@ -7,7 +7,7 @@ the path.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,13 +20,14 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import no_mechanism
 from mbla.solution.nonassociative.default_scheme import looks_lower
 from mbla.solution.nonassociative.factor_range import FactorRange, factor_range
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.locking import Boundedness, locks_at_dilatancy, non_associative_bounded
 from mbla.solution.nonassociative.refine_equilibrium import misfit, sharpened
 from mbla.solution.nonassociative.schemes import solve_nonassociative
 from mbla.solution.nonassociative.search import is_needless
+from mbla.solution.part_result import PartResult
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import WITH_VALUE, ProgramRecord, StandingResult, Status
+from mbla.solution.solution import WITH_VALUE, Status
 from mbla.solution.standing.standing import (
     assess_dead_load,
     standing_on_model,
@@ -88,79 +89,6 @@ NEEDS_NOTHING = (
 RANGE_BROKE_DOWN = Message(
     "range-not-computed", "the range of the load factor is not known: a system of equations broke down ({})"
 )
-
-
-@dataclass(frozen=True)
-class PartResult:
-    """What was found for one part.
-
-    associative : by the associative flow rule
-    sequence    : by the flow rule of the analysis where that is another one, None where it was not reached
-    loaded      : false where no live load acts on the part; then it only has to carry its dead load
-    standing    : assessment of the dead load alone, None where it was not asked for
-    range       : of the load factor without normality, for the mechanism found
-    remarks     : on the figure, besides those of the sequence
-    peak        : last state of the load path that stands, where that lies above the load factor
-    more        : programs solved for what is found in addition to the load factor
-    """
-
-    program: Program
-    associative: AssociativeResult
-    sequence: SequenceResult | None
-    loaded: bool
-    standing: StandingResult | None = None
-    range: FactorRange | None = None
-    remarks: tuple[Message, ...] = ()
-    peak: LawState | None = None
-    more: tuple[ProgramRecord, ...] = ()
-
-    def with_remark(self, remark: Message | None, programs: tuple[ProgramRecord, ...] = ()) -> PartResult:
-        """The same with one more remark, unless there is none, and more programs."""
-        remarks = (*self.remarks, remark) if remark else self.remarks
-        return replace(self, remarks=remarks, more=(*self.more, *programs))
-
-    @property
-    def state(self) -> LawState | None:
-        """Of the flow rule of the analysis."""
-        return self.associative.state if self.sequence is None else self.sequence.state
-
-    @property
-    def status(self) -> Status:
-        """Of the flow rule of the analysis.
-
-        Residuals speak for a state of another flow rule than the associative one, whose proved kinematic bound holds
-        however far the static one is from it; what another solver contradicts stays contradicted.
-        """
-        if self.sequence is None or (self._doubted and self.sequence.status is Status.SOLVED):
-            return self.associative.status
-        return self.sequence.status
-
-    @property
-    def _doubted(self) -> bool:
-        """Whether more is open about the associative load factor than how far its bounds are apart."""
-        associative = self.associative
-        return associative.state is not None and associative.status is not Status.SOLVED and not associative.gap_words
-
-    @property
-    def reason(self) -> str:
-        """Why the part is not plainly solved."""
-        if self.sequence is None:
-            return self.associative.reason
-        return self.sequence.reason or ("" if self.associative.gap_words else self.associative.reason)
-
-    @property
-    def tolerance_requested(self) -> float | None:
-        """Gap or residual that was asked for, and reached, where the part is approximate for no other reason."""
-        if self.sequence is None:
-            return self.associative.tolerance_requested
-        return None if self._doubted else self.sequence.tolerance_requested
-
-    @property
-    def programs(self) -> tuple[ProgramRecord, ...]:
-        """All cone programs that were solved for it."""
-        own = self.associative.programs if self.sequence is None else self.sequence.programs
-        ends = () if self.range is None else self.range.programs
-        return (*own, *ends, *self.more)
 
 
 def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:

@@ -21,7 +21,8 @@ from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.default_scheme import NOT_SEARCHED, looks_lower
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.locking import locking_forces
-from mbla.solution.part import PartResult, solve_part
+from mbla.solution.part import solve_part
+from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings

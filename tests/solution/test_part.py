@@ -18,7 +18,8 @@ from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, NOT_REACHED, solve_nonassociative
-from mbla.solution.part import NEEDS_NOTHING, PartResult, _lower_of, solve_part
+from mbla.solution.part import NEEDS_NOTHING, _lower_of, solve_part
+from mbla.solution.part_result import PartResult
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, line_of, line_of_file, solution_of
