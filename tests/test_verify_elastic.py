@@ -42,12 +42,15 @@ def test_the_state_is_solved_and_verified_by_its_own_law(image: tuple[bytes, flo
         assert case.solution.mechanics.load_factor == pytest.approx(image[1], rel=1e-5)
 
 
+@pytest.fixture(scope="module")
+def tied(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    return image_of_run(tmp_path_factory.mktemp("tied"), DECKS["rocks with a tie"][0])
+
+
 @pytest.mark.parametrize("name", ["remembered", "stiffness", "mechanism", "contact_forces"])
-def test_another_history_or_motion_is_not_believed(
-    name: str, image: tuple[bytes, float | None], tmp_path: Path
-) -> None:
+def test_another_history_or_motion_is_not_believed(name: str, tied: bytes, tmp_path: Path) -> None:
     path = tmp_path / "deck.h5"
-    path.write_bytes(image[0])
+    path.write_bytes(tied)
     with changing(path) as file:
         place = file["cases/push"]
         place[name][...] = 1.1 * place[name][()]
@@ -56,9 +59,9 @@ def test_another_history_or_motion_is_not_believed(
     assert results.cases[0].status is not Status.SOLVED
 
 
-def test_a_file_without_history_is_not_agreed_with(image: tuple[bytes, float | None], tmp_path: Path) -> None:
+def test_a_file_without_history_is_not_agreed_with(tied: bytes, tmp_path: Path) -> None:
     path = tmp_path / "deck.h5"
-    path.write_bytes(image[0])
+    path.write_bytes(tied)
     with changing(path) as file:
         for name in ("remembered", "stiffness", "tie_remembered", "tie_stiffness"):
             file["cases/push"].pop(name, None)

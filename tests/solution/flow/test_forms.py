@@ -48,7 +48,7 @@ def turned(program: Program, seed: int) -> Program:
     ("deck", "name"),
     [
         pytest.param("corner", "corner_out", marks=pytest.mark.long),
-        ("cross_vault_on_piers", "along_x"),
+        pytest.param("cross_vault_on_piers", "along_x", marks=pytest.mark.long),
         ("spiral_stair", "push_x"),
     ],
 )
@@ -70,9 +70,10 @@ def test_a_wall_in_the_plane_is_the_wall_in_space() -> None:
     assert live * whole.load_factor == pytest.approx(load_factor_of(line), rel=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "close"),
-    [("push_y", 3e-3), pytest.param("push_x", 4e-3, marks=pytest.mark.long)],  # 0.3 % along x, by processor
+    [("push_y", 3e-3), ("push_x", 4e-3)],  # 0.3 % along x, by processor
 )
 def test_what_moves_alone_leads_to_the_load_factor_of_the_whole(name: str, close: float) -> None:
     case = case_of(DECK["room_to_strengthen"], name)
