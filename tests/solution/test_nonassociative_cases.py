@@ -16,7 +16,8 @@ SHARE_SOLVED = 0.95
 @pytest.mark.parametrize("name", SHORT)
 def test_a_case_is_solved_and_verified(name: str) -> None:
     solution, checks, status = verified(line_of(CASES[name](), "analysis={standing: false, range: false}"))
-    assert status is Status.SOLVED, (solution.reason, checks.failures)
+    falls = solution.peak is not None  # what is left as it moves is approximate
+    assert status is (Status.APPROXIMATE if falls else Status.SOLVED), (solution.reason, checks.failures)
     assert checks.complementarity_residual < 1e-6
     assert checks.equilibrium_residual < 1e-6
     if solution.associative is not None and solution.mechanics is not None:
