@@ -69,7 +69,7 @@ STRUCTURES = {
 dome, a column, a stair with fixed blocks of its own, meshes from a file, half of a symmetric structure"""
 
 
-SLOW = [f"tutorials/{name}.yaml" for name in ("wall", "measured_arch", "dome", "obj_wall", "half_of_a_front")]
+SLOW = [f"tutorials/{name}.yaml" for name in ("wall", "measured_arch", "dome", "obj_wall", "half_of_a_front", "arch")]
 
 
 @pytest.mark.parametrize("deck", [pytest.param(deck, marks=[pytest.mark.long] * (deck in SLOW)) for deck in STRUCTURES])
@@ -88,6 +88,7 @@ def test_macro_blocks_have_the_load_factor_of_the_blocks(written: Written, deck:
         assert len(again.model.blocks) == len(results.model.blocks)
 
 
+@pytest.mark.long
 def test_the_parts_of_a_support_that_gives_way_have_its_reaction(written: Written) -> None:
     results, decks = written(DECKS / "tutorials/settling_wall.yaml")
     assert set(decks) == {"sinks", "turns"}

@@ -130,6 +130,7 @@ def test_a_support_is_followed_until_nothing_is_carried() -> None:
     assert 1.0 < case.solution.curve[-1].displacement < 2.0 * math.hypot(1.0, 1.3) - 2.0
 
 
+@pytest.mark.long
 def test_what_falls_alone_is_left_out() -> None:
     """A plank between a block that rocks and a post drops as the block leaves it; that rocks on by its closed form."""
     text = (
@@ -228,6 +229,7 @@ def test_the_error_is_of_the_size_of_the_change_with_the_step() -> None:
     assert claimed[known].max() < 10.0 * missed[known].max()
 
 
+@pytest.mark.long
 def test_a_guided_slab_goes_along() -> None:
     """A slab that slides up and down only, on a block that rocks under it: its weight and friction at the corner."""
     text = (

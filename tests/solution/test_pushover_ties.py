@@ -42,6 +42,7 @@ TURNS = np.linspace(0.0, 0.9, 4000)
 MOVED, FACTORS, LONGER = np.array([closed_form(turn) for turn in TURNS]).T
 
 
+@pytest.mark.long
 def test_a_tie_that_yields_without_end_holds_a_wall_as_it_turns() -> None:
     """The tie pulls along its line as it lies then; energies add up, and what ties take is no drop."""
     _, case = case_of(DECK)

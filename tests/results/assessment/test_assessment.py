@@ -72,6 +72,7 @@ def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     assert back == found
 
 
+@pytest.mark.long
 def test_a_wall_of_many_courses_is_one_kinematic_block() -> None:
     one, many = values(assessed(TEXT)), assessed(COURSES)
     figures = values(many)

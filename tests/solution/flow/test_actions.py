@@ -119,6 +119,7 @@ def test_a_wall_on_a_footing_that_settles(name: str, expected: float) -> None:
     assert case.reaction() == pytest.approx(least, rel=2e-3)
 
 
+@pytest.mark.long
 def test_the_reaction_from_which_a_settlement_starts_does_not_count() -> None:
     case = case_of(DECK["settling_wall"], "turns")
     program = case.loaded

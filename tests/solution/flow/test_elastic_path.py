@@ -112,6 +112,7 @@ def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str)
     ("deck", "name", "first", "expected"),
     [("filled_bridge", "lorry@05", 0.1, 6.71), ("settling_wall", "sinks", 0.4, 0.2716)],
 )
+@pytest.mark.long
 def test_a_path_that_was_blocked_comes_back(deck: str, name: str, first: float, expected: float) -> None:
     """It lies low for some steps: with another first step that was taken for a fall, or for the end."""
     case = case_of(DECK[deck], name)

@@ -47,11 +47,12 @@ def turned(program: Program, seed: int) -> Program:
 @pytest.mark.parametrize(
     ("deck", "name"),
     [
-        pytest.param("corner", "corner_out", marks=pytest.mark.long),
-        pytest.param("cross_vault_on_piers", "along_x", marks=pytest.mark.long),
+        ("corner", "corner_out"),
+        ("cross_vault_on_piers", "along_x"),
         ("spiral_stair", "push_x"),
     ],
 )
+@pytest.mark.long
 def test_order_and_axes_do_not_count(deck: str, name: str) -> None:
     case = case_of(DECK[deck], name)
     associative = case.associative().state

@@ -34,16 +34,17 @@ def test_a_wedge_lifts_by_its_own_dilatancy(deck: str, slope: float | None, expe
     assert case.load_factor(slope=own) == pytest.approx(expected, rel=close)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("deck", "name"),
     [
         ("ferris_wall_1", "push_x"),
         ("ferris_wall_5", "push_x"),
-        ("wall_10x10", "in_plane"),
         ("leaves_rough", "to_thin"),
+        ("wall_10x10", "in_plane"),
         ("arch_on_piers", "along"),
-        ("cross_vault", "along_x"),
         ("two_leaf_walls", "unbonded"),
+        ("cross_vault", "along_x"),
     ],
 )
 def test_with_normality_it_is_the_associative_figure(deck: str, name: str) -> None:

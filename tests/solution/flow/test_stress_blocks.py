@@ -132,6 +132,7 @@ def test_with_associative_flow_it_is_the_load_factor_of_associative_stress_block
     assert crushing(line, associative_flow=True) == pytest.approx(38.26647, rel=3e-4)  # at D = 50 it still rises
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(("load", "expected"), [(40, 15.69209), (250, 93.342)])
 def test_walls_that_were_pushed(load: int, expected: float) -> None:
     """The pairs of programs of the contact model without dilatancy say 15.69209 and 93.342."""

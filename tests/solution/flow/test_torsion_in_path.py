@@ -26,6 +26,7 @@ def test_square_under_uniform_pressure() -> None:
     assert load_factor_of(line_of(TWIST)) == pytest.approx(2 * 0.6 * np.sqrt(0.5), rel=2e-5)  # corners: 85 % more
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(("e1", "e2"), [(0.3, 0.0), (0.0, -0.5), (0.4, 0.3), (-0.6, 0.2)])
 def test_eccentric_force_leaves_less_of_the_area(e1: float, e2: float) -> None:
     """The force 2 W is at (e1, e2)/2; the tangent to ρ(a', b') takes ρ (e1' + e2')/a off."""
