@@ -24,6 +24,13 @@ def equal_shares(contacts: Contacts) -> FloatArray:
     return np.asarray(shares)
 
 
+def shares_in_units(areas: FloatArray, units: FloatArray | float) -> FloatArray:
+    """Shares of points, (n_points,), from their areas: those with forces in one unit have mean 1."""
+    every, number = np.unique(np.broadcast_to(units, len(areas)), return_inverse=True)
+    mean = np.bincount(number, areas, len(every)) / np.bincount(number, minlength=len(every))
+    return np.asarray(areas / mean[number])
+
+
 def shares_of(program: Program) -> FloatArray:
     """Those of a program's points, (n_points,) with mean 1, from the areas of the points of the full model.
 
@@ -48,9 +55,7 @@ def _through(program: Program) -> FloatArray:
     reduction = program.reduction
     if reduction is None:
         assert program.areas is not None  # of the full model
-        units, number = np.unique(np.broadcast_to(program.scaling.units, program.n_points), return_inverse=True)
-        mean = np.bincount(number, program.areas, len(units)) / np.bincount(number, minlength=len(units))
-        return np.asarray(program.areas / mean[number])
+        return shares_in_units(program.areas, program.scaling.units)
     above = _through(reduction.full)
     compliance = np.asarray(_normal(program, reduction).power(2).T @ (1.0 / above))
     return np.asarray(np.where(compliance > 0.0, 1.0 / np.maximum(compliance, 1e-300), above.mean()))

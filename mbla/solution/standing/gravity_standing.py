@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.program.stiffness_shares import shares_of
+from mbla.program.stiffness_shares import shares_in_units, shares_of
 from mbla.solution.flow.gravity_step import HELD, Gravity, gravity_step
 from mbla.solution.flow.peak_step import EXACT, PeakStep, solved_peak
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory
@@ -67,13 +67,13 @@ def _proved(program: Program, joints: ElasticJoints, gravity: Gravity) -> Standi
 
 
 def _on_model(program: Program, rest: LawState) -> StandingResult:
-    """Forces, and the displacements that cause them on joints of a stiffness of 1 per area."""
+    """Forces, and the displacements that cause them on joints as stiff as their shares."""
     while program.reduction is not None:
         rest, program = lifted(program, rest), program.reduction.full
     assert rest.history is not None
     assert program.areas is not None
-    stiffness: FloatArray = rest.history.normal / program.areas
     scaling = program.scaling
+    stiffness: FloatArray = rest.history.normal / shares_in_units(program.areas, scaling.units)
     size = float(np.median(stiffness[stiffness > 0.0])) * scaling.force**2 / scaling.live
     settlement = program.mechanism(rest.velocities) * size
     return StandingResult(Standing.YES, None, YES, scaling.forces(rest.forces), settlement)

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.stiffness_shares import equal_shares
+from mbla.program.stiffness_shares import equal_shares, shares_in_units
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
@@ -48,13 +48,18 @@ def elastic_settlement_residual(case: Case, forces: FloatArray, settlement: Floa
     """The same of forces under the dead load and the displacements that cause them, of joints that remember nothing.
 
     forces     : (n_points, 3) N
-    settlement : (n_blocks, 6) displacements and rotations on joints with a stiffness of 1 per area
+    settlement : (n_blocks, 6) displacements and rotations on joints as stiff as their shares
     """
-    units = np.broadcast_to(case.program.scaling.units, len(forces))
-    normal = equal_shares(case.contacts) * units**2
+    normal = _by_shares(case)
     stiffness = np.stack([normal, PathSettings().ratio * normal], axis=1)
     moved = case.velocities(settlement)
     return _off(case, forces, moved, np.zeros_like(forces), stiffness, np.zeros(len(forces)))
+
+
+def _by_shares(case: Case) -> FloatArray:
+    """Normal stiffness of the points by their shares, (n_points,), in the deck's units but for one factor."""
+    units = case.program.scaling.units
+    return shares_in_units(equal_shares(case.contacts), units) * units**2
 
 
 def _off(
@@ -85,8 +90,7 @@ def _is_in_proportion(case: Case, stiffness: FloatArray, v: FloatArray) -> bool:
     joints = moves & ~case.contacts.tie_points
     if not joints.any():
         return True
-    units = np.broadcast_to(case.program.scaling.units, len(v))
-    by_area = stiffness[:, 0] / (equal_shares(case.contacts) * units**2)
+    by_share = stiffness[joints, 0] / _by_shares(case)[joints]
     ratio = stiffness[joints, 1] / stiffness[joints, 0]
-    same = float(np.ptp(by_area[joints])) <= ALIKE * float(by_area[joints].max())
+    same = float(np.ptp(by_share)) <= ALIKE * float(by_share.max())
     return same and bool((np.abs(ratio - PathSettings().ratio) <= ALIKE).all())
