@@ -192,7 +192,7 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
         return replace(result, sequence=sequence) if sequence.status is Status.SOLVED else result
     if no_mechanism(program, settings, log):
         return replace(result, associative=replace(associative, reason=LOCKED_BY_CONTACT))
-    if settings.analysis.scheme == "elastic":
+    if settings.by_elastic_path:
         sequence = solve_nonassociative(program, associative, settings, log)
         if sequence.status is Status.UNBOUNDED:
             return replace(result, associative=replace(associative, reason=sequence.reason))
@@ -219,7 +219,7 @@ def _judged(result: PartResult, settings: SolverSettings, log: Log, path: Standi
     """
     state, above = result.state, result.associative.state
     most = np.inf if above is None else above.load_factor
-    other = settings.analysis.scheme == "elastic" or (settings.analysis.scheme == "published" and above is not None)
+    other = settings.by_elastic_path or (settings.analysis.scheme == "published" and above is not None)
     if state is None or result.status not in WITH_VALUE or result.program.settles or other:
         return result
     first = result.sequence.first if result.sequence is not None else None
@@ -322,7 +322,7 @@ def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
     if associative.certificate is not None:
         return replace(result, standing=standing_without_equilibrium(program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    if settings.analysis.flow_rule == "non_associative" and settings.analysis.scheme == "elastic":
+    if settings.by_elastic_path:
         from mbla.solution.standing.gravity_standing import standing_by_gravity  # late: it asks for the engine of paths
 
         return replace(result, standing=standing_by_gravity(program, True if decided else None))

@@ -44,6 +44,11 @@ class SolverSettings:
     standing: bool = PRESETS["standard"].standing
     analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
 
+    @property
+    def by_elastic_path(self) -> bool:
+        """Whether the analysis asks for the path of elastic joints."""
+        return self.analysis.flow_rule == "non_associative" and self.analysis.scheme == "elastic"
+
 
 def solver_settings(analysis: AnalysisSection) -> SolverSettings:
     """Settings that a deck asks for; the time limit starts now."""

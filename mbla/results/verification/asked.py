@@ -20,7 +20,7 @@ from mbla.solution.limits.geometric_safety import why_no_geometric_safety
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
-from mbla.solution.settings import SolverSettings, settings_for, solver_settings
+from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Mechanics, Solution, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.verify import locked_with_normality
@@ -99,7 +99,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
     mechanics = solution.mechanics
     history = None if mechanics is None else mechanics.remembered
     present: Mapping[str, tuple[object, bool]] = {
-        "what elastic joints remember": (history, by_elastic_path(settings)),
+        "what elastic joints remember": (history, settings.by_elastic_path),
         "a pushover": (solution.pushed, load_case.pushover is not None),
         "slopes": (solution.sensitivity or None, deck.analysis.sensitivity is not False),
         "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
@@ -160,15 +160,10 @@ def _associative(found: Found, model: Model, contacts: Contacts, case: CaseResul
     found.unconfirmed.append(f"the file has no associative answer{why}")
 
 
-def by_elastic_path(settings: SolverSettings) -> bool:
-    """Whether the analysis asks for the path of elastic joints."""
-    return settings.analysis.flow_rule == "non_associative" and settings.analysis.scheme == "elastic"
-
-
 def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     """What elastic joints remember, without which nothing shows that their law holds."""
     mechanics, settings = case.solution.mechanics, settings_for(case.load_case, solver_settings(deck.analysis))
-    if mechanics is not None and by_elastic_path(settings) and mechanics.remembered is None:
+    if mechanics is not None and settings.by_elastic_path and mechanics.remembered is None:
         found.differences.append(lacks("history of elastic joints"))
 
 

@@ -15,7 +15,7 @@ from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.unit_of_displacement import PRESSED, Measure, elastic_motion, pressed_points
+from mbla.solution.flow.unit_of_displacement import PRESSED, Measure
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.joint_equations import JointStep
 
@@ -42,12 +42,11 @@ class _Path:
     """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
 
     def __init__(self, joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> None:
-        live, n = joints.program.live_load, joints.program.n_points
-        motion = elastic_motion(joints, pressed_points(joints, gravity.memory.normal, gravity.force))
+        motion = measure.motion
         self.joints, self.measure, self.settings, self.memory = joints, measure, settings, gravity.memory
-        self.force = max(gravity.force, measure.load_factor * float(np.abs(live).sum()) / n)
+        self.force = max(gravity.force, measure.force_of(joints.program))
         normal = np.maximum(gravity.state.normal, PRESSED * self.force)
-        self.state = replace(gravity.state, u=motion / float(live @ motion), normal=normal)
+        self.state = replace(gravity.state, u=motion / float(joints.program.live_load @ motion), normal=normal)
         self.length, self.displacement = settings.first, 0.0
         self.top: PeakStep | None = None
         self.half: PeakStep | None = None

@@ -21,7 +21,7 @@ from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak, with_openings
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.unit_of_displacement import Measure
+from mbla.solution.flow.unit_of_displacement import Measure, mean_live_load
 from mbla.solution.law.brittle import let_go, share_until_break, without
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_equations import JointStep, residual_of
@@ -111,8 +111,7 @@ class _Path:
     def begin(self, motion: FloatArray) -> None:
         """At rest, moving as if all joints were stuck."""
         joints, live = self.joints, self.joints.program.live_load
-        n = max(joints.program.n_points, 1)
-        self.force = max(self.gravity.force, self.scale * float(np.abs(live).sum()) / n)
+        self.force = max(self.gravity.force, mean_live_load(joints.program, self.scale))
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
         at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())

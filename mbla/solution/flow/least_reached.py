@@ -11,8 +11,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from mbla.program.program import Program
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.flow.path_of_part import PathOfPart, path_by
@@ -55,7 +53,7 @@ def _reached(program: Program, found: PathOfPart) -> Reached | None:
     if found.path is None or found.path.peak is None or not found.is_answer:
         return None
     peak = found.path.peak
-    forces, factor = np.vstack([peak.state.normal[None], peak.state.shear]).T, peak.state.factor
+    forces, factor = peak.state.forces, peak.state.factor
     repaired = repaired_forces(program, forces, factor)
     if repaired is None:
         return None

@@ -24,7 +24,7 @@ from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, follo
 from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.flow.path_record import ElasticPath, Stop
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, measure_of
+from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, mean_live_load, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
@@ -155,9 +155,8 @@ def _at_rest(
     joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: MovingPart | None
 ) -> AtRest:
     """Under the dead load."""
-    n, points = joints.program.n_points, None if part is None else part.points
-    force_of_live = abs(scale) * float(np.abs(joints.program.live_load).sum()) / n
-    gravity = gravity_step(joints, force_of_live, gaps if points is None else gaps[points])
+    points = None if part is None else part.points
+    gravity = gravity_step(joints, mean_live_load(joints.program, scale), gaps if points is None else gaps[points])
     return AtRest(joints, gravity, settings, points)
 
 

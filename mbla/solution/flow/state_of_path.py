@@ -49,8 +49,8 @@ def _of_followed(
     step, state, joints = peak.step, peak.state, peak.step.joints
     shape = program.n_points, program.components
     forces, remembered = np.zeros(shape), np.zeros(shape)
-    forces[points] = np.vstack([state.normal[None], state.shear]).T
-    remembered[points] = np.vstack([step.memory.normal[None], step.memory.shear]).T
+    forces[points] = state.forces
+    remembered[points] = step.memory.forces
     normal, shear = (np.full(program.n_points, values.mean() * step.length) for values in (joints.normal, joints.shear))
     normal[points], shear[points] = joints.normal * step.length, joints.shear * step.length
     velocities = state.u[: len(program.dead_load)]  # those of interfaces are behind

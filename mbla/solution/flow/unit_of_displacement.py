@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.program.program import Program
 from mbla.solution.law.elastic_joints import ElasticJoints
 
 LIMP, OPEN = 1e-6, 1e-3
@@ -37,6 +38,15 @@ class Measure:
     load_factor: float
     displacement: float
     motion: FloatArray
+
+    def force_of(self, program: Program) -> float:
+        """Mean live load of a point at the load factor."""
+        return mean_live_load(program, self.load_factor)
+
+
+def mean_live_load(program: Program, load_factor: float) -> float:
+    """Of a point, at a load factor."""
+    return abs(load_factor) * float(np.abs(program.live_load).sum()) / max(program.n_points, 1)
 
 
 def measure_of(joints: ElasticJoints, load_factor: float, pressed: BoolArray) -> Measure:

@@ -177,6 +177,11 @@ class StepState:
     crushing: FloatArray
     interfaces: tuple[InterfaceState, ...] = ()
 
+    @property
+    def forces(self) -> FloatArray:
+        """N and T, (n_points, components)."""
+        return together(self.normal, self.shear)
+
     def plus(self, change: StepState, length: float) -> StepState:
         """The state a length along a direction."""
         others = {key: mine + length * getattr(change, key) for key, mine in vars(self).items() if key != "interfaces"}
@@ -194,6 +199,11 @@ class Memory:
     normal: FloatArray
     shear: FloatArray
     interfaces: tuple[FloatArray, ...] = ()
+
+    @property
+    def forces(self) -> FloatArray:
+        """n̄ and t̄, (n_points, components)."""
+        return together(self.normal, self.shear)
 
     @staticmethod
     def stress_free(joints: ElasticJoints, gaps: FloatArray | float = 0.0) -> Memory:
@@ -220,6 +230,11 @@ class Memory:
         gap[yields] = np.minimum(gap[yields], joints.program.limits.compression[yields])
         own = zip(joints.laws, self.interfaces, motions, strict=True)
         return Memory(gap, shear, tuple(was + by if law.conditions.remembers else was for law, was, by in own))
+
+
+def together(normal: FloatArray, shear: FloatArray) -> FloatArray:
+    """Of each point its components, (n_points, components)."""
+    return np.column_stack([normal, shear.T])
 
 
 def lengths(vectors: FloatArray) -> FloatArray:

@@ -61,7 +61,7 @@ def _proved(program: Program, joints: ElasticJoints, gravity: Gravity) -> Standi
     step = JointStep(joints, Memory.stress_free(joints), 1.0, driven=False, held=HELD * joints.matrix.size)
     start = PeakStep(step, EXACT**2 * gravity.force**2, gravity.state, 0.0)
     state = solved_peak(start, gravity.force)[0].state
-    forces = np.vstack([state.normal[None], state.shear]).T
+    forces = state.forces
     rest = LawState(forces, state.u, 0.0, 0.0, history=StepHistory(np.zeros_like(forces), joints.normal, joints.shear))
     return _on_model(program, rest)
 

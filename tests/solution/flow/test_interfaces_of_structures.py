@@ -6,6 +6,8 @@ References are paths in converged steps: dome .4737 with torsion, .5342 with str
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from mbla.solution.law.interfaces import Interfaces
@@ -28,15 +30,15 @@ def both(line: Line, strength: float) -> Interfaces:
     [(DOME, 1e6, 0.5342, 3e-3), (PIERS, 3e6, 0.1339, 5e-3), (WALL, 1e6, 0.4750, 3e-3)],
     ids=["dome", "piers", "wall"],
 )
-def test_stress_blocks(path: object, strength: float, expected: float, within: float) -> None:
-    line = line_of_file(path)  # type: ignore[arg-type]
+def test_stress_blocks(path: Path, strength: float, expected: float, within: float) -> None:
+    line = line_of_file(path)
     assert load_factor_of(line, interfaces=stress_blocks(line, strength)) == pytest.approx(expected, rel=within)
 
 
 @pytest.mark.parametrize(("path", "expected", "within"), [(DOME, 0.4737, 5e-3), (PIERS, 0.1235, 0.03)])
-def test_torsion(path: object, expected: float, within: float) -> None:
+def test_torsion(path: Path, expected: float, within: float) -> None:
     """On the vault on piers the path is blocked where an interface twists at two bounds of R at once."""
-    line = line_of_file(path)  # type: ignore[arg-type]
+    line = line_of_file(path)
     assert load_factor_of(line, interfaces=torsion(line)) == pytest.approx(expected, rel=within)
 
 
