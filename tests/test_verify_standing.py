@@ -66,6 +66,7 @@ def told(verdict: Standing, results: Results, *, proof: bool = False) -> Standin
     return replace(own, verdict=verdict) if proof else StandingResult(verdict, None, "so it was told")
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     ("verdict", "forged", "proof", "words"),
     [

@@ -36,6 +36,7 @@ def test_a_file_as_it_was_written_agrees(path: Path) -> None:
     assert (disagreements, results.exit_code) == ((), 0)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     ("name", "factor"),
     [

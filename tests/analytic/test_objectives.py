@@ -163,6 +163,7 @@ blocks:
 # --- A linear program of another formulation ------------------------------------------------------------------------
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_arches_by_a_linear_program(seed: int) -> None:
     """Force through a joint of an arch under its weight and a share of what brings it down."""
@@ -198,6 +199,7 @@ load_cases:
     assert found == pytest.approx(exact, abs=1e-6 * weights.sum())
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_forces_through_part_of_a_section_of_a_wall(seed: int) -> None:
     """Between two units of a wall, which touch each other in other ways too."""
@@ -292,6 +294,7 @@ def test_beyond_collapse_nothing_carries_the_loads() -> None:
         assert math.isnan(end_value(case))
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     "change",
     [

@@ -93,6 +93,7 @@ def reaction(case: CaseResult) -> float:
     return found
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("flow_rule", ["associative", "non_associative"])
 @pytest.mark.parametrize(("length", "height"), [(2.0, 0.05), (20.0, 2.0)])
 def test_the_beam_on_three_supports(tmp_path: Path, length: float, height: float, flow_rule: str) -> None:
@@ -146,6 +147,7 @@ def test_a_support_that_slides_away_is_let_go_by_friction(tmp_path: Path, fricti
     assert reaction(results.cases[0]) == pytest.approx(-friction * WEIGHT * 0.8 / 2, rel=1e-6)
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(("t", "n", "mu"), [(0.6, 26, 1.0), (0.5, 15, 0.9), (0.9, 12, 0.45)])
 def test_the_thrusts_of_an_arch(tmp_path: Path, t: float, n: int, mu: float) -> None:
     overrides = [

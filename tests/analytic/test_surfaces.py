@@ -149,6 +149,7 @@ def test_a_surface_carries_from_both_sides() -> None:
         factor_of(deck_of(f"[{{surface: {{polygon: {plate}}}}}]", CUBE, CUBE - [0, 0, 1]))
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     "keys",
     [", supports: [ground]", ", flat_faces: supports", ", leave_out: [ground]", ", members: [low, high]"],

@@ -98,6 +98,8 @@ LONG = (
     "tutorials/walls_at_a_corner",
 )  # fmt: skip
 """take long, or show once more what another shows: run by ``pytest -m long`` only, as the folder of regressions is"""
+EACH = 3
+"""of the other benchmarks, most of whose closed forms ``tests/analytic`` holds, each of so many is short"""
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,13 @@ def name_of(path: Path) -> str:
 
 def is_long(name: str) -> bool:
     """Whether only the long tests run the deck of that name."""
-    return name in LONG or name.startswith("regressions/")
+    return name in LONG or name.startswith("regressions/") or name in _often_shown()
+
+
+@cache
+def _often_shown() -> frozenset[str]:
+    names = [name for path in BENCHMARKS.values() if (name := name_of(path)) not in LONG]
+    return frozenset(names) - frozenset(names[::EACH])
 
 
 def as_parameters() -> list[ParameterSet]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.join import polyhedra_of
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import Ground, LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra, turn_faces
@@ -34,9 +34,7 @@ def moved_scene(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
     blocks = rebuilt(model.blocks, polyhedra, scene.deck.contacts.tolerance)
     points = model.blocks.added_mass_points @ matrix.T + shift
     blocks = replace(blocks, added_masses=model.blocks.added_masses, added_mass_points=points)
-    grounds = tuple(
-        replace(ground, point=matrix @ ground.point + shift, normal=matrix @ ground.normal) for ground in model.grounds
-    )
+    grounds = tuple(_moved_ground(ground, matrix, shift, side) for ground in model.grounds)
     mirrors = []
     for *normal, offset in model.mirrors:
         turned = matrix @ np.array(normal)
@@ -49,6 +47,13 @@ def moved_scene(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
     if model.interfaces is not None:
         model = _moved_table(model, matrix, shift, side)
     return replace(_moved_overrides(scene, matrix, shift), model=model)
+
+
+def _moved_ground(ground: Ground, matrix: FloatArray, shift: FloatArray, side: float) -> Ground:
+    outline = ground.outline
+    if outline is not None:  # counter-clockwise about the normal again
+        outline = (outline @ matrix.T + shift)[:: 1 if side > 0 else -1]
+    return replace(ground, point=matrix @ ground.point + shift, normal=matrix @ ground.normal, outline=outline)
 
 
 def _moved_table(model: Model, matrix: FloatArray, shift: FloatArray, side: float) -> Model:

@@ -28,6 +28,8 @@ FEW = ("benchmarks/closed_forms/groove", "benchmarks/closed_forms/eccentric_comp
 """a wedge between two planes, a joint that crushes, and friction that locks resultants of interfaces"""
 EVERY = 6
 """of the other scenes one of so many is taken"""
+SURFACE = "benchmarks/formats/arch_on_faces_of_another_file"
+"""stands on surfaces that end, which move with it"""
 MOST_POINTS = 700
 """contact points of a deck that is tried: some twenty analyses of each take seconds"""
 MOST_POINTS_WITHOUT_NORMALITY = 260
@@ -92,7 +94,7 @@ OTHERS = [name for name in names() if name not in FEW]
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize("name", [*FEW, SURFACE])
 def test_a_few_scenes(name: str) -> None:
     found = checked(name)
     assert len(found) > len(TABLE) / 2

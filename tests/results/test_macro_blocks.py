@@ -72,6 +72,7 @@ dome, a column, a stair with fixed blocks of its own, meshes from a file, half o
 SLOW = [f"tutorials/{name}.yaml" for name in ("wall", "measured_arch", "dome", "obj_wall", "half_of_a_front", "arch")]
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("deck", [pytest.param(deck, marks=[pytest.mark.long] * (deck in SLOW)) for deck in STRUCTURES])
 def test_macro_blocks_have_the_load_factor_of_the_blocks(written: Written, deck: str) -> None:
     results, decks = written(DECKS / deck, **{"analysis.flow_rule": "associative"})

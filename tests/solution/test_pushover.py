@@ -55,6 +55,7 @@ def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
     assert abs(energy_missing(solution.curve)) < 1e-3
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize("load", ["force", "pressure", "mass"])
 def test_forces_act_where_they_act_on_the_block(load: str) -> None:
     """A weight on the top of the rocking block goes along with it: moments about the edge balance at every angle."""

@@ -150,6 +150,7 @@ def test_a_bar_that_takes_both(way: int) -> None:
     assert found.side is Side.BOTH
 
 
+@pytest.mark.every(3)
 @pytest.mark.parametrize(
     "seed", [2, *(pytest.param(seed, marks=pytest.mark.trust if seed % 8 else pytest.mark.long) for seed in range(64))]
 )
@@ -195,6 +196,7 @@ def test_what_has_no_slope_says_so(change: tuple[str, str], words: str) -> None:
     assert bool(case.solution.sensitivity) != bool(words)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_random_decks(seed: int) -> None:
     compare(seed)

@@ -39,6 +39,7 @@ def shown(record: dict[str, Any]) -> list[str]:
     return [json_line({"part": part}) for part in (record["model"], record["exit_code"], *cases)]
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(("deck", "settings"), [(ARCH, SMALL_ARCH), (PLANK, {})])
 def test_nothing_else_changes_without_them(deck: str, settings: Settings) -> None:
     full, lean = record_of(deck, settings, None), record_of(deck, settings, plan_of(deck, "load_factor"))
