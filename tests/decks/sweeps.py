@@ -27,9 +27,9 @@ def sweep_path(name: str) -> Path:
 
 
 @cache
-def prepared_sweep(name: str, overrides: tuple[str, ...] = (), options: SweepOptions | None = None) -> Prepared:
+def prepared_sweep(name: str, overrides: tuple[str, ...] = ()) -> Prepared:
     """A sweep that could begin; ``overrides`` are ``key.path=value`` of its deck, for every point."""
-    return prepare(read_sweep(sweep_path(name), overrides), options or SweepOptions())
+    return prepare(read_sweep(sweep_path(name), overrides), SweepOptions())
 
 
 def values_of_points(design: Design) -> list[dict[str, Plain]]:
@@ -55,7 +55,7 @@ def whole_sweep(name: str) -> tuple[Finished, Sequence[Row]]:
     """A sweep as ``mbla sweep`` runs it, with its points."""
     with TemporaryDirectory() as folder:
         options = SweepOptions(folder=Path(folder) / "out")
-        finished = run_sweep(prepared_sweep(name, options=options), options)
+        finished = run_sweep(prepare(read_sweep(sweep_path(name)), options), options)
     table = finished.table
     columns = {column.name: table[column.name].tolist() for column in table.columns}
     return finished, [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
