@@ -68,7 +68,9 @@ class Expectation(Section):
     reaction: Number | None = Field(None, description="of the support that gives way")
     least: Number | None = Field(None, description="objective: least value of the force")
     greatest: Number | None = Field(None, description="objective: greatest value of the force")
-    lower: Number | None = Field(None, description="least load factor for the mechanism found, without normality")
+    least_load_factor: Number | None = Field(
+        None, description="without normality, of the states of rigid joints that a search found"
+    )
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
     )
@@ -84,7 +86,7 @@ FIGURES = (
     "reaction",
     "least",
     "greatest",
-    "lower",
+    "least_load_factor",
     "status",
 )
 

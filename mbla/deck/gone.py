@@ -12,7 +12,9 @@ KEYS: Mapping[str, str] = {
     "contacts.inset": "write contacts.points.inset",
     "analysis.second_opinion": "leave it out, the proved bounds say how good the load factor is",
     "analysis.form": "leave it out, the associative program is solved in velocities",
-    "analysis.path": "leave it out, the load path is followed where a peak is searched for, and listed",
+    "analysis.peak": "leave it out, the load factor is the greatest on the path of elastic joints",
+    "analysis.range": "leave it out, the load factor is the greatest on the path of elastic joints; analysis.search says "
+    "how far to look for lower ones",
     "analysis.forces": "leave it out, contact forces of associative flow are those that prove its load factor",
     "analysis.proximal": "leave it out, the default scheme has no parameters but analysis.search",
     "analysis.interior": "leave it out, the default scheme has no parameters but analysis.search",
@@ -26,10 +28,11 @@ KEYS: Mapping[str, str] = {
 """Section and key, at whatever depth below the section -> what to do"""
 
 CHOICES: Mapping[tuple[str, str], str] = {
-    ("scheme", "path"): "use auto; where a peak is searched for the load path is followed and listed",
-    ("scheme", "proximal"): "use auto, which ends lower",
-    ("scheme", "interior"): "use auto, which ends lower",
-    ("scheme", "lowest"): "use auto, which looks for lower load factors; analysis.search says how far",
+    ("scheme", "path"): "use auto, which follows the path of elastic joints",
+    ("scheme", "elastic"): "use auto, which follows the path of elastic joints",
+    ("scheme", "proximal"): "use auto",
+    ("scheme", "interior"): "use auto",
+    ("scheme", "lowest"): "use auto; analysis.search says how far to look for lower load factors",
     ("solver", "highs"): "use auto, whose load factor lies between proved bounds and takes less time",
 }
 """Key of the analysis section and choice of it -> what to write"""

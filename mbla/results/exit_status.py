@@ -109,7 +109,7 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
         "angle": angle_of(case),
         "associative_load_factor": getattr(associative_of(case), "load_factor", None),
         "reaction": reaction_of(case),
-        "lower": case.checks.lower,
+        "least_load_factor": case.checks.least_load_factor,
     }
     for key, value in found.items():
         wanted = getattr(expected, key)

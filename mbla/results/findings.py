@@ -49,15 +49,11 @@ REMARKS_THAT_WARN = frozenset(
         "control-point-at-rest",
         "livesley-overstates",
         "default-for-published",
-        "peak-on-path",
-        "path-not-seen",
-        "peak-not-seen",
-        "peak-not-examined",
+        "least-far-below",
         "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
-        "range-not-found",
         "force-range-not-found",
         "geometric-safety-not-done",
         "sensitivity-not-done",
@@ -122,17 +118,11 @@ def _reason_of(case: CaseResult) -> str:
 
 
 def _of_figures(case: CaseResult) -> list[Notice]:
-    """What the figures show: tries that did not agree, ends of ranges and peaks that are claimed but not verified."""
+    """What the figures show: a least state and a factor of safety that are claimed but not verified."""
     name, solution, checks = case.load_case.name, case.solution, case.checks
     texts = []
-    if solution.spread is not None:
-        least, greatest = solution.spread
-        texts.append(("tries-disagree", f"several tries ended at load factors between {least:.6g} and {greatest:.6g}"))
-    for end, claimed, found in (("lower", solution.lower, checks.lower), ("upper", solution.upper, checks.upper)):
-        if claimed is not None and found != found:
-            texts.append(("range-not-verified", f"the {end} end of the range was found but is not verified"))
-    if solution.peak is not None and checks.peak_load_factor != checks.peak_load_factor:
-        texts.append(("peak-not-verified", "a peak of the load path was found, but its forces are not verified"))
+    if solution.least is not None and checks.least_load_factor != checks.least_load_factor:
+        texts.append(("least-not-verified", "a state of a lower load factor was found but is not verified"))
     if solution.geometric_safety is not None and not solution.geometric_safety.verified:
         texts.append(("geometric-safety-not-verified", "the geometric factor of safety was found but is not verified"))
     return [Notice("warning", identifier, f"{name}: {text}", name) for identifier, text in texts]

@@ -13,9 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import Model, Tilt
-from mbla.results.findings import found_notices, magnitude_notices, rounding_of
+from mbla.model.model import Tilt
+from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
@@ -23,8 +24,6 @@ from mbla.solution.tilt_circle import angle_above, line_of
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""
-UNIQUE = 1e-6
-"""ends of a range closer than this, relatively, are one figure: the accuracy to which both are found"""
 CLEAN_RESIDUAL = 1e-6
 """residual up to which a solved case without associative flow needs no warning"""
 RESIDUALS = {
@@ -99,57 +98,26 @@ def unproved_words(cases: Sequence[CaseResult]) -> tuple[str, ...]:
     )
 
 
-def range_of(case: CaseResult) -> tuple[float, float] | None:
-    """Verified least and greatest load factor for the mechanism found, one of them nan where it was not verified."""
-    lower, upper = case.checks.lower, case.checks.upper
-    if result_of(case) is None or (np.isnan(lower) and np.isnan(upper)):
-        return None
-    return lower, upper
+def least_of(case: CaseResult) -> float:
+    """Least load factor of the states of rigid joints that a search found; nan where none ran, or it came to none."""
+    return case.checks.least_load_factor if result_of(case) is not None else math.nan
 
 
-def range_is_a_point(ends: tuple[float, float], rounding: float = 0.0) -> bool:
-    """Whether both ends are known and one figure, or no further apart than the rounding of both."""
-    size = max(abs(ends[0]), abs(ends[1]))
-    return bool(np.isfinite(size) and abs(ends[1] - ends[0]) <= max(UNIQUE * size, rounding))
-
-
-def extent_of(model: Model, case: CaseResult) -> tuple[float, float] | None:
-    """Least and greatest load factor that were found: its own, verified ends of its range, ends of other tries.
-
-    None where the case has no result, and where all are one figure to the residual of the state. The
-    greatest is inf where forces that fit the mechanism carry any multiple.
-    """
+def least_known(case: CaseResult) -> float:
+    """The smaller of the load factor and of the least that a search found: to design with; nan without a result."""
     own = result_of(case)
-    if own is None:
-        return None
-    found = [own.load_factor, *(range_of(case) or ()), *(case.solution.spread or ())]
-    extent = float(np.nanmin(found)), float(np.nanmax(found))
-    accuracy = np.nan_to_num(law_residual(case.checks)) * abs(own.load_factor)
-    return None if range_is_a_point(extent, max(rounding_of(model, case), accuracy)) else extent
+    return math.nan if own is None else float(np.fmin(own.load_factor, least_of(case)))
 
 
-def least_and_greatest(model: Model, case: CaseResult) -> tuple[float, float]:
-    """Least and greatest load factor that were found, the same figure where there is one; nan without a result."""
-    own = result_of(case)
-    return extent_of(model, case) or ((np.nan, np.nan) if own is None else (own.load_factor, own.load_factor))
+def by_path(case: CaseResult) -> bool:
+    """Whether the state shown is one of the path of elastic joints."""
+    return not math.isnan(case.checks.elastic_residual)
 
 
-def lower_not_searched(case: CaseResult) -> bool:
-    """Whether no lower load factors were looked for than those that were come by: the least found limits the least."""
-    remarks = (remark.identifier for remark in case.solution.remarks)
-    return result_of(case) is not None and "lower-not-searched" in remarks
-
-
-def factor_unique(model: Model, case: CaseResult) -> bool | None:
-    """True where a theorem says so (associative flow), False where factors that were found differ, None if not known.
-
-    A range that is a point says that this mechanism has one factor; another mechanism may have another.
-    """
-    if result_of(case) is None:
-        return None
-    if case.solution.flow_rule == "associative":
-        return True
-    return None if extent_of(model, case) is None else False
+def falls_while_moving(case: CaseResult) -> bool:
+    """Whether the load falls on the path once the structure moves."""
+    own = case.solution.mechanics
+    return case.solution.path_end == Stop.FALLS and own is not None and case.solution.path_last < own.load_factor
 
 
 def law_residual(checks: Checks) -> float:

@@ -24,7 +24,7 @@ from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingRes
 from mbla.solution.thresholds import STILL
 from mbla.solution.verification.statics import contact_velocities
 
-MOTIONS = ("mechanics", "associative", "lower", "upper", "peak", "level")
+MOTIONS = ("mechanics", "associative", "least", "level")
 """parts of a solution that hold a mechanism"""
 
 

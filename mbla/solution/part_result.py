@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 
@@ -20,9 +19,8 @@ class PartResult:
     sequence    : by the flow rule of the analysis where that is another one, None where it was not reached
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
     standing    : assessment of the dead load alone, None where it was not asked for
-    range       : of the load factor without normality, for the mechanism found
+    least       : state of the least load factor that a search found, None where none ran or it came to none
     remarks     : on the figure, besides those of the sequence
-    peak        : last state of the load path that stands, where that lies above the load factor
     more        : programs solved for what is found in addition to the load factor
     """
 
@@ -31,9 +29,8 @@ class PartResult:
     sequence: SequenceResult | None
     loaded: bool
     standing: StandingResult | None = None
-    range: FactorRange | None = None
+    least: LawState | None = None
     remarks: tuple[Message, ...] = ()
-    peak: LawState | None = None
     more: tuple[ProgramRecord, ...] = ()
 
     def with_remark(self, remark: Message | None, programs: tuple[ProgramRecord, ...] = ()) -> PartResult:
@@ -81,5 +78,4 @@ class PartResult:
     def programs(self) -> tuple[ProgramRecord, ...]:
         """All cone programs that were solved for it."""
         own = self.associative.programs if self.sequence is None else self.sequence.programs
-        ends = () if self.range is None else self.range.programs
-        return (*own, *ends, *self.more)
+        return (*own, *self.more)

@@ -26,7 +26,7 @@ class SolverSettings:
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
     search         : iterations spent on lower load factors, over those of the first state found
-    range, peak, standing : whether these are found in addition to the load factor
+    standing       : whether it is assessed in addition to the load factor
     analysis       : flow rule, scheme with its parameters, ranges of forces
     """
 
@@ -39,15 +39,14 @@ class SolverSettings:
     residual: float = PRESETS["standard"].residual
     cholesky: str | None = None
     search: float = PRESETS["standard"].search
-    range: bool = PRESETS["standard"].range
-    peak: bool = PRESETS["standard"].peak
     standing: bool = PRESETS["standard"].standing
     analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
 
     @property
     def by_elastic_path(self) -> bool:
         """Whether the analysis asks for the path of elastic joints."""
-        return self.analysis.flow_rule == "non_associative" and self.analysis.scheme == "elastic"
+        rule = self.analysis.flow_rule
+        return rule == "dilatancy" or (rule == "non_associative" and self.analysis.scheme == "auto")
 
 
 def solver_settings(analysis: AnalysisSection) -> SolverSettings:
@@ -67,4 +66,4 @@ def settings_for(load_case: LoadCase, settings: SolverSettings) -> SolverSetting
         return settings
     static = {"flow_rule": "associative", "force_ranges": False}
     analysis = settings.analysis.model_copy(update=static)
-    return replace(settings, range=False, peak=False, standing=False, analysis=analysis)
+    return replace(settings, standing=False, analysis=analysis)

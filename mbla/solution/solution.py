@@ -109,13 +109,19 @@ class StandingResult:
 
 @dataclass(frozen=True)
 class PathPoint:
-    """One state of a load path: load factor, contact points open and sliding, greatest share of a load not carried."""
+    """One state of the path of elastic joints.
+
+    displacement : over the elastic one of the structure at its associative load factor
+    open, slide  : contact points open, and others at their friction
+    balanced     : whether forces and loads are in balance well enough for it to count
+    """
 
     step: int
+    displacement: float
     load_factor: float
     open: int
     slide: int
-    residual: float
+    balanced: bool
 
 
 @dataclass(frozen=True)
@@ -210,18 +216,17 @@ class Solution:
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know
-    lower, upper: non-associative flow: least and greatest load factor for the mechanism found, with the forces
-    peak        : greatest load factor of the load path where that lies above ``mechanics``; its state is passed, not
-                  at rest: the forces carry it, the mechanism is how they are passing
+    least       : flow other than associative: the state of rigid joints of the least load factor that a search found
     level       : tilting table: associative answer of the level table with the load across, which proves how much of
                   that it bears
     level_lock  : the same where it bears every multiple: (n_points, 3) contact forces that balance that load alone
-    spread      : least and greatest load factor of several tries that did not agree
     standing    : assessment of the dead load alone
     lock        : unbounded, or without an associative answer: (n_points, 3) contact forces that balance the live load
                   alone, so that any multiple is carried with associative flow
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
-    path        : states of the load path that was followed
+    path        : states of the path of elastic joints that was followed
+    path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor at
+                  its end
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
     curve_end_error, curve_last_error : change of the displacement there, m, and of the load factor there with steps of
@@ -247,16 +252,16 @@ class Solution:
     seconds: float
     scheme: str = ""
     remarks: tuple[Message, ...] = ()
-    lower: Mechanics | None = None
-    upper: Mechanics | None = None
-    peak: Mechanics | None = None
+    least: Mechanics | None = None
     level: Mechanics | None = None
     level_lock: FloatArray | None = None
-    spread: tuple[float, float] | None = None
     standing: StandingResult | None = None
     lock: FloatArray | None = None
     force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
+    path_end: str = ""
+    path_gain: float = math.nan
+    path_last: float = math.nan
     curve: tuple[CurveRow, ...] = ()
     curve_end: CurveEnd = CurveEnd.NONE
     curve_end_error: float = math.nan
@@ -294,8 +299,7 @@ class Checks:
     tension_violation        : largest tension beyond tensile strength, over mean block weight
     slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of
                                the complementarity residual is opening under force
-    lower, upper             : verified ends of the range of a non-associative load factor, NaN where there are none
-    peak_load_factor         : verified greatest load factor of the load path, NaN where there is none
+    least_load_factor        : of the least state that was found, where it fits the law of rigid joints; NaN where none
     elastic_residual         : path of elastic joints: largest force that is off their law, over the largest;
                                penetration, complementarity and balance of power are those of rigid ones, NaN here
     verified                 : true where everything is within tolerance
@@ -315,7 +319,5 @@ class Checks:
     failures: tuple[Message, ...]
     tension_violation: float = float("nan")
     slip_residual: float = float("nan")
-    lower: float = float("nan")
-    upper: float = float("nan")
-    peak_load_factor: float = float("nan")
+    least_load_factor: float = float("nan")
     elastic_residual: float = float("nan")

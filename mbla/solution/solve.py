@@ -18,8 +18,8 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.glued import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
-from mbla.solution.nonassociative.default_scheme import NOT_SEARCHED, looks_lower
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part import solve_part
 from mbla.solution.part_result import PartResult
@@ -49,8 +49,8 @@ LOCK_NOT_PROVED = (
 
 OTHER_HISTORIES = Message(
     "lower-not-searched",
-    "states of lower load factors, to which only other histories lead, were not looked for: the load factor is the "
-    "greatest on the path of elastic joints from the dead load on",
+    "states of lower load factors, to which only other histories lead, were not looked for, as in space unless "
+    "analysis.search says how far",
 )
 
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
@@ -198,20 +198,19 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
-    sequence, ends, rule = result.sequence, result.range, analysis.flow_rule
-    words = [ends.reason] if ends is not None and ends.reason is not None else []
-    elastic = sequence.state is not None and sequence.state.history is not None
-    if elastic or (rule in ("non_associative", "dilatancy") and not looks_lower(stage.parts[first], stage.settings)):
-        words.append(OTHER_HISTORIES if elastic else NOT_SEARCHED)
+    sequence, rule = result.sequence, analysis.flow_rule
+    searched = looks_lower(stage.parts[first], stage.settings) or stage.parts[first].settles
+    words = [] if searched or not stage.settings.by_elastic_path else [OTHER_HISTORIES]
     return replace(
         solution,
         mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),
-        lower=None if ends is None else stage.mechanics(first, ends.lower, rule),
-        upper=None if ends is None else stage.mechanics(first, ends.upper, rule),
-        peak=stage.mechanics(first, result.peak, rule),
+        least=stage.mechanics(first, result.least, rule),
         scheme=analysis.scheme if rule == "non_associative" else "",
         remarks=(*sequence.remarks, *words, *remarks),
         path=sequence.path,
+        path_end=sequence.path_end,
+        path_gain=sequence.path_gain,
+        path_last=sequence.path_last,
     )
 
 

@@ -29,7 +29,6 @@ STATUS = "status"
 FACTORS = (
     "load_factor",
     "least_load_factor",
-    "greatest_load_factor",
     "static_bound",
     "kinematic_bound",
     "associative_load_factor",

@@ -19,11 +19,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
+from mbla.solution.nonassociative.default_scheme import solve_by_default
 
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.nonassociative.default_scheme import solve_by_default
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.settings import SolverSettings
 from tests.line import line_of

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import FactorRange
 
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative import schemes
-from mbla.solution.nonassociative.factor_range import FactorRange
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import Boundedness, BoundednessResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, NOT_REACHED, solve_nonassociative

@@ -8,6 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from mbla.solution.standing.standing_path import StandingPath
 
 from mbla.solution.associative import repair
 from mbla.solution.associative.repair import repaired_forces
@@ -24,7 +25,6 @@ from mbla.solution.solution import Status
 from mbla.solution.standing import spring_state
 from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
 from mbla.solution.standing.spring_state import newton_step
-from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.verify import verify
 from tests.line import BLOCK, line_of, solution_of

@@ -8,10 +8,9 @@ what it leaves alone costs little or changes the structure that is analysed:
   load factor of associative flow to 1e-5, as every other answer that is called solved;
 - the proof of that load factor takes 3 to 15 % of an associative run, and is never left out; nor is the program that
   shows that the dead load is carried, without which a load factor means nothing;
-- standing, range and a peak are answers in addition to the load factor, and none changes it. A draft goes without, save
-  for the standing where flow is not associative: what stands by self-stress only has no collapse load;
-- without normality a draft ends at the first state near the law, and looks for no lower one: on walls that is 1 to 3 %
-  above what the search of the standard finds, on rooms and vaults up to 10 %, in a third to a half of its time;
+- standing is an answer in addition to the load factor, which it does not change. A draft goes without, save where flow
+  is not associative: what stands by self-stress only has no collapse load;
+- without dilatancy a draft looks for no state of a lower load factor than the one that the loading leads to;
 - flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
   to tens of per cent, and no preset touches them.
 """
@@ -35,10 +34,8 @@ class Knobs:
     tolerance : of the cone solver, relative
     gap       : wanted distance of the proved bounds of an associative load factor, relative; a program whose bounds lie
                 further apart is solved again, more sharply
-    residual  : wanted of flow without normality: largest residual at which a scheme has found its state
+    residual  : wanted of flow without normality: largest residual at which a search has found a state
     search    : flow without normality: iterations spent on lower load factors, over those of the first state found
-    range     : whether the least and greatest load factor for the mechanism found are computed
-    peak      : whether a greater load factor on the way is searched for
     standing  : whether it is assessed that the structure stands under its dead load
     """
 
@@ -46,15 +43,13 @@ class Knobs:
     gap: float
     residual: float
     search: float
-    range: bool
-    peak: bool
     standing: bool
 
 
 PRESETS: Mapping[Accuracy, Knobs] = {
-    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, search=0.0, range=False, peak=False, standing=False),
-    "standard": Knobs(tolerance=1e-9, gap=3e-7, residual=1e-6, search=1.0, range=True, peak=True, standing=True),
-    "reference": Knobs(tolerance=1e-10, gap=5e-8, residual=1e-9, search=4.0, range=True, peak=True, standing=True),
+    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, search=0.0, standing=False),
+    "standard": Knobs(tolerance=1e-9, gap=3e-7, residual=1e-6, search=1.0, standing=True),
+    "reference": Knobs(tolerance=1e-10, gap=5e-8, residual=1e-9, search=4.0, standing=True),
 }
 """By the deck's word."""
 

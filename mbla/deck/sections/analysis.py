@@ -39,6 +39,19 @@ class PublishedScheme(Section):
     max_programs: Count = Field(60, description="cone programs before the sequence is given up")
 
 
+class PathOfJoints(Section):
+    """The path of elastic joints, whose greatest load is the load factor without dilatancy."""
+
+    ratio: Annotated[float, Quantity("number", ge=0.05, le=2)] = Field(
+        0.4, description="stiffness of a joint along itself over that across it"
+    )
+    until: Annotated[float, Quantity("number", ge=5, le=1000)] = Field(
+        50.0,
+        description="displacement at which the path ends, over that of the structure at its associative load factor with "
+        "all joints stuck",
+    )
+
+
 class AnalysisSection(Section):
     """How the load factor is computed."""
 
@@ -58,12 +71,13 @@ class AnalysisSection(Section):
         description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
         "convex; clarabel: any; auto: mbla or clarabel by size, the results say which",
     )
-    scheme: Literal["auto", "published", "elastic"] = Field(
+    scheme: Literal["auto", "published"] = Field(
         "auto",
-        description="how non-associative flow is solved. auto: an interior-point run on the joint law, then forces for "
-        "the mechanism and a mechanism for the forces in turn, and from there states of lower load factors; "
-        "published: the procedure of Portioli et al. 2014; elastic: the greatest load on the path of joints with a "
-        "stiffness, from the structure at rest under its dead load",
+        description="how non-associative flow is solved. auto: the greatest load on the path of joints with a stiffness, "
+        "from the structure at rest under its dead load; published: the procedure of Portioli et al. 2014",
+    )
+    path: PathOfJoints = Field(
+        default_factory=PathOfJoints, description="flow other than associative: the path of elastic joints"
     )
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
@@ -71,17 +85,8 @@ class AnalysisSection(Section):
     search: Annotated[float, Quantity("number", ge=0, le=100)] | None = Field(
         None,
         description="flow other than associative: iterations that may be spent on states of lower load factors, over "
-        "those of the first state that was found; in space only where it is given; " + set_by_accuracy("search"),
-    )
-    range: Switch | None = Field(
-        None,
-        description="flow other than associative: least and greatest load factor for the mechanism found; "
-        + set_by_accuracy("range"),
-    )
-    peak: Switch | None = Field(
-        None,
-        description="non-associative flow: a greater load factor that the structure carries before it moves, "
-        "searched for below 85 % of the associative one; " + set_by_accuracy("peak"),
+        "those of the first state that was found; in the plane, and in space where it is given; "
+        + set_by_accuracy("search"),
     )
     standing: Switch | None = Field(
         None,
@@ -111,7 +116,7 @@ class AnalysisSection(Section):
     )
     accuracy: Accuracy = Field(
         "standard",
-        description="one word for tolerance, gap, residual, range, peak and standing. draft: first looks and "
+        description="one word for tolerance, gap, residual, search and standing. draft: first looks and "
         "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives",
     )
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
@@ -124,9 +129,8 @@ class AnalysisSection(Section):
     )
     residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
-        description="flow other than associative: wanted of the largest residual of the joint law; above 1e-6 a scheme "
-        "goes no further than it; else other starts are tried until a state within 1e-6 is found, and a sharper one is "
-        "asked of that state alone; " + set_by_accuracy("residual"),
+        description="flow other than associative: wanted of the largest residual of the joint law of a state that a "
+        "search finds; " + set_by_accuracy("residual"),
     )
     max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
     time_limit: Time | None = Field(None, description="seconds for all load cases together")
@@ -183,13 +187,9 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
         lambda analysis: _concave(analysis) and _by_exact_law(analysis),
         "contact_model: concave and flow_rule: non_associative or dilatancy with scheme: auto",
     ),
-    "peak": (
-        lambda analysis: _concave(analysis) and _no_normality(analysis),
-        "contact_model: concave with flow_rule: non_associative",
-    ),
-    "range": (
-        lambda analysis: _concave(analysis) and analysis.flow_rule != "associative",
-        "contact_model: concave and another flow_rule than associative",
+    "path": (
+        lambda analysis: _concave(analysis) and _by_exact_law(analysis),
+        "contact_model: concave and flow_rule: non_associative or dilatancy with scheme: auto",
     ),
     "reductions": (_concave, "contact_model: concave"),
 }

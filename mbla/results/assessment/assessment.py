@@ -38,7 +38,7 @@ from mbla.results.assessment.spectra import (
     spectrum_of,
 )
 from mbla.results.collapse.collapse import kept
-from mbla.results.outcome import least_and_greatest, result_of, ultimate_displacement
+from mbla.results.outcome import least_known, result_of, ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -122,7 +122,7 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     asked, mechanics = case.load_case.assessment, result_of(case)
     if asked is None:
         return None
-    least = least_and_greatest(model, case)[0]
+    least = least_known(case)
     if mechanics is None or case.status is not Status.SOLVED or not least > 0.0:
         words = "there is no assessment: the load case has no verified load factor above 0"
         return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))

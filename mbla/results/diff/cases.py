@@ -35,15 +35,12 @@ NOISE = 1e-9
 """Share of the loads below which a difference of reactions is rounding."""
 ANSWERS = ("load_factor", "angle", "reaction_force", "reaction_moment")
 """figures of the record of which each load case has one"""
-EXTENT = ("least_load_factor", "greatest_load_factor")
 FURTHER = (
     "associative_load_factor",
     "static_bound",
     "kinematic_bound",
-    *EXTENT,
-    "range_lower",
-    "range_upper",
-    "peak_load_factor",
+    "least_load_factor",
+    "path_last",
 )
 """figures that are compared besides"""
 COLUMNS = {
@@ -192,8 +189,7 @@ def _figures(first: Scene, second: Scene, factors: Factors, tolerance: float) ->
 
     asked = {_asked(_case(scene).load_case) for scene in (first, second)}
     answer = compared(asked.pop() if len(asked) == 1 else "load_factor")
-    several = any(_value(scene, EXTENT[0]) < _value(scene, EXTENT[1]) for scene in (first, second))
-    further = [compared(name) for name in FURTHER if several or name not in EXTENT]
+    further = [compared(name) for name in FURTHER]
     return answer, tuple(found for found in further if not np.isnan(found.values).all())
 
 

@@ -60,10 +60,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "geometric_safety": _geometric_safety(get),
         "sensitivity": _records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
     }
-    if "spread" in own:
-        own["spread"] = tuple(own["spread"].tolist())
-    lower, upper = get["range"].tolist()
-    checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures"), "lower": lower, "upper": upper}
+    checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures")}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
 
 

@@ -19,7 +19,6 @@ from mbla.program.reductions import ProgramSize
 from mbla.results.assessment.assessment import Figure, assessment_of
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
-from mbla.results.outcome import least_and_greatest
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
@@ -226,7 +225,6 @@ def _loads(load_case: LoadCase) -> Content:
 def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     """Everything of one load case but its loads, by the path below it."""
     solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
-    least, greatest = least_and_greatest(model, case)
     content: Content = {
         **_held(solution, Solution, "cases/*"),
         "status": case.status.value,
@@ -234,9 +232,6 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
         **_held(checks, Checks, "cases/*"),
         **_messages("remarks", solution.remarks),
         **_messages("failures", checks.failures),
-        "range": np.array([checks.lower, checks.upper]),
-        "least_load_factor": least,
-        "greatest_load_factor": greatest,
     }
     for group, kind in HISTORY.items():
         content |= _columns(group, kind, getattr(solution, group))

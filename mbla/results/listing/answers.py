@@ -19,9 +19,7 @@ from mbla.results.outcome import (
     angle_at,
     angle_bounds,
     associative_of,
-    extent_of,
-    least_and_greatest,
-    lower_not_searched,
+    least_of,
     reaction_of,
     result_of,
 )
@@ -147,12 +145,12 @@ def bound_figures(case: CaseResult) -> tuple[str, str]:
 
 
 def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str], list[list[str]]]:
-    """Heads and, for each case, figures: of every kind of answer, the least and the greatest found, the associative.
+    """Heads and, for each case, figures: of every kind of answer, the least found, the associative.
 
-    Least and greatest are there where some case has several figures; a case with one has it in both.
+    The least is there where a search was made for some case.
     """
     answers = list(dict.fromkeys(answer_head(model, case.load_case) for case in cases))
-    several = any(extent_of(model, case) is not None or lower_not_searched(case) for case in cases)
+    several = any(not math.isnan(least_of(case)) for case in cases)
     rows = []
     for case in cases:
         own, associative = (
@@ -160,28 +158,12 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
             for found in (result_of(case), associative_of(case))
         )
         figures = [own if head == answer_head(model, case.load_case) else "" for head in answers]
-        rows.append([*figures, *(extent_figures(model, case) if several else ()), associative])
-    return [*answers, *(LEAST_AND_GREATEST if several else ()), "associative"], rows
+        least = [answer_figure(case.load_case, least_of(case))] if several else []
+        rows.append([*figures, *least, associative])
+    return [*answers, *([LEAST] if several else []), "associative"], rows
 
 
-LEAST_AND_GREATEST = ("least found", "greatest found")
-
-
-def extent_figures(model: Model, case: CaseResult) -> list[str]:
-    """The least and the greatest answer that were found, six digits; the answer twice where it is the only one.
-
-    ``<=`` where no lower load factor was looked for than those that were come by.
-    """
-    ends = in_order(case.load_case, least_and_greatest(model, case))
-    least, greatest = (answer_figure(case.load_case, end) for end in ends)
-    if not lower_not_searched(case) or case.load_case.tilt is not None:
-        return [least, greatest]
-    return [f"<= {least}", greatest] if case.load_case.settlement is None else [least, f">= {greatest}"]
-
-
-def in_order(load_case: LoadCase, ends: tuple[float, float]) -> tuple[float, float]:
-    """Load factors of the least and the greatest answer: the greater the loss, the less the reaction."""
-    return ends if load_case.settlement is None else (ends[1], ends[0])
+LEAST = "least found"
 
 
 def digits(value: float) -> str:

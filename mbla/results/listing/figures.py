@@ -10,10 +10,9 @@ import numpy as np
 from mbla.arrays import evenly
 from mbla.model.model import Model
 from mbla.results.listing.answers import (
-    LEAST_AND_GREATEST,
+    answer_figure,
     answer_head,
     digits,
-    extent_figures,
     settlement_lines,
     status_name,
 )
@@ -25,12 +24,12 @@ from mbla.results.outcome import (
     angle_of,
     associative_of,
     best_iterate,
-    extent_of,
+    least_of,
     locked_in,
-    range_of,
     result_of,
 )
 from mbla.results.results import CaseResult
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.solution import Mechanics, ModelSize, Solution, Status
 from mbla.solution.verification.verify_points import tolerances
 
@@ -62,14 +61,10 @@ def _factors(model: Model, case: CaseResult) -> list[str]:
     if best is not None:
         lines += entry(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)")
     lines += _angle(case)
-    if extent_of(model, case) is not None:
-        for which, figure in zip(LEAST_AND_GREATEST, extent_figures(model, case), strict=True):
-            lines += entry(f"{answer_head(model, case.load_case)}, {which}", figure)
-    ends = range_of(case)
-    if ends is not None:
-        lines += entry("range for this mechanism", f"{digits(ends[0])} .. {digits(ends[1])}   (verified)")
-    if solution.spread is not None:
-        lines += entry("spread of several tries", " .. ".join(number(end) for end in solution.spread))
+    if not np.isnan(least_of(case)):
+        lines += entry(
+            f"{answer_head(model, case.load_case)}, least found", answer_figure(case.load_case, least_of(case))
+        )
     if associative is not None and solution.flow_rule != "associative":
         lines += entry("load factor, associative", _beside(associative, own))
     return lines
@@ -203,30 +198,47 @@ def program_lines(solution: Solution) -> list[str]:
     return lines
 
 
-# --- The load path in words -----------------------------------------------------------------------------------------
+# --- The path of elastic joints in words ----------------------------------------------------------------------------
 
 
-BELOW_PEAK = 1e-6
-"""share by which the last load factor lies below the greatest one where the path is said to have a peak"""
+ENDS = {
+    Stop.FALLS: "from there it falls, to {}",
+    Stop.FLAT: "there it stays",
+    Stop.FAR: "it ends at {}",
+}
+"""why a path with an answer ended, with the load factor there"""
 
 
 def path_lines(model: Model, case: CaseResult) -> list[str]:
-    """Peak and end of the path, and a table of the steps that matter; nothing where no path was followed."""
-    path = case.solution.path
+    """Greatest load and end of the path, and a table of the steps that matter; nothing where no path was followed."""
+    solution = case.solution
+    path = solution.path
     if not path:
         return []
-    top = max(range(len(path)), key=lambda row: path[row].load_factor)
-    peak, last = path[top], path[-1]
-    highest, ended = (load_factor_words(model, case.load_case, point.load_factor) for point in (peak, last))
-    says = f"Load path of {counted(len(path), 'step')}"
-    if peak.load_factor - last.load_factor > BELOW_PEAK * abs(peak.load_factor):
-        says += f": its peak, {highest} at step {peak.step}, is a limit point; it ended below, at {ended}."
-    else:
-        says += f": it rose to {ended}, the last at which the structure was seen to stand."
+    top = max(range(len(path)), key=lambda row: (path[row].balanced, path[row].load_factor))
+    peak = path[top]
+    highest, ended = (
+        load_factor_words(model, case.load_case, value) for value in (peak.load_factor, solution.path_last)
+    )
+    says = (
+        f"Path of elastic joints, {counted(len(path), 'step')}: it rises to {highest} at a displacement of "
+        f"{peak.displacement:.3g}, over the elastic one of the structure at its associative load factor"
+    )
+    end = next((words for stop, words in ENDS.items() if stop == solution.path_end), "it was followed no further")
+    says += f"; {end.format(ended)}."
+    if solution.path_end == Stop.FAR:
+        says += f" Of the load factor {100.0 * solution.path_gain:.2g} % were gained over its last half."
     shown = [path[row] for row in sorted({*evenly(len(path), MOST_ROWS - 1), top})]
     rows = [
-        [str(point.step), number(point.load_factor), str(point.open), str(point.slide), small(point.residual)]
+        [
+            str(point.step),
+            f"{point.displacement:.4g}",
+            number(point.load_factor) + ("" if point.balanced else " *"),
+            str(point.open),
+            str(point.slide),
+        ]
         for point in shown
     ]
-    head = ["step", "load factor", "points open", "sliding", "residual"]
-    return ["", *sentence(says), *long_table(head, rows, len(path))[1:]]
+    head = ["step", "displacement", "load factor", "points open", "sliding"]
+    rough = [] if all(point.balanced for point in shown) else sentence("*: on the way, not in balance")
+    return ["", *sentence(says), *long_table(head, rows, len(path))[1:], *rough]

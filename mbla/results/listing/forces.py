@@ -17,9 +17,12 @@ from mbla.results.collapse.mechanics import (
 )
 from mbla.results.collapse.thrust import thrust_of
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, table, vector
-from mbla.results.outcome import UNIQUE, result_of
+from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics
+
+UNIQUE = 1e-6
+"""Ends of a range closer than this, over the largest force, are one figure: the accuracy to which both are found."""
 
 
 def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:

@@ -13,8 +13,8 @@ from mbla.results.listing.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
-from mbla.results.listing.verdict_words import bound_words, reasons, verdict
-from mbla.results.outcome import case_notices, lower_not_searched, notices_of, result_of
+from mbla.results.listing.verdict_words import bound_words, least_words, reasons, verdict
+from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
 
@@ -85,13 +85,7 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
         [case.load_case.name, status_words(case.status), *row[: len(heads)]]
         for case, row in zip(cases, rows, strict=True)
     ]
-    lines = table(["load case", "status", *heads], rows, left=2)
-    return lines + (sentence(UPPER_LIMIT) if any(lower_not_searched(case) for case in cases) else [])
-
-
-UPPER_LIMIT = (
-    "<= and >=: not searched for further; in space lower load factors are looked for where analysis.search says so"
-)
+    return table(["load case", "status", *heads], rows, left=2)
 
 
 def _codes(results: Results, cases: Sequence[CaseResult]) -> list[str]:
@@ -114,6 +108,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
     assessed = assessment_words(model, contacts, case)
-    for words in (*details, *reasons(case), bound_words(model, case), curve_words(model, case), assessed):
+    said = (least_words(model, case), *details, *reasons(case), bound_words(model, case))
+    for words in (*said, curve_words(model, case), assessed):
         lines += sentence(words, DETAIL)
     return lines

@@ -7,18 +7,18 @@ import numpy as np
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
 from mbla.results.findings import BROKEN, rounding_of
-from mbla.results.listing.answers import answer_value, in_order, reaction_unit, status_name
+from mbla.results.listing.answers import answer_value, reaction_unit, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
     angle_at,
     associative_of,
     best_iterate,
-    extent_of,
+    by_path,
+    falls_while_moving,
     law_residual,
+    least_of,
     locked_in,
     presumes_standing,
-    range_is_a_point,
-    range_of,
     result_of,
 )
 from mbla.results.results import CaseResult
@@ -49,42 +49,40 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
 
 
 def verdict(model: Model, case: CaseResult) -> str:
-    """The outcome of a case in one line; only a solved case reads as a collapse."""
+    """The outcome of a case in one line; only a solved case reads as a collapse, or as the beginning of one."""
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)
     value = _known_words(model, case, mechanics.load_factor)
     verified = case.status is Status.SOLVED
-    known = _with_extent(model, case, f"{value}, verified" if verified else f"about {value}, approximate")
+    known = f"{value}, verified" if verified else f"about {value}, approximate"
     if case.load_case.objective is not None:
         figure = f"{number(answer_value(case.load_case, mechanics.load_factor))} {model.units.force}"
         return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
-    moves = "follows its support" if case.load_case.settlement is not None else "collapses"
+    moves = "starts to move" if by_path(case) else "collapses"
+    moves = "follows its support" if case.load_case.settlement is not None else moves
     if presumes_standing(case):
+        return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law at {known}"
+    if falls_while_moving(case):
         return (
-            f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law {_at(known)}"
+            f"{moves} at {known}; while it moves, {load_factor_words(model, case.load_case, case.solution.path_last)}"
         )
-    if np.isfinite(case.checks.peak_load_factor):
-        peak = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
-        return f"{moves} at {peak}, the peak of its load path; once moving it carries {known}"
-    return f"{moves} {_at(known)}"
+    return f"{moves} at {known}"
 
 
-def _at(known: str) -> str:
-    """Words for a load factor, or for several, after a verb."""
-    return known if known.startswith(("between", "from")) else f"at {known}"
+FAR_BELOW = 0.03
+"""share of the load factor by which the least that was found lies below it from which that is said"""
 
 
-def _with_extent(model: Model, case: CaseResult, known: str) -> str:
-    """A load factor; where others were found, the least and the greatest of all before it."""
-    extent = extent_of(model, case)
-    if extent is None:
-        return known
-    least, greatest = (load_factor_words(model, case.load_case, end) for end in in_order(case.load_case, extent))
-    if np.isinf(extent[1]):
-        first = load_factor_words(model, case.load_case, extent[0])
-        return f"from {first} on without limit; the state shown here at {known}"
-    return f"between {least} (least found) and {greatest} (greatest found); the state shown here at {known}"
+def least_words(model: Model, case: CaseResult) -> str:
+    """The least load factor that a search found; nothing where none did."""
+    own, least = result_of(case), least_of(case)
+    if own is None or np.isnan(least):
+        return ""
+    words = f"least found: {load_factor_words(model, case.load_case, least)}, a state of rigid joints, verified"
+    if least < (1.0 - FAR_BELOW) * own.load_factor:
+        words += "; only another history than this loading leads to it: earlier movements, forces that are locked in"
+    return words
 
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
@@ -101,9 +99,6 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
     best = best_iterate(case)
     if locked_in(case) and case.status is not Status.NO_EQUILIBRIUM:
         return "no collapse load: it stands only by self-stress"
-    if case.status is Status.NOT_VERIFIED and np.isfinite(case.checks.peak_load_factor):
-        carried = load_factor_words(model, case.load_case, case.checks.peak_load_factor)
-        return f"NOT VERIFIED: no load factor; it stands up to {carried}, verified"
     if best is None:
         return _without_figures(case)
     value = load_factor_words(model, case.load_case, best.load_factor)
@@ -164,33 +159,19 @@ def bound_words(model: Model, case: CaseResult) -> str:
 
 def uniqueness_words(model: Model, case: CaseResult) -> str:
     """Whether another load factor would fit as well; nothing for associative flow, whose factor is unique."""
-    own, associative, ends = result_of(case), associative_of(case), range_of(case)
+    own, associative = result_of(case), associative_of(case)
     if own is None or case.solution.flow_rule == "associative":
         return ""
-
-    def value(load_factor: float) -> str:
-        return load_factor_words(model, case.load_case, load_factor)
-
     above = ""
     if associative:
         wide = case.checks.gap > GAP_TOLERANCE  # then what is proved of it
-        limit = value(case.checks.kinematic_bound if wide else associative.load_factor)
+        value = case.checks.kinematic_bound if wide else associative.load_factor
         of = "the kinematic bound of " if wide else ""
+        limit = load_factor_words(model, case.load_case, value)
         above = f"; {of}the associative load factor, {limit}, is an upper limit to all"
-    if ends is None:
-        return f"Without normality the load factor need not be unique; its range is not known{above}."
-    if range_is_a_point(ends, rounding_of(model, case)):
-        return (
-            f"For this mechanism every distribution of forces has the same load factor; without normality another "
-            f"mechanism may have another{above}."
-        )
-    least, greatest = (
-        "an end that is not verified" if np.isnan(end) else "any" if np.isinf(end) else value(end) for end in ends
-    )
-    return (
-        f"The load factor is not unique; admissible for this mechanism: from {least} to {greatest}; other mechanisms "
-        f"may reach lower{above}."
-    )
+    if by_path(case):
+        return f"The load factor is the greatest on the path of elastic joints from the stress-free assembly{above}."
+    return f"Without normality other load factors may fit the joint law as well{above}."
 
 
 PUBLISHED = (

@@ -17,7 +17,7 @@ from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
-from mbla.results.outcome import angle_of, associative_of, least_and_greatest, range_of, reaction_of, result_of
+from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of
 from mbla.results.pictures.image import Picture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -61,13 +61,8 @@ class Case:
 
     @property
     def least_load_factor(self) -> float:
-        """The least that was found, load_factor where there is no other; nan where there is none."""
-        return least_and_greatest(self.model, self.record)[0]
-
-    @property
-    def greatest_load_factor(self) -> float:
-        """The greatest that was found; inf where forces that fit the mechanism carry any multiple."""
-        return least_and_greatest(self.model, self.record)[1]
+        """Of the states of rigid joints that a search found; nan where none ran, or it came to none."""
+        return least_of(self.record)
 
     @property
     def associative_load_factor(self) -> float:
@@ -83,11 +78,6 @@ class Case:
     def kinematic_bound(self) -> float:
         """A load factor that no flow rule exceeds; nan where nothing is proved."""
         return self.record.checks.kinematic_bound
-
-    @property
-    def range(self) -> tuple[float, float] | None:
-        """Verified least and greatest load factor for the mechanism found, nan for an end that is not; None if none."""
-        return range_of(self.record)
 
     @property
     def angle(self) -> float:

@@ -107,12 +107,13 @@ def _part_programs(page: Page, frames: tuple[Any, Any], program: Any) -> None:
 
 
 def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
-    """Load factor over the steps of the load path, and how many contact points are open and slide."""
+    """Load factor over the displacement of the path of elastic joints, and how many contact points are open and slide."""
     path = scene.case.solution.path
-    steps = [point.step for point in path]
-    style = {"linewidth": 1.8 * page.scale, "markersize": 5 * page.scale}
-    dress(page, axes, "step of the load path", "load factor")
-    axes.plot(steps, [point.load_factor for point in path], color=BLUE, marker="o", label="load factor", **style)
+    steps = [point.displacement for point in path]
+    style = {"linewidth": 1.8 * page.scale, "markersize": 3 * page.scale}
+    dress(page, axes, "displacement of the path over the elastic one", "load factor")
+    factors = [point.load_factor if point.balanced else np.nan for point in path]
+    axes.plot(steps, factors, color=BLUE, marker="o", label="load factor", **style)
     count = axes.twinx()
     count.plot(steps, [point.open for point in path], color=PURPLE, linestyle="--", label="open", **style)
     count.plot(steps, [point.slide for point in path], color=ORANGE, linestyle=":", label="sliding", **style)

@@ -23,9 +23,7 @@ from mbla.results.collapse.thrust import point_friction_use
 from mbla.results.outcome import (
     angle_bounds,
     angle_of,
-    factor_unique,
-    least_and_greatest,
-    range_of,
+    least_of,
     result_of,
     ultimate_displacement,
 )
@@ -74,10 +72,6 @@ def _reaction(case: CaseResult, *, turns: bool) -> float | None:
 
 def _of_case(of: Callable[[CaseResult], Any]) -> Callable[[Scene, str], Any]:
     return lambda scene, _: None if scene.case is None else of(scene.case)
-
-
-def _extent(end: int) -> Callable[[Scene, str], float | None]:
-    return lambda scene, _: None if scene.case is None else least_and_greatest(scene.model, scene.case)[end]
 
 
 def _of_parts(of: Callable[..., Any]) -> Callable[[Scene, str], Any]:
@@ -158,10 +152,7 @@ def _friction_use(scene: Scene, _: str) -> Values | None:
 
 
 FOUND: dict[str, Callable[[Scene, str], Any]] = {
-    "least": _extent(0),
-    "greatest": _extent(1),
-    "factor_unique": lambda scene, _: None if scene.case is None else factor_unique(scene.model, scene.case),
-    "range": _of_case(range_of),
+    "least": _of_case(least_of),
     "angle": _of_case(angle_of),
     "angle_bounds": _of_case(lambda case: None if case.load_case.tilt is None else angle_bounds(case)),
     "ultimate_displacement": _of_case(ultimate_displacement),
@@ -213,7 +204,6 @@ def _lower_names(modes: Iterable[InterfaceMode | ContactMode]) -> list[str]:
 
 
 NAMES: dict[tuple[str, str], Callable[[Scene], Sequence[str]]] = {
-    ("cases", "factor_unique"): lambda _: ("no", "yes"),
     **{(table, "figures"): lambda _: FIGURES for table in ("cases", "blocks", "interfaces", "points")},
     ("blocks", "groups"): lambda scene: names_of(scene.model.blocks.groups),
     ("blocks", "members"): lambda scene: names_of(scene.model.blocks.labels.members),

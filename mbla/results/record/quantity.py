@@ -61,15 +61,14 @@ COMPONENTS = {
 
 NOT_VERIFIED = "not verified: {}"
 """attribute of datasets that ``mbla verify`` takes as the run reported them"""
-PASSED = "mechanism of a peak"
 UNVERIFIED = {
     "versions": "versions and date",
     "times": "times",
     "files": "names of files",
     "words": "reasons and remarks in words",
-    "course": "how it was solved: scheme, programs, iterations, steps of the path, sizes, reductions",
+    "course": "how it was solved: scheme, programs, iterations, steps and end of the path, sizes, reductions",
     "curve": "of a pushover: errors of its load factors, which blocks fall without the rest, why it ends",
-    "searches": "tries that did not agree, ranges of normal forces",
+    "searches": "ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
     "before",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
@@ -147,14 +146,10 @@ def unit_text(kind: UnitKind, units: Units) -> str:
 ANSWERS = {
     "mechanics": ("", "by the deck's flow rule"),
     "associative": ("/associative", "by the associative flow rule, where that is not the deck's"),
-    "lower": ("/lower", "the least for the mechanism found"),
-    "upper": ("/upper", "the greatest for the mechanism found"),
-    "peak": ("/peak", "the greatest of the load path, passed before the structure comes to rest"),
+    "least": ("/least", "the least of the states of rigid joints that a search found"),
     "level": ("/level", "of the level table with the load across, by the associative flow rule"),
 }
 """answers of a solution: group below the load case, and whose forces and velocities they are"""
-OF_MECHANISM = ("contact_velocities", "mechanism", "modes")
-"""quantities of an answer that at a peak nothing proves"""
 PROVED = {"cases/*/standing/verdict": tuple(verdict.value for verdict in PROVED_STANDING)}
 """texts that are verified although others of their quantity are not"""
 
@@ -175,13 +170,12 @@ def _stored() -> Iterator[Quantity]:
     for answer, (group, whose) in ANSWERS.items():
         for row in own:
             part, words = row["part"].replace("ANSWER", answer), row["words"].replace("WHOSE", whose)
-            unverified = PASSED if answer == "peak" and row["name"] in OF_MECHANISM else ""
-            yield quantity_of(row | {"place": f"cases/*{group}", "part": part, "words": words}, unverified)
+            yield quantity_of(row | {"place": f"cases/*{group}", "part": part, "words": words})
     for row in (row for row in rows[first:] if row not in own):
         yield quantity_of(row)
 
 
-def quantity_of(row: dict[str, str], unverified: str = "") -> Quantity:
+def quantity_of(row: dict[str, str]) -> Quantity:
     """A quantity from a row of a table of the record."""
     kind, _, dimension = row.get("rule", "").partition(" of ")
     return Quantity(
@@ -195,7 +189,7 @@ def quantity_of(row: dict[str, str], unverified: str = "") -> Quantity:
         start_of=dimension if kind == "start" else "",
         open=kind == "open",
         part=row.get("part", ""),
-        unverified=unverified or UNVERIFIED.get(row.get("unverified", ""), ""),
+        unverified=UNVERIFIED.get(row.get("unverified", ""), ""),
         proved=PROVED.get(f"{row['place']}/{row['name']}", ()),
     )
 

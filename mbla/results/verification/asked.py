@@ -14,15 +14,14 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck
 from mbla.model import Model
-from mbla.results.outcome import WITH_VALUE, law_residual
+from mbla.results.outcome import WITH_VALUE
 from mbla.results.results import CaseResult, Results
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
-from mbla.solution.solution import Mechanics, Solution, Status
-from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.solution import Solution, Status
 from mbla.solution.verification.verify import locked_with_normality
 
 SAME = 1e-9
@@ -88,14 +87,13 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)
     _history(found, deck, case)
-    _range(found, deck, case)
+    _least(found, deck, case)
     return found
 
 
 def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
     solution, load_case = case.solution, case.load_case
     settings = settings_for(load_case, solver_settings(deck.analysis))
-    normality = settings.analysis.flow_rule == "associative"
     mechanics = solution.mechanics
     history = None if mechanics is None else mechanics.remembered
     present: Mapping[str, tuple[object, bool]] = {
@@ -105,9 +103,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
         "ranges of normal forces": (solution.force_ranges, settings.analysis.force_ranges),
         "a verdict on standing": (solution.standing, settings.standing),
-        "a lower end of the range": (solution.lower, settings.range and not normality),
-        "an upper end of the range": (solution.upper, settings.range and not normality),
-        "a peak": (solution.peak, not normality),
+        "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
         "the answer of a level table": (solution.level, load_case.tilt is not None),
         "the lock of a level table": (solution.level_lock, load_case.tilt is not None),
     }
@@ -163,49 +159,22 @@ def _associative(found: Found, model: Model, contacts: Contacts, case: CaseResul
 def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     """What elastic joints remember, without which nothing shows that their law holds."""
     mechanics, settings = case.solution.mechanics, settings_for(case.load_case, solver_settings(deck.analysis))
-    if mechanics is not None and settings.by_elastic_path and mechanics.remembered is None:
+    asked = settings.by_elastic_path and not case.solution.conditions_on_interfaces
+    moves = mechanics is not None and mechanics.load_factor != 0.0  # what moves at once has no path
+    if mechanics is not None and moves and asked and mechanics.remembered is None:
         found.differences.append(lacks("history of elastic joints"))
 
 
-def _range(found: Found, deck: Deck, case: CaseResult) -> None:
-    """Both ends of the range of a state that fits the law, and what the programs found for them."""
-    solution, own = case.solution, case.solution.mechanics
-    knobs = settings_for(case.load_case, solver_settings(deck.analysis))
-    if own is None or solution.status not in WITH_VALUE or solution.conditions_on_interfaces:
+def _least(found: Found, deck: Deck, case: CaseResult) -> None:
+    """The least state, where the structure lies in the plane: that a search came to none is of the run alone."""
+    solution = case.solution
+    settings = settings_for(case.load_case, solver_settings(deck.analysis))
+    planar = solution.size is not None and solution.size.dimension == 2
+    asked = settings.by_elastic_path and settings.search > 0.0 and (planar or settings.analysis.search is not None)
+    if not asked or case.load_case.settlement is not None or solution.conditions_on_interfaces:
         return
-    if not knobs.range or by_normality(solution) or own.remembered is not None:
-        return
-    for name in ("lower", "upper"):
-        end: Mechanics | None = getattr(solution, name)
-        if end is not None:
-            found.differences += _of_programs(name, end, own, solution)
-        elif law_residual(case.checks) <= SOLVED_RESIDUAL and not _none_found(name, solution):
-            _missing(found, f"{name} end of the range", case, "range-not-found", "range-not-computed")
-
-
-def _none_found(name: str, solution: Solution) -> bool:
-    """Whether the programs of the run for an end of a range gave none, as a remark says: both are of the run alone.
-
-    Where no forces fit the mechanism at one end, no program is solved for the other.
-    """
-    own = [record.load_factor for record in solution.programs if record.kind == f"range, {name}"]
-    known = own or [record.load_factor for record in solution.programs if record.kind.startswith("range, ")]
-    said = any(each.identifier == "range-not-found" and f"{name} end" in each.words for each in solution.remarks)
-    return said and bool(known) and not np.isfinite(known).any()
-
-
-def _of_programs(name: str, end: Mechanics, own: Mechanics, solution: Solution) -> list[str]:
-    """What contradicts an end of a range among the programs of the run: one of these found it, or nothing beyond."""
-    known = [record.load_factor for record in solution.programs if record.kind == f"range, {name}"]
-    known = [value for value in known if np.isfinite(value)]
-    sign = 1.0 if name == "lower" else -1.0
-    size = max(abs(end.load_factor), abs(own.load_factor))
-    near = any(abs(value - end.load_factor) <= SAME * size for value in known)
-    beyond = any(sign * (value - end.load_factor) >= 0.0 for value in known)
-    if near or (beyond and abs(end.load_factor - own.load_factor) <= SAME * size):
-        return []
-    figures = ", ".join(f"{value:.6g}" for value in known) or "nothing"
-    return [f"the {name} end of the range is {end.load_factor:.6g}, the programs of the run found {figures} for it"]
+    if solution.status in WITH_VALUE and solution.mechanics is not None and solution.least is None:
+        found.unconfirmed.append("that the search came to no state of rigid joints is not verified")
 
 
 def _missing(found: Found, what: str, case: CaseResult, *excuses: str) -> None:

@@ -31,21 +31,18 @@ def _without_dilatancy(case: CaseResult) -> bool:
     return case.solution.flow_rule == "non_associative"
 
 
+def _by_path(case: CaseResult) -> bool:
+    return case.solution.flow_rule in ("non_associative", "dilatancy")
+
+
 POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
     "associative-bounds-apart": lambda case: case.solution.flow_rule != "associative",
     "default-for-published": _without_dilatancy,
-    "elastic-path-rises": _without_dilatancy,
-    "found-above-path": _without_dilatancy,
+    "elastic-path-rises": _by_path,
     "law-missed": lambda case: case.solution.flow_rule != "associative",
     "livesley-confirms": lambda case: case.solution.flow_rule == "livesley" and case.status is Status.SOLVED,
     "livesley-overstates": lambda case: case.solution.flow_rule == "livesley" and case.status is not Status.SOLVED,
     "locked-by-dilatancy": lambda case: case.solution.associative is None,
-    "range-not-computed": lambda case: case.solution.lower is None and case.solution.upper is None,
-    "range-not-found": lambda case: case.solution.lower is None or case.solution.upper is None,
-    "path-not-seen": _without_dilatancy,
-    "peak-not-examined": _without_dilatancy,
-    "peak-not-seen": _without_dilatancy,
-    "peak-on-path": lambda case: case.solution.peak is not None,
     "tilt-by-steps": lambda case: case.load_case.tilt is not None and not case.load_case.tilt.tangent,
 }
 """Of remarks that the run alone can make: whether it can make them of a load case; of all others it can."""

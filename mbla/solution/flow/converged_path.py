@@ -60,6 +60,8 @@ class _Path:
         there = self._solved(length)
         if there.misfit > ROUGH:
             self.length, self.halved = 0.5 * length, self.halved + 1
+            if self.settings.late:
+                return Stop.LATE
             return Stop.STUCK if self.length < SHORTEST else None
         h = there.step.length
         moved = h * self.joints.velocities(there.state.u)
@@ -70,11 +72,15 @@ class _Path:
             self.top = there
         if self.displacement <= 0.5 * until:
             self.half = self.top
-        self.steps.append(PathStep(self.displacement, there.state.factor, counted=True, reach=1.0))
+        opened, slide = self.memory.yielding(self.joints, there.state.normal)
+        step = PathStep(self.displacement, there.state.factor, counted=True, reach=1.0, open=opened, slide=slide)
+        self.steps.append(self.settings.seen(step))
         self.length = min(GROWTH * length, max(LONGEST * self.displacement, self.settings.first))
         if there.state.factor < (1.0 - self.settings.dropped) * self.top.state.factor and self.displacement > 1.0:
             return Stop.FALLS
-        return Stop.FAR if self.displacement >= until * (1.0 - 1e-9) else None
+        if self.displacement >= until * (1.0 - 1e-9):
+            return Stop.FAR
+        return Stop.LATE if self.settings.late else None
 
     def _solved(self, length: float) -> PeakStep:
         """A step of a length in units."""

@@ -163,7 +163,9 @@ class _Path:
         motions = [gone.step.length * motion for motion in self.joints.motions(gone.state.u)]
         self.memory = self.memory.after(self.joints, moved, gone.state.normal, motions)
         counted = self._counts(None if len(breaking) else gone)
-        self.steps.append(PathStep(self.displacement, self.state.factor, counted, reach))
+        opened, slide = self.memory.yielding(self.joints, self.state.normal)
+        step_gone = PathStep(self.displacement, self.state.factor, counted, reach, opened, slide)
+        self.steps.append(self.settings.seen(step_gone))
         ended = self._ended(counted, reach, sigma)
         if len(breaking):
             self._let_go(breaking)
@@ -238,6 +240,8 @@ class _Path:
             return Stop.FLAT
         if self.displacement >= settings.until * (1.0 - ENDS):
             return Stop.FAR
+        if settings.late:
+            return Stop.LATE
         short = reach < settings.short
         self.blocked = (self.blocked[0] + 1, self.blocked[1] + 1) if short else (0, 0)
         wandering = len(self.steps) - self.in_balance if self.in_balance else 0

@@ -22,6 +22,7 @@ class Stop(StrEnum):
     STUCK = "stuck"
     BROKE_DOWN = "breaks down"
     BUDGET = "budget"
+    LATE = "time limit"
     UNBOUNDED = "unbounded"
     UNLOADED = "no live load"
     DOES_NOT_STAND = "does not stand"
@@ -41,12 +42,15 @@ class PathStep:
     load_factor  : of the program
     counted      : whether the state is in balance well enough
     reach        : of its direction
+    open, slide  : contact points that are open, and those at their friction
     """
 
     displacement: float
     load_factor: float
     counted: bool
     reach: float
+    open: int = 0
+    slide: int = 0
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,11 @@ What each is worth was measured on whole corpora (tests/performance); ``ratio`` 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from mbla.solution.flow.path_record import PathStep
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,8 @@ class PathSettings:
     short        : reach of a direction below which a step is blocked
     wandering    : steps in a row out of balance, once it was reached, after which a path is stuck
     steps        : at most
+    deadline     : time.monotonic() at which a path ends, or None
+    watch        : called after every step
     """
 
     ratio: float = 0.4
@@ -40,6 +46,19 @@ class PathSettings:
     short: float = 0.03
     wandering: int = 60
     steps: int = 600
+    deadline: float | None = None
+    watch: Callable[[PathStep], None] | None = field(default=None, compare=False)
+
+    @property
+    def late(self) -> bool:
+        """Whether the time limit has passed."""
+        return self.deadline is not None and time.monotonic() > self.deadline
+
+    def seen(self, step: PathStep) -> PathStep:
+        """The step, once those who watch have seen it."""
+        if self.watch is not None:
+            self.watch(step)
+        return step
 
     def validate(self) -> None:
         """Raise a ValueError where a path could not be followed with them."""

@@ -17,7 +17,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.followed import AtRest
 from mbla.solution.flow.path_of_part import PathOfPart
 from mbla.solution.flow.peak_step import PeakStep
-from mbla.solution.nonassociative.law_state import LawState, StepHistory
+from mbla.solution.nonassociative.law_state import LawState, StepHistory, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
@@ -40,6 +40,19 @@ def state_of_path(program: Program, found: PathOfPart, settings: SolverSettings,
             return None
         forces[resting] = history.remembered[resting] = carried
     return LawState(forces, velocities, factor, peak.misfit, history=history)
+
+
+def state_at_once(
+    program: Program, associative: LawState | None, slope: FloatArray, settings: SolverSettings, log: Log
+) -> LawState | None:
+    """The state of what moves under any live load, by the associative mechanism; None without, or without forces.
+
+    slope : (n_points,) tangent of the dilatancy angle
+    """
+    forces = None if associative is None else least_forces(program, settings, log)
+    if associative is None or isinstance(forces, ConeSolution) or forces is None:
+        return None
+    return law_state(program, slope, forces, associative.velocities, 0.0)
 
 
 def _of_followed(

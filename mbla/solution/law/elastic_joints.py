@@ -34,6 +34,9 @@ from mbla.solution.law.interface_law import InterfaceLaw, InterfaceState
 from mbla.solution.law.interface_rows import InterfaceRows, with_resultants, with_rows
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 
+AT_FRICTION = 1e-9
+"""Share of its limit by which the shear of a joint at its friction may lie below it, by rounding."""
+
 LEAST_LIMIT = 1e-9
 """Least limit of shear, in mean loads of a block: the cone of a joint without friction has no inside."""
 
@@ -204,6 +207,15 @@ class Memory:
     def forces(self) -> FloatArray:
         """n̄ and t̄, (n_points, components)."""
         return together(self.normal, self.shear)
+
+    def yielding(self, joints: ElasticJoints, normal: FloatArray) -> tuple[int, int]:
+        """Numbers of contact points that are open, and of others that are at their friction.
+
+        normal : (n_points,) normal forces after the step that is remembered
+        """
+        opened: BoolArray = self.normal < -joints.program.limits.tension
+        slide = ~opened & (lengths(self.shear) >= (1.0 - AT_FRICTION) * joints.limit(normal))
+        return int(opened.sum()), int(slide.sum())
 
     @staticmethod
     def stress_free(joints: ElasticJoints, gaps: FloatArray | float = 0.0) -> Memory:

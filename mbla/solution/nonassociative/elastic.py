@@ -10,44 +10,71 @@ import time
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
-from mbla.solution.flow.path_record import RISES, Stop
+from mbla.solution.flow.path_record import RISES, PathStep, Stop
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.state_of_path import state_of_path
+from mbla.solution.flow.state_of_path import state_at_once, state_of_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import IterationRecord, PathPoint, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, EXACT_RESIDUAL
 
 
 def solve_by_elastic_path(
-    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log, dilatancy: bool = False
+    program: Program, associative: AssociativeResult, slope: FloatArray, settings: SolverSettings, log: Log
 ) -> SequenceResult:
     """The state at the greatest load of the path.
 
-    dilatancy : whether joints lift by their own angle as they slide
+    slope : (n_points,) tangent of the angle by which joints lift as they slide
     """
-    started = time.perf_counter()
-    slope = program.limits.dilatancy if dilatancy else None
-    found = path_of_part(program, associative, PathSettings(), slope)
-    state = state_of_path(program, found, settings, log)
-    status, reason = _claim(found, state, program.scaling.live)
+    started, number, live = time.perf_counter(), len(associative.programs) + 1, program.scaling.live
+    count = 0
+
+    def watch(step: PathStep) -> None:
+        nonlocal count
+        count += 1
+        seconds, factor = time.perf_counter() - started, step.load_factor * live
+        log(IterationRecord(number, count, factor, np.nan, np.nan, np.nan, step.reach, seconds))
+
+    asked = settings.analysis.path
+    wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, watch=watch)
+    found = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
+    if found.stop is Stop.AT_ONCE:
+        state = state_at_once(program, associative.state, slope, settings, log)
+    else:
+        state = state_of_path(program, found, settings, log)
+    status, reason = _claim(found, state, live)
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
-    record = ProgramRecord(
-        len(associative.programs) + 1,
-        "elastic path",
+    seconds = time.perf_counter() - started
+    record = ProgramRecord(number, "elastic path", status, value, np.nan, found.factorizations, seconds)
+    rises = found.stop is Stop.FAR and found.gain > RISES
+    return SequenceResult(
         status,
-        value,
-        np.nan,
-        found.factorizations,
-        time.perf_counter() - started,
+        state,
+        reason,
+        (*associative.programs, record),
+        remarks=(RISING.format(100.0 * found.gain),) if rises else (),
+        path=_curve(program, found),
+        path_end=found.stop.value,
+        path_gain=found.gain,
+        path_last=found.moving * live,
     )
-    remarks = (RISING.format(100.0 * found.gain),) if found.stop is Stop.FAR and found.gain > RISES else ()
-    return SequenceResult(status, state, reason, (*associative.programs, record), remarks=remarks)
+
+
+def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:
+    """Load factors over displacements, of the model."""
+    if found.path is None or found.rest is None:
+        return ()
+    begins, live = found.rest.begins, program.scaling.live
+    return tuple(
+        PathPoint(number, step.displacement, (begins + step.load_factor) * live, step.open, step.slide, step.counted)
+        for number, step in enumerate(found.path.steps, start=1)
+    )
 
 
 def _claim(found: PathOfPart, state: LawState | None, live: float) -> tuple[Status, str]:
@@ -56,7 +83,7 @@ def _claim(found: PathOfPart, state: LawState | None, live: float) -> tuple[Stat
         status = Status.UNBOUNDED if found.stop is Stop.UNBOUNDED else Status.NOT_VERIFIED
         return status, WITHOUT[found.stop]
     if state is None:
-        return Status.NOT_VERIFIED, NO_STATE
+        return Status.TIME_LIMIT if found.stop is Stop.LATE else Status.NOT_VERIFIED, NO_STATE
     if state.residual > APPROXIMATE_RESIDUAL:
         return Status.NOT_VERIFIED, MISSED.format(state.residual)
     if not found.is_answer:
@@ -71,7 +98,6 @@ WITHOUT = {
     Stop.UNDECIDED: "whether elastic joints carry the dead load from the stress-free assembly was not decided",
     Stop.UNBOUNDED: "with elastic joints nothing gives way, however large the live load",
     Stop.UNLOADED: "no live load acts on it",
-    Stop.AT_ONCE: "with elastic joints it moves under any live load",
 }
 NO_STATE = "the path of elastic joints came to no state in balance"
 MISSED = Message("elastic-law-missed", "the step of the greatest load fits the law of elastic joints to {:.2g} only")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,9 +20,6 @@ from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL, STIL
 NEAR_ZERO = 1e-5
 """Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
 share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
-
-SPREAD_STEPS = 10
-"""Last steps that give the spread of a load factor that did not come to rest: those that fit the law as its state."""
 
 AS_ASKED = Message(
     "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
@@ -64,51 +62,39 @@ class LawState:
 class SequenceResult:
     """Best state of a sequence; status SOLVED where it converged, APPROXIMATE where not.
 
-    spread  : least and greatest load factor of several tries that did not agree, non-dimensional
     remarks : what a reader of the figure must know
-    path    : the load path, where one was followed, load factors of the model
+    path    : of elastic joints, where it was followed, load factors of the model
+    path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
+              of the model at its end
     tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
-    first   : load factor of the first state near the law that was found, before lower ones were looked for
-    before  : the answer as it was before lower ones were looked for; None where none were
     """
 
     status: Status
     state: LawState | None
     reason: str
     programs: tuple[ProgramRecord, ...]
-    spread: tuple[float, float] | None = None
     remarks: tuple[Message, ...] = ()
     path: tuple[PathPoint, ...] = ()
+    path_end: str = ""
+    path_gain: float = math.nan
+    path_last: float = math.nan
     tolerance_requested: float | None = None
-    first: float | None = None
-    before: LawState | None = None
 
 
-def as_asked(
-    state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...], first: float | None = None
-) -> SequenceResult:
+def as_asked(state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
     """A rough state with which a scheme ends, for its residual is within the one that was asked for."""
     words = AS_ASKED.format(residual, wanted)
     if residual <= SOLVED_RESIDUAL:
-        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,), first=first)
-    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted, first=first)
+        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,))
+    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
 
 
-def spread_of(best: LawState, states: Sequence[LawState]) -> tuple[float, float]:
-    """Least and greatest load factor of the best state and of the last ones that fit the law as it does."""
-    fits = max(SOLVED_RESIDUAL, best.residual)
-    factors = [state.load_factor for state in (best, *states[-SPREAD_STEPS:]) if state.residual <= fits]
-    return min(factors), max(factors)
-
-
-def not_at_rest(
-    best: LawState, words: Message, programs: tuple[ProgramRecord, ...], spread: tuple[float, float]
-) -> SequenceResult:
+def not_at_rest(best: LawState, words: Message, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
     """The best state of steps that did not come to rest, judged by its residual; ``words`` say so."""
     if best.residual <= SOLVED_RESIDUAL:
-        return SequenceResult(Status.SOLVED, best, "", programs, spread, (words,))
+        return SequenceResult(Status.SOLVED, best, "", programs, remarks=(words,))
     status = Status.APPROXIMATE if best.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED
-    return SequenceResult(status, best, words, programs, spread)
+    return SequenceResult(status, best, words, programs)
 
 
 def broken_off(

@@ -80,9 +80,7 @@ def sharpened(
         return sequence if fell_short else replace(sequence, state=best)
     if not fell_short and sequence.state.residual <= EXACT_RESIDUAL:
         return replace(sequence, state=best)
-    return replace(
-        sequence, status=Status.SOLVED, state=best, reason="", spread=None, remarks=(), tolerance_requested=None
-    )
+    return replace(sequence, status=Status.SOLVED, state=best, reason="", remarks=(), tolerance_requested=None)
 
 
 def stepped(stiffness: Stiffness, slope: FloatArray, state: LawState, most: int) -> tuple[LawState, int]:

@@ -38,7 +38,6 @@ from mbla.solution.nonassociative.law_state import (
     as_asked,
     broken_off,
     not_at_rest,
-    spread_of,
 )
 from mbla.solution.resultants.convex_associative import KKT_REGULARIZATION, ConvexAssociative, unbalanced
 from mbla.solution.resultants.convex_state import state_without_dilatancy
@@ -231,4 +230,4 @@ def _finished(states: list[LawState], settings: SolverSettings, records: tuple[P
     if best.residual <= _asked(settings):
         return as_asked(best, best.residual, settings.residual, records)
     words = f"did not converge in {len(states)} iterations: residual of the joint law {best.residual:.2g}"
-    return not_at_rest(best, Message("law-missed", words), records, spread_of(best, states))
+    return not_at_rest(best, Message("law-missed", words), records)

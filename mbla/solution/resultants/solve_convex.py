@@ -14,7 +14,6 @@ from mbla.program.resultants.crushing import crushing_violation
 from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.mechanics import AT_REST, contact_modes, contact_velocities
-from mbla.solution.nonassociative.default_scheme import NOT_SEARCHED
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.resultants.convex_alternation import solve_by_alternation
 from mbla.solution.resultants.convex_associative import ConvexAssociative, solve_convex_associative
@@ -29,9 +28,9 @@ LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
     "without dilatancy no state of collapse was found"
 )
-NO_RANGE = Message(
-    "range-not-computed",
-    "with conditions on interfaces the admissible load factors for this mechanism are not computed",
+NOT_SEARCHED = Message(
+    "lower-not-searched",
+    "states of lower load factors were not looked for: the least found is an upper limit of the least",
 )
 
 
@@ -77,8 +76,7 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
         iterations=(),
         seconds=0.0,
         scheme="" if sequence is None else "auto",
-        remarks=() if sequence is None else (*sequence.remarks, NO_RANGE, NOT_SEARCHED),
-        spread=None if sequence is None or sequence.spread is None else _scaled(sequence.spread, live * unit),
+        remarks=() if sequence is None else (*sequence.remarks, NOT_SEARCHED),
         certificate_motions=motions,
         contact_model=convex.contact_model,
         stress_blocks=bool(len(convex.crushing.interfaces)),
@@ -146,10 +144,6 @@ def modes_of(convex: ConvexProgram, mechanics: Mechanics, dilatancy: FloatArray)
 
 def _mechanics(convex: ConvexProgram, state: LawState | None, dilatancy: FloatArray) -> Mechanics | None:
     return None if state is None else convex_mechanics(convex, state, dilatancy)
-
-
-def _scaled(ends: tuple[float, float], factor: float) -> tuple[float, float]:
-    return ends[0] * factor, ends[1] * factor
 
 
 def _status(associative: ConvexAssociative, sequence: SequenceResult) -> Status:

@@ -15,14 +15,9 @@ and stay within the yield conditions however often they are taken: ‖T‖ ≤ �
 Each block is judged by its own live load, the mean of the others' where it has none: a light block that breaks away
 must not be lost in the mean.
 
-*Range*: an end of the range of a load factor without normality is accepted where its own forces balance the loads at
-its load factor, keep to the yield conditions and fit, by the flow rule claimed, the mechanism of the load factor
-reported. That nothing lies beyond the ends is claimed by the solver alone; that everything between them is possible
-needs no more than the two, since the states of one mechanism are convex.
-
-*Peak*: the state at a peak of the load path is passed and not at rest, so that its velocities prove nothing. Its forces
-do: they balance the loads at its load factor within the yield conditions. That the path goes down from there is claimed
-by the solver alone.
+*Least*: the least state without normality that a search found is accepted where its own forces balance the loads at its
+load factor, keep to the yield conditions and fit its own mechanism by the flow rule claimed, of rigid joints. That none
+lies below is claimed by nobody.
 
 *Tilt*: the loads at collapse are those of the tilting table at the angle stated.
 """
@@ -40,8 +35,8 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.solution import WITH_VALUE, Checks, Mechanics, Solution
-from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
+from mbla.solution.solution import WITH_VALUE, Checks, Solution
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord, never_left
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.residuals import residuals_of
@@ -173,43 +168,15 @@ def _lasting_excess(lock: FloatArray, limits: YieldLimits) -> FloatArray:
     return np.asarray(np.where(np.isfinite(limits.compression), np.linalg.norm(lock, axis=1), np.maximum(dry, 0.0)))
 
 
-SAME_MECHANISM = 1e-9
-"""Share of the largest velocity by which the mechanism of an end may differ: it is stored as the same."""
-
-
-def range_checks(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[float, float]:
-    """Lower and upper end of the range where they are verified, NaN where they are not or where there is none."""
-    found = solution.mechanics
-    if found is None or (solution.lower is None and solution.upper is None):
-        return np.nan, np.nan
+def least_check(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
+    """Load factor of the least state that was found where it fits the law of rigid joints, NaN where not, or none is."""
+    least = solution.least
+    if least is None:
+        return np.nan
     case = Case(model, contacts, load_case)
     dilatancy = case.limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros(len(contacts.points))
-    left = residuals_of(case, found, dilatancy).largest
-    if not left <= SOLVED_RESIDUAL:
-        return np.nan, np.nan
-    allowed = max(EXACT_RESIDUAL, left)
-
-    def verified(end: Mechanics | None, sign: float) -> float:
-        if end is None or sign * (end.load_factor - found.load_factor) < 0.0:
-            return np.nan
-        speed = float(np.abs(found.mechanism).max(initial=0.0))
-        if np.abs(end.mechanism - found.mechanism).max(initial=0.0) > SAME_MECHANISM * speed:
-            return np.nan
-        fits = residuals_of(case, end, dilatancy).largest <= allowed
-        return end.load_factor if fits else np.nan
-
-    return verified(solution.lower, -1.0), verified(solution.upper, 1.0)
-
-
-def peak_check(model: Model, contacts: Contacts, load_case: LoadCase, peak: Mechanics | None) -> float:
-    """Load factor of a peak where its forces carry it, NaN where they do not or where there is none."""
-    if peak is None:
-        return np.nan
-    residuals = residuals_of(Case(model, contacts, load_case), peak, np.zeros(len(peak.contact_forces)))
-    carried = (
-        residuals.equilibrium <= EXACT_RESIDUAL and residuals.yielding <= EXACT_RESIDUAL
-    )  # neither where it is no number
-    return peak.load_factor if carried else np.nan
+    fits = residuals_of(case, least, dilatancy).largest <= SOLVED_RESIDUAL
+    return least.load_factor if fits else np.nan
 
 
 SAME_LOADS = 1e-6

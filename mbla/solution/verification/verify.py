@@ -25,10 +25,9 @@ from mbla.solution.verification.case import Case
 from mbla.solution.verification.elastic_law import elastic_settlement_residual
 from mbla.solution.verification.further_claims import (
     ASTRAY,
+    least_check,
     lock_failures,
     never_failures,
-    peak_check,
-    range_checks,
     standing_failures,
     tilt_failures,
 )
@@ -80,7 +79,6 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     )
     if failures:
         checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
-    lower, upper = range_checks(model, contacts, load_case, solution)
     if solution.status is Status.UNBOUNDED:
         failures = (
             never_failures(load_case, checks)
@@ -88,9 +86,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
             else (*failures, *_lock_failures(model, contacts, load_case, solution))
         )
         checks = replace(checks, verified=not failures, failures=failures)
-    return replace(
-        checks, lower=lower, upper=upper, peak_load_factor=peak_check(model, contacts, load_case, solution.peak)
-    )
+    return replace(checks, least_load_factor=least_check(model, contacts, load_case, solution))
 
 
 def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:

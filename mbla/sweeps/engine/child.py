@@ -26,6 +26,7 @@ from typing import Any
 
 from mbla.deck import read_deck
 from mbla.deck.deck import Deck
+from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.errors import UsageError
 from mbla.process.limits import can_limit, limited, written
 from mbla.process.run_options import RunOptions
@@ -116,22 +117,30 @@ FOLDER = "points"
 
 
 ON_REQUEST = (
-    *("best_iterate", "complete", "factor_unique", "greatest_load_factor", "iterations", "least_load_factor", "path"),
-    *("programs", "range", "reductions", "remarks", "settings", "solver", "spread", "time"),
+    *("assessment", "assessment_ratio", *(f"assessment_ratio_{state}" for state in LIMIT_STATES)),
+    *(
+        "best_iterate",
+        "complete",
+        "iterations",
+        "least_load_factor",
+        "programs",
+        "remarks",
+        "settings",
+        "solver",
+        "time",
+    ),
 )
-"""first keys of columns that need, or may depend on, the range of the load factor"""
+"""first keys of columns that need, or may depend on, the least load factor that a search finds"""
 
 
 def requested_only(deck: Deck, plan: Plan) -> Deck:
-    """The deck of a point, without the range where no column and no file shows it.
+    """The deck of a point, without a search for lower load factors where no column and no file shows their least.
 
-    It is a further result on the state that was found (``mbla.solution.part``), changes no other value, and may take
-    longer than the state itself. It is computed all the same where its lower end is the load factor. A peak decides the
-    status of what is left after it.
+    It is a further result (``mbla.solution.part``), changes no other value, and may take longer than the load factor.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck
-    analysis = deck.analysis.model_copy(update={"range": False})
+    analysis = deck.analysis.model_copy(update={"search": 0.0})
     return replace(deck, content=deck.content.model_copy(update={"analysis": analysis}))
 
 

@@ -21,7 +21,7 @@ from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
-from mbla.results.outcome import least_and_greatest, locked_in, result_of
+from mbla.results.outcome import least_known, locked_in, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
@@ -132,7 +132,7 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
         return Answer(x, math.nan, -math.inf, math.nan, Standing.SELF_STRESS.value, verified, case.solution.reason)
     if own is None:
         return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
-    result = least_and_greatest(model, case)[0] if question.kind == "least_load_factor" else own.load_factor
+    result = least_known(case) if question.kind == "least_load_factor" else own.load_factor
     slope, bounds, associative = math.nan, (math.nan, math.nan), case.solution.associative
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
         bounds = case.checks.static_bound, case.checks.kinematic_bound

@@ -29,7 +29,7 @@ from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.process.run_options import RunOptions
 from mbla.results.files import OutputFolder
 from mbla.results.movable_deck import MovableDeck, movable_deck, sections_text
-from mbla.results.outcome import least_and_greatest, result_of
+from mbla.results.outcome import least_known, result_of
 from mbla.results.provenance import deck_record
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
@@ -239,10 +239,7 @@ def _factor(results: Results, name: str) -> float:
         if case.load_case.name == name and case.status is Status.UNBOUNDED:
             return math.inf
         if case.load_case.name == name and result_of(case) is not None:
-            least, _ = least_and_greatest(results.model.of_case(case.load_case), case)
-            mechanics = result_of(case)
-            assert mechanics is not None
-            return mechanics.load_factor if math.isnan(least) else least
+            return least_known(case)
     return math.nan
 
 

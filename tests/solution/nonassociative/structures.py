@@ -7,10 +7,10 @@ Without dilatancy a structure has many load factors, and these walls have been s
 from __future__ import annotations
 
 import numpy as np
+from mbla.solution.nonassociative.default_scheme import solve_by_default
 
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.nonassociative.default_scheme import solve_by_default
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.settings import SolverSettings

@@ -6,11 +6,11 @@ from itertools import islice, pairwise
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import factor_range
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.nonassociative.alternation import FLOOR, Alternation
-from mbla.solution.nonassociative.factor_range import factor_range
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
 from tests.line import BLOCK, line_of

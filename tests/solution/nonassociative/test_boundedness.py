@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from mbla.solution.standing.standing_path import PathState, StandingPath
 
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
@@ -17,7 +18,6 @@ from mbla.solution.nonassociative.locking import (
 )
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.standing.standing_path import PathState, StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from tests.decks.folder import BENCHMARKS
 from tests.line import line_of

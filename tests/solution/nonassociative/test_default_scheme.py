@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.default_scheme import MISSED, _Scheme, solve_by_default, state_near
+from mbla.solution.nonassociative.factor_range import factor_range, unbalanced
 
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import default_scheme
-from mbla.solution.nonassociative.default_scheme import MISSED, _Scheme, solve_by_default, state_near
-from mbla.solution.nonassociative.factor_range import factor_range, unbalanced
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.search import NEEDLESS
 from mbla.solution.settings import SolverSettings

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import FactorRange, factor_range, unbalanced
 from scipy.optimize import linprog
 
 from mbla.program.program import Program
 from mbla.program.static import fixed_mechanism_form
 from mbla.solution.mechanics import lifted
-from mbla.solution.nonassociative.factor_range import FactorRange, factor_range, unbalanced
 from mbla.solution.nonassociative.law_state import LawState, point_motion
 from tests.line import BLOCK, HEAD, WALL, Line, line_of
 from tests.solution.nonassociative.structures import FERRIS_1, FERRIS_3, FERRIS_5, SETTINGS, solved

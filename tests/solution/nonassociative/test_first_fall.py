@@ -8,16 +8,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import unbalanced
+from mbla.solution.nonassociative.first_fall import NOT_STANDING, PathVerdict, judged_by_path
+from mbla.solution.standing.standing_path import StandingPath
 
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import mechanics_of
-from mbla.solution.nonassociative.factor_range import unbalanced
-from mbla.solution.nonassociative.first_fall import NOT_STANDING, PathVerdict, judged_by_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import Status
-from mbla.solution.standing.standing_path import StandingPath
 from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.further_claims import peak_check
 from tests.line import BLOCK, HEAD, Line, line_of, line_of_file, load_factor, solution_of

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import unbalanced
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative.factor_range import unbalanced
 from mbla.solution.nonassociative.joint_equations import (
     JointEquations,
     outlying,

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mbla.solution.standing.standing_path import FARTHEST, FINE, StandingPath
 
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing import standing_path
-from mbla.solution.standing.standing_path import FARTHEST, FINE, StandingPath
 from mbla.solution.standing.weak_spring_continuation import DEPENDS_ON_STIFFNESS, Outcome, Weakening, weaken_springs
 from tests.line import BLOCK, line_of, line_of_file
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mbla.solution.nonassociative.factor_range import factor_range
 
 from mbla.arrays import FloatArray
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import lifted, mechanics_of
-from mbla.solution.nonassociative.factor_range import factor_range
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Mechanics, Solution, Status
 from mbla.solution.verification.further_claims import peak_check, range_checks

@@ -1,0 +1,67 @@
+"""The state of the least load factor that fits the law of rigid joints, of those that a search finds.
+
+Without dilatancy a structure may come to rest in many states: that of the path of elastic joints is the one to which its
+loading leads from the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of convex
+programs (``alternation``) from the normal forces of the path come to an exact state, and with a tilt to lower ones, and
+the same from the associative forces, as long as their iterations are within ``analysis.search`` times those spent so
+far, or within some hundred.
+
+That is no proof: the least of all is a problem that nobody solves with certainty (Ferris and Tin-Loi 2001,
+doi:10.1016/S0020-7403(99)00111-3). Found are, of walls 1, 3 and 5 of theirs, 0.638982, 0.355817 and 0.207973, the least
+that are known.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.program.program import Program
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.search import Search
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import ProgramRecord
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+
+
+def looks_lower(program: Program, settings: SolverSettings) -> bool:
+    """Whether states of lower load factors are looked for: in the plane, in space where the deck says how far.
+
+    In space contact points let a joint carry all its force at the one point about which it twists, where friction does
+    no work: of a block that is twisted alone the least load factor is nothing. That belongs to the points, not to the
+    structure, and is not looked for unasked. The reaction of a support that gives way is that of its path.
+    """
+    in_question = program.components == 2 or settings.analysis.search is not None
+    return settings.by_elastic_path and settings.search > 0.0 and in_question and not program.settles
+
+
+def least_found(
+    program: Program,
+    slope: FloatArray,
+    path: LawState,
+    associative: AssociativeResult,
+    settings: SolverSettings,
+    log: Log,
+    records: list[ProgramRecord],
+) -> LawState | None:
+    """The state of the least load factor that was found; None where the search came to none.
+
+    slope   : (n_points,) tangent of the dilatancy angle
+    path    : the state of the path of elastic joints
+    records : gets a line for every program
+    """
+    start = associative.state
+    search = Search(program, slope, settings, log, records, np.inf if start is None else start.load_factor)
+    normals = [path.forces[:, 0]] if start is None else [path.forces[:, 0], start.forces[:, 0]]
+    for normal in normals:
+        near = search.approach(normal)
+        if search.least_residual > SOLVED_RESIDUAL:
+            search.descend(near)
+        if search.least_residual <= SOLVED_RESIDUAL or search.late:
+            break
+    if search.answer is None or search.answer.residual > SOLVED_RESIDUAL:
+        return None
+    search.lower(normals[1:])
+    return search.answer
