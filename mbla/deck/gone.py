@@ -13,8 +13,8 @@ KEYS: Mapping[str, str] = {
     "analysis.second_opinion": "leave it out, the proved bounds say how good the load factor is",
     "analysis.form": "leave it out, the associative program is solved in velocities",
     "analysis.peak": "leave it out, the load factor is the greatest on the path of elastic joints",
-    "analysis.range": "leave it out, the load factor is the greatest on the path of elastic joints; analysis.search says "
-    "how far to look for lower ones",
+    "analysis.range": "leave it out, the load factor is the greatest on the path of elastic joints; analysis.search "
+    "says how far to look for lower ones",
     "analysis.forces": "leave it out, contact forces of associative flow are those that prove its load factor",
     "analysis.proximal": "leave it out, the default scheme has no parameters but analysis.search",
     "analysis.interior": "leave it out, the default scheme has no parameters but analysis.search",

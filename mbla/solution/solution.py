@@ -225,8 +225,8 @@ class Solution:
                   alone, so that any multiple is carried with associative flow
     force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the path of elastic joints that was followed
-    path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor at
-                  its end
+    path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
+                  at its end
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
     curve_end_error, curve_last_error : change of the displacement there, m, and of the load factor there with steps of

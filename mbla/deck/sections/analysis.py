@@ -47,8 +47,8 @@ class PathOfJoints(Section):
     )
     until: Annotated[float, Quantity("number", ge=5, le=1000)] = Field(
         50.0,
-        description="displacement at which the path ends, over that of the structure at its associative load factor with "
-        "all joints stuck",
+        description="displacement at which the path ends, over that of the structure at its associative load factor "
+        "with all joints stuck",
     )
 
 
@@ -73,8 +73,8 @@ class AnalysisSection(Section):
     )
     scheme: Literal["auto", "published"] = Field(
         "auto",
-        description="how non-associative flow is solved. auto: the greatest load on the path of joints with a stiffness, "
-        "from the structure at rest under its dead load; published: the procedure of Portioli et al. 2014",
+        description="how non-associative flow is solved. auto: the greatest load on the path of joints with a "
+        "stiffness, from the structure at rest under its dead load; published: the procedure of Portioli et al. 2014",
     )
     path: PathOfJoints = Field(
         default_factory=PathOfJoints, description="flow other than associative: the path of elastic joints"

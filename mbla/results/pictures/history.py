@@ -107,7 +107,7 @@ def _part_programs(page: Page, frames: tuple[Any, Any], program: Any) -> None:
 
 
 def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
-    """Load factor over the displacement of the path of elastic joints, and how many contact points are open and slide."""
+    """Load factor over the displacement of the path of elastic joints, and how many points are open and slide."""
     path = scene.case.solution.path
     steps = [point.displacement for point in path]
     style = {"linewidth": 1.8 * page.scale, "markersize": 3 * page.scale}

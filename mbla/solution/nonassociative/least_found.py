@@ -1,10 +1,10 @@
 """The state of the least load factor that fits the law of rigid joints, of those that a search finds.
 
-Without dilatancy a structure may come to rest in many states: that of the path of elastic joints is the one to which its
-loading leads from the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of convex
-programs (``alternation``) from the normal forces of the path come to an exact state, and with a tilt to lower ones, and
-the same from the associative forces, as long as their iterations are within ``analysis.search`` times those spent so
-far, or within some hundred.
+Without dilatancy a structure may come to rest in many states: that of the path of elastic joints is the one to which
+its loading leads from the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of
+convex programs (``alternation``) from the normal forces of the path come to an exact state, and with a tilt to lower
+ones, and the same from the associative forces, as long as their iterations are within ``analysis.search`` times those
+spent so far, or within some hundred.
 
 That is no proof: the least of all is a problem that nobody solves with certainty (Ferris and Tin-Loi 2001,
 doi:10.1016/S0020-7403(99)00111-3). Found are, of walls 1, 3 and 5 of theirs, 0.638982, 0.355817 and 0.207973, the least

@@ -169,7 +169,7 @@ def _lasting_excess(lock: FloatArray, limits: YieldLimits) -> FloatArray:
 
 
 def least_check(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
-    """Load factor of the least state that was found where it fits the law of rigid joints, NaN where not, or none is."""
+    """Load factor of the least state where it fits the law of rigid joints; NaN where not, and where there is none."""
     least = solution.least
     if least is None:
         return np.nan
