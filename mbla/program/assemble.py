@@ -22,7 +22,7 @@ from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.restrict import guide_projector, guided_program
-from mbla.program.stiffness_shares import equal_shares
+from mbla.program.stiffness_shares import stiffness_areas
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -58,7 +58,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
         scaling=scaling,
         allowed=guide_projector(model, free, scaling),
         settles=load_case.settlement is not None,
-        areas=equal_shares(contacts),
+        areas=stiffness_areas(contacts),
         brittle=None if contacts.ties is None else brittle_points(contacts, contacts.ties),
     )
 

@@ -1,7 +1,8 @@
 """Shares of the stiffness of joints that the contact points of a reduced program have, and which of them are brittle.
 
-Normal stiffness is in proportion to area, and the points of an interface share it equally: shares by the area nearest
-to each point would hang on rounding of the coordinates. Ties are as stiff as the mean of the points.
+Normal stiffness is in proportion to area, and the corners of an interface share it equally: shares by the area nearest
+to each would hang on rounding of the coordinates. Where a deck asks for more points than corners each has the stiffness
+of its own area, as on a grid, whose sum goes to the integral. Ties are as stiff as the mean of the points.
 """
 
 from __future__ import annotations
@@ -12,14 +13,16 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.program.program import Program, Reduction
+from mbla.program.reductions.scene import refined
 
 
-def equal_shares(contacts: Contacts) -> FloatArray:
-    """Area of each point of all contacts, (n_points,), interfaces divided equally; of ties the mean."""
-    of_point = contacts.interface_of_point
+def stiffness_areas(contacts: Contacts) -> FloatArray:
+    """Area that each point of all contacts is as stiff as, (n_points,); of ties the mean."""
+    of_point, joints = contacts.interface_of_point, ~contacts.tie_points
     shares = (contacts.areas / np.maximum(np.diff(contacts.point_start), 1))[of_point]
-    joints = np.ones(len(shares), dtype=bool)
-    joints[contacts.tie_points] = False
+    own = np.zeros(len(shares), dtype=bool)
+    own[joints] = refined(of_point[joints], contacts.points[joints], contacts.frames[joints, 0])
+    shares[own] = contacts.point_areas[own]
     shares[~joints] = shares[joints].mean() if joints.any() else 1.0
     return np.asarray(shares)
 

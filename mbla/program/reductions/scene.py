@@ -70,8 +70,7 @@ class Scene:
     @property
     def refined_points(self) -> BoolArray:
         """Points of interfaces whose outline goes straight on at some of them, (n_points,)."""
-        straight = self.interfaces[np.abs(turns(self)) <= STRAIGHT_ON]
-        return np.asarray(np.isin(self.interfaces, straight))
+        return refined(self.interfaces, self.points, self.frames[:, 0])
 
     @property
     def length(self) -> float:
@@ -156,6 +155,12 @@ def _own(allowed: sp.csr_array, blocks: IntArray) -> sp.csr_array | None:
 def turns(scene: Scene) -> FloatArray:
     """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
     return _turns(scene.interfaces, scene.points, scene.frames[:, 0])
+
+
+def refined(interfaces: IntArray, points: FloatArray, normals: FloatArray) -> BoolArray:
+    """Which points (n_points, 3) are of interfaces whose outline goes straight on at some of them, (n_points,)."""
+    straight = interfaces[np.abs(_turns(interfaces, points, normals)) <= STRAIGHT_ON]
+    return np.asarray(np.isin(interfaces, straight))
 
 
 @shared("turns")

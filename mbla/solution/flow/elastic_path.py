@@ -48,6 +48,10 @@ half: a dome on its drum snaps there, and no smoothing led on from where it was 
 NOT_LOW = (0, 0.0, np.inf)
 """No step below the peak."""
 
+NEAR, MOST_NEAR = 1e-3, 8
+"""Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
+the decks four peaks could not, each had one that could among the eight greatest, within 0.05 % of it."""
+
 AT_BREAK, NEARLY = 4, 0.99
 """Lengths tried for the step to where a tie breaks, and share of the way to there that is near enough."""
 
@@ -73,6 +77,7 @@ class _Path:
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
     top      : step of the greatest load factor so far
+    near     : steps next below it, the greatest first
     later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
@@ -96,6 +101,7 @@ class _Path:
     good: float = field(init=False)
     displacement: float = 0.0
     top: PeakStep | None = None
+    near: list[PeakStep] = field(default_factory=list)
     later: PeakStep | None = None
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
@@ -212,6 +218,8 @@ class _Path:
         unbalanced, state = self.joints.unbalanced(self.state), self.state
         if float(np.abs(unbalanced).max(initial=0.0)) >= self.settings.counted:
             return False
+        if gone is not None:
+            self._keep_near(gone)
         if gone is not None and state.factor > self.peak:
             self.top, self.later = gone, None
         elif gone is not None and self.top is not None and gone.sigma <= 0.5 * self.top.sigma:
@@ -220,6 +228,12 @@ class _Path:
         if state.factor > 1.001 * self.risen[0]:
             self.risen = (state.factor, self.displacement)
         return True
+
+    def _keep_near(self, gone: PeakStep) -> None:
+        """Steps that may stand for the peak."""
+        greatest = max(self.peak, gone.state.factor)
+        near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - NEAR) * greatest]
+        self.near = sorted(near, key=lambda each: -each.state.factor)[:MOST_NEAR]
 
     def _smoothed_little(self, sigma: float) -> bool:
         """Whether smoothing takes less than a third of the live power at the associative load."""
@@ -300,11 +314,17 @@ class _Path:
                 peaks[place], more = solved_peak(peak, self.force)
                 spent += more
         top, half = peaks
+        for near in self.near:
+            if top is None or top.is_solved or near is self.top:
+                continue
+            other, more = solved_peak(near, self.force)
+            spent += more
+            top = min(top, other, key=lambda peak: peak.misfit)
         if top is not None and self.later is not None:
             rough = self.top is not None and top.state is self.top.state and not self._smoothed_little(top.sigma)
             if rough or top.state.factor < self.later.state.factor:
                 later, more = solved_peak(self.later, self.force)
                 spent += more
-                top = later if rough else max(top, later, key=lambda peak: peak.state.factor)
+                top = later if rough else max(top, later, key=lambda peak: (peak.is_solved, peak.state.factor))
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
         return ElasticPath(*found)

@@ -60,6 +60,7 @@ class Gravity:
     settled : whether the step was solved
     held    : largest force of a spring, in mean loads of a block
     steps   : factorisations
+    step    : that was solved
     """
 
     state: StepState
@@ -68,6 +69,7 @@ class Gravity:
     settled: bool
     held: float
     steps: int
+    step: JointStep
 
     @property
     def carried(self) -> bool:
@@ -94,7 +96,7 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
     memory = replace(memory, shear=state.shear)
     most = float(np.abs(springs * state.u).max(initial=0.0))
-    return Gravity(state, memory, force, settled, most, spent)
+    return Gravity(state, memory, force, settled, most, spent, step)
 
 
 def _solved(step: JointStep, force: float, start: float) -> tuple[StepState, bool, int]:

@@ -36,6 +36,11 @@ class PeakStep:
     displacement: float
     misfit: float = float("inf")
 
+    @property
+    def is_solved(self) -> bool:
+        """Whether the law holds."""
+        return self.misfit <= (EXACT_OF_LAWS if self.step.joints.laws else EXACT)
+
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     """The state with the openings that its motion has, where these are not nearly closed, and as much flow."""
@@ -90,8 +95,7 @@ def solved_peak(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
     step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
     best = replace(peak, misfit=misfit(step, peak.state, force))
-    exact = EXACT_OF_LAWS if joints.laws else EXACT
-    while best.misfit > exact and spent < STEPS:
+    while not best.is_solved and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
         if found is None:

@@ -22,7 +22,7 @@ from mbla.solution.flow.state_of_path import state_at_once, state_of_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, PathPoint, ProgramRecord, Status
-from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, EXACT_RESIDUAL
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 
 def solve_by_elastic_path(
@@ -88,7 +88,7 @@ def _claim(found: PathOfPart, state: LawState | None, live: float) -> tuple[Stat
         return Status.NOT_VERIFIED, MISSED.format(state.residual)
     if not found.is_answer:
         return Status.APPROXIMATE, NOT_SEEN.format(f"{state.load_factor * live:.6g}", found.stop)
-    if state.residual > EXACT_RESIDUAL:
+    if state.residual > SOLVED_RESIDUAL:
         return Status.APPROXIMATE, MISSED.format(state.residual)
     return Status.SOLVED, ""
 

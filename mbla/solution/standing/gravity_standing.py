@@ -16,10 +16,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.stiffness_shares import shares_in_units, shares_of
-from mbla.solution.flow.gravity_step import HELD, Gravity, gravity_step
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.peak_step import EXACT, PeakStep, solved_peak
-from mbla.solution.law.elastic_joints import ElasticJoints, Memory
-from mbla.solution.law.joint_equations import JointStep
+from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.mechanics import lifted, motion_of
 from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.solution import Standing, StandingResult
@@ -58,8 +57,7 @@ def standing_by_gravity(program: Program, carried: bool | None) -> StandingResul
 
 def _proved(program: Program, joints: ElasticJoints, gravity: Gravity) -> StandingResult:
     """The state at rest, solved until the law holds."""
-    step = JointStep(joints, Memory.stress_free(joints), 1.0, driven=False, held=HELD * joints.matrix.size)
-    start = PeakStep(step, EXACT**2 * gravity.force**2, gravity.state, 0.0)
+    start = PeakStep(gravity.step, EXACT**2 * gravity.force**2, gravity.state, 0.0)
     state = solved_peak(start, gravity.force)[0].state
     forces = state.forces
     rest = LawState(forces, state.u, 0.0, 0.0, history=StepHistory(np.zeros_like(forces), joints.normal, joints.shear))

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.stiffness_shares import equal_shares, shares_in_units
+from mbla.program.stiffness_shares import stiffness_areas, shares_in_units
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
@@ -59,7 +59,7 @@ def elastic_settlement_residual(case: Case, forces: FloatArray, settlement: Floa
 def _by_shares(case: Case) -> FloatArray:
     """Normal stiffness of the points by their shares, (n_points,), in the deck's units but for one factor."""
     units = case.program.scaling.units
-    return shares_in_units(equal_shares(case.contacts), units) * units**2
+    return shares_in_units(stiffness_areas(case.contacts), units) * units**2
 
 
 def _off(

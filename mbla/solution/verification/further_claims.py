@@ -89,8 +89,14 @@ def standing_failures(
     scale = load_scale(model, contacts, load_case, limits)
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, forces, UNBALANCED, FORCE_ROUNDING))
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load
-    unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     failures = []
+    if load_case.settlement is not None:  # a support that gives way later is held, whatever its reaction
+        live, free = load_case.live_load, model.free
+        acting = acting - live * float((acting * live)[free].sum() / (live * live)[free].sum())
+        most = float(np.abs(live).max()) * float(np.abs(settlement).max(initial=0.0))
+        if abs(float((live * settlement)[free].sum())) > AGAINST * most:
+            failures.append("the support that gives way is displaced under the dead load alone")
+    unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:
         share = unbalanced[worst] / scale.own[worst]
