@@ -49,7 +49,6 @@ REMARKS_THAT_WARN = frozenset(
         "control-point-at-rest",
         "livesley-overstates",
         "default-for-published",
-        "least-far-below",
         "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",

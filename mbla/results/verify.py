@@ -3,7 +3,7 @@
 Model, contacts and loads are built again from the deck in the file and must come out the same: residuals and bounds
 prove an answer for the arrays of a file, and that these arrays are the structure that its deck describes follows from
 its texts and the meshes and tables that it names. Of every case the forces and mechanisms are taken, and all that
-follows from them is found again: velocities, modes, parts, work, residuals, bounds, ends of ranges, standing, angle,
+follows from them is found again: velocities, modes, parts, work, residuals, bounds, the least state, standing, angle,
 status. The file that this gives must be the one at hand, dataset by dataset. So nothing in the file is trusted but the
 fields that say what the run alone can state (``unverified`` of :class:`mbla.results.record.quantity.Quantity`), which
 are marked in it and named in what is printed.

@@ -24,8 +24,7 @@ from mbla.solution.nonassociative.schemes import slope_of, solve_nonassociative
 from mbla.solution.part_result import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
-from mbla.solution.standing.gravity_standing import standing_by_gravity
-from mbla.solution.standing.standing import assess_dead_load, standing_on_model, standing_without_equilibrium
+from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium
 
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
@@ -53,7 +52,7 @@ def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResu
             result = replace(result, associative=replace(result.associative, certificate=fall))
     if looks_lower(program, settings):
         result = _with_least(result, settings, log)
-    return _with_standing(result, settings) if settings.standing else result
+    return _with_standing(result) if settings.standing else result
 
 
 def _by_flow_rule(program: Program, settings: SolverSettings, log: Log) -> PartResult:
@@ -115,12 +114,9 @@ def _with_least(result: PartResult, settings: SolverSettings, log: Log) -> PartR
     return replace(result, least=least, more=(*result.more, *records[known:]))
 
 
-def _with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
+def _with_standing(result: PartResult) -> PartResult:
     program, associative = result.program, result.associative
     if associative.certificate is not None:
         return replace(result, standing=standing_without_equilibrium(program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    if settings.by_elastic_path:
-        return replace(result, standing=standing_by_gravity(program, True if decided else None))
-    state = assess_dead_load(program, settings, True if decided else None, associative.stress_free)
-    return replace(result, standing=standing_on_model(program, state))
+    return replace(result, standing=assess_dead_load(program, True if decided else None, associative.stress_free))

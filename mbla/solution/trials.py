@@ -131,7 +131,7 @@ def forces_at_rest(
     total = np.zeros((len(solids.contacts.points), 3))
     for part in parts:
         part = part.without_live_load()
-        forces = gravity_forces(part, settings, log, []) if stress_free else least_forces(part, settings, log)
+        forces = gravity_forces(part, settings, log) if stress_free else least_forces(part, settings, log)
         if isinstance(forces, ConeSolution):
             return None
         repaired = repaired_forces(part, forces, 0.0)

@@ -1,4 +1,4 @@
-"""The figures of a case, one to a line: load factors, bounds, residuals, and how it was solved: programs, load path."""
+"""The figures of a case, one to a line: load factors, bounds, residuals, and how it was solved: programs, path."""
 
 from __future__ import annotations
 
@@ -216,10 +216,9 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
     if not path:
         return []
     top = max(range(len(path)), key=lambda row: (path[row].balanced, path[row].load_factor))
-    peak = path[top]
-    highest, ended = (
-        load_factor_words(model, case.load_case, value) for value in (peak.load_factor, solution.path_last)
-    )
+    peak, own = path[top], result_of(case)
+    reached = peak.load_factor if own is None else own.load_factor  # a step of the path, and that step as it was solved
+    highest, ended = (load_factor_words(model, case.load_case, value) for value in (reached, solution.path_last))
     says = (
         f"Path of elastic joints, {counted(len(path), 'step')}: it rises to {highest} at a displacement of "
         f"{peak.displacement:.3g}, over the elastic one of the structure at its associative load factor"

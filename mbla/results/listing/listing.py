@@ -89,7 +89,7 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
     sections += [
         Section("Load factor and bounds", ["", *figures(model, case)]),
         Section("Reductions", spaced(reduction_lines(solution.reductions))),
-        Section("Load path", path_lines(model, case)),
+        Section("Path of elastic joints", path_lines(model, case)),
         Section("Pushover", curve_lines(model, case)),
         Section("Geometric safety", geometric_safety_lines(case)),
         Section("Sensitivity", sensitivity_lines(case)),

@@ -11,7 +11,7 @@ from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"
-WITHOUT_DILATANCY = ": the load factor shown is not unique, and has no derivative of its own"
+OF_ANOTHER = ": the load factor shown is another one, and has no slopes of its own"
 THE_SAME = ", which is the load factor shown as well"
 MEANING = (
     "Elasticity: relative change of the load factor over that of the parameter. Where several mechanisms or fields of "
@@ -45,7 +45,7 @@ def sensitivity_lines(case: CaseResult) -> list[str]:
     same = own is not None and math.isclose(own.load_factor, associative.load_factor, rel_tol=SOLVED_RESIDUAL)
     says = OF_ASSOCIATIVE.format(number(associative.load_factor))
     if case.solution.flow_rule != "associative":
-        says += THE_SAME if same else WITHOUT_DILATANCY
+        says += THE_SAME if same else OF_ANOTHER
     head = ["parameter", "value", "slope", "elasticity", ""]
     return ["", *sentence(f"{says}."), "", *table(head, rows), "", *sentence(MEANING)]
 

@@ -175,16 +175,16 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 
 
 PUBLISHED = (
-    "The published procedure starts from the associative forces and ends high in the range of load factors, on the "
-    "unsafe side."
+    "The published procedure starts from the associative forces and ends high among the load factors that fit the "
+    "joint law, on the unsafe side."
 )
 
 
 def known_words(model: Model, case: CaseResult) -> list[str]:
     """Sentences on the quality of the figure, with the solver's own remarks."""
     published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
-    texts = (uniqueness_words(model, case), published, *case.solution.remarks)
-    return [text if text.endswith(".") else f"{text}." for text in texts if text]
+    texts = (uniqueness_words(model, case), least_words(model, case), published, *case.solution.remarks)
+    return [f"{text[0].upper()}{text[1:]}".rstrip(".") + "." for text in texts if text]
 
 
 def reasons(case: CaseResult) -> list[str]:

@@ -1,4 +1,4 @@
-"""How a load factor was found: iterations of the cone programs with their residuals, and the load path."""
+"""How a load factor was found: iterations of the cone programs with their residuals, and the path of joints."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LINES = (
 
 
 def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
-    """Write the iteration history of a case, and its load path where one was followed.
+    """Write the iteration history of a case, and the path of elastic joints where one was followed.
 
     Raises as ``open_diagrams`` does.
     """

@@ -81,7 +81,7 @@ def _list_table(name: str, words: str) -> TableKind:
 
 PROGRAMS = _list_table("programs", "each program that was solved for a load case")
 ITERATIONS = _list_table("iterations", "each iteration of each program")
-PATH = _list_table("path", "each step of the load path that was followed")
+PATH = _list_table("path", "each step of the path of elastic joints that was followed")
 
 CURVE = _list_table("curve", "each step of a pushover")
 SENSITIVITY = _list_table("sensitivity", "each parameter by which the load factor is known to change")

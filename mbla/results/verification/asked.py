@@ -16,6 +16,7 @@ from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE
 from mbla.results.results import CaseResult, Results
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
@@ -26,6 +27,10 @@ from mbla.solution.verification.verify import locked_with_normality
 
 SAME = 1e-9
 """relative difference of load factors that are one figure"""
+
+
+SAME_ROW = 1e-6
+"""relative difference of load factors of the end of a path and of its last row"""
 
 
 @dataclass
@@ -87,6 +92,7 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)
     _history(found, deck, case)
+    _path(found, deck, case)
     _least(found, deck, case)
     return found
 
@@ -151,30 +157,67 @@ def _associative(found: Found, model: Model, contacts: Contacts, case: CaseResul
         return
     if locked_with_normality(model, contacts, case.load_case, solution):
         return
-    said = [str(remark) for remark in solution.remarks if remark.identifier == "locked-by-dilatancy"]
-    why = f"; that it has none is not verified, the file says: {said[0]}" if said else ""
-    found.unconfirmed.append(f"the file has no associative answer{why}")
+    found.unconfirmed.append("the file has no associative answer")
 
 
 def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     """What elastic joints remember, without which nothing shows that their law holds."""
-    mechanics, settings = case.solution.mechanics, settings_for(case.load_case, solver_settings(deck.analysis))
-    asked = settings.by_elastic_path and not case.solution.conditions_on_interfaces
+    mechanics = case.solution.mechanics
     moves = mechanics is not None and mechanics.load_factor != 0.0  # what moves at once has no path
-    if mechanics is not None and moves and asked and mechanics.remembered is None:
+    if mechanics is not None and moves and _by_path(deck, case) and mechanics.remembered is None:
         found.differences.append(lacks("history of elastic joints"))
 
 
+def _path(found: Found, deck: Deck, case: CaseResult) -> None:
+    """How the path of elastic joints ended: a load factor is solved where its greatest load was seen."""
+    solution, own = case.solution, case.solution.mechanics
+    if own is None or own.remembered is None or not _by_path(deck, case):
+        return
+    seen = solution.path_end in ANSWERS
+    if solution.status is Status.SOLVED and not seen:
+        found.differences.append(
+            f"the load factor is solved, and the path of elastic joints ended: {solution.path_end or '-'}"
+        )
+    if seen and not solution.path:
+        found.differences.append(lacks("path of elastic joints"))
+    last = next((step.load_factor for step in reversed(solution.path) if step.balanced), np.nan)
+    last = min(last, own.load_factor)  # a row says less sharply what the state at the greatest load says
+    if not np.isclose(solution.path_last, last, rtol=SAME_ROW, atol=0.0, equal_nan=True):
+        found.differences.append(
+            f"the path ends at the load factor {solution.path_last:.6g}, its last row at {last:.6g}"
+        )
+
+
+ANSWERS = tuple(stop.value for stop in Stop if stop.answers)
+"""ends of a path of which the greatest load was seen"""
+
+
 def _least(found: Found, deck: Deck, case: CaseResult) -> None:
-    """The least state, where the structure lies in the plane: that a search came to none is of the run alone."""
+    """The least state where one is looked for: that a search came to none is of the run alone.
+
+    In space a run says that it does not look for one unless the deck says how far.
+    """
     solution = case.solution
+    if solution.mechanics is None or solution.status not in WITH_VALUE or not _by_path(deck, case):
+        return
+    if solution.least is not None:
+        if np.isnan(case.checks.least_load_factor):
+            found.unconfirmed.append("the state of the least load factor is not verified")
+        return
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     planar = solution.size is not None and solution.size.dimension == 2
-    asked = settings.by_elastic_path and settings.search > 0.0 and (planar or settings.analysis.search is not None)
-    if not asked or case.load_case.settlement is not None or solution.conditions_on_interfaces:
+    if case.load_case.settlement is not None or by_normality(solution):
         return
-    if solution.status in WITH_VALUE and solution.mechanics is not None and solution.least is None:
+    if settings.search > 0.0 and (planar or settings.analysis.search is not None):
         found.unconfirmed.append("that the search came to no state of rigid joints is not verified")
+    elif all(remark.identifier != "lower-not-searched" for remark in solution.remarks):
+        found.differences.append("the remark lower-not-searched is missing")
+
+
+def _by_path(deck: Deck, case: CaseResult) -> bool:
+    """Whether the load factor is one of the path of elastic joints, of contact points."""
+    settings = settings_for(case.load_case, solver_settings(deck.analysis))
+    return settings.by_elastic_path and not case.solution.conditions_on_interfaces
 
 
 def _missing(found: Found, what: str, case: CaseResult, *excuses: str) -> None:

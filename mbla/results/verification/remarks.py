@@ -42,7 +42,7 @@ POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
     "law-missed": lambda case: case.solution.flow_rule != "associative",
     "livesley-confirms": lambda case: case.solution.flow_rule == "livesley" and case.status is Status.SOLVED,
     "livesley-overstates": lambda case: case.solution.flow_rule == "livesley" and case.status is not Status.SOLVED,
-    "locked-by-dilatancy": lambda case: case.solution.associative is None,
+    "lower-not-searched": lambda case: case.solution.flow_rule != "associative",
     "tilt-by-steps": lambda case: case.load_case.tilt is not None and not case.load_case.tilt.tangent,
 }
 """Of remarks that the run alone can make: whether it can make them of a load case; of all others it can."""

@@ -25,7 +25,6 @@ from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE
-from mbla.solution.standing.weak_spring_continuation import springs_of
 
 FALL_TOLERANCE = 1e-12
 """Of the program: a load that is not carried by 1e-6 of itself shows then, at 1e-10 only one by 1e-4."""
@@ -46,7 +45,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
         return None
     form = kinematic_form(program, program.limits)
     given = form.cone_program
-    sizes = springs_of(program, "dead_load")[0].diagonal()
+    sizes = _sizes_of_loads(program).diagonal()
     quadratic = np.concatenate([sizes, np.zeros(len(given.cost) - len(sizes))])
     without_live_load = ConeProgram(
         cost=given.cost,
@@ -66,6 +65,22 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     moving = velocities / largest
     candidates = (np.where(np.abs(moving) > AT_REST, moving, 0.0), moving)
     return next((motion for motion in candidates if _proves(program, motion)), None)
+
+
+def _sizes_of_loads(program: Program) -> sp.csr_array:
+    """W by the size of each block's dead load, the mean of the others' where it has none, (n_rows, n_rows)."""
+    way_back = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
+    while program.reduction is not None:
+        way_back = sp.csr_array(program.reduction.velocities @ way_back)
+        program = program.reduction.full
+    sizes = np.linalg.norm(program.dead_load.reshape(-1, 6), axis=1)
+    sizes = np.where(sizes > 0, sizes, sizes[sizes > 0].mean())
+    springs = way_back.T @ sp.diags_array(np.repeat(sizes, 6)) @ way_back
+    squares = way_back.power(2)
+    own = float(squares.sum(axis=0).max(initial=0.0)) or 1.0  # in the unit of force of a part, as if it were alone
+    mine = squares.sum(axis=1).reshape(-1, 6).any(axis=1)
+    own *= float(sizes[mine].mean()) if mine.any() else 1.0
+    return sp.csr_array(springs / own)
 
 
 def _proves(program: Program, velocities: FloatArray) -> bool:

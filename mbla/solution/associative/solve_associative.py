@@ -42,8 +42,7 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
-from mbla.solution.standing.standing import stress_free_state
-from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
+from mbla.solution.standing.standing import StressFree, stress_free_state
 
 ENOUGH = 1e-1
 """Residuals and gap at which the program with the live load reversed is stopped: its forces, far inside the cones then,
@@ -76,7 +75,7 @@ class AssociativeResult:
     solver: str = ""
     tolerance_requested: float | None = None
     gap_words: str = ""
-    stress_free: Weakening | None = field(default=None, repr=False)
+    stress_free: StressFree | None = field(default=None, repr=False)
 
 
 def solve_associative(
@@ -113,16 +112,18 @@ def solve_associative(
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
         shown = program.settles and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, form, answer, proved=bool(shown))
-    state = stress_free_state(program, settings)
+    state = stress_free_state(program)
     result = _with_dead_load(run, form, answer, proved=_proves(run, state))
     return replace(result, stress_free=state)
 
 
-def _proves(run: AssociativeRun, state: Weakening) -> bool:
+def _proves(run: AssociativeRun, state: StressFree) -> bool:
     """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
-    if state.outcome is not Outcome.CARRIED or state.forces is None:
+    if state.rest is None:
         return False
-    return _carried_alone(run.program.without_live_load(), state.forces) or _carries(run, state.forces, 0.0)
+    if run.program.settles:  # with the reaction that it has while it is held
+        return _carries(run, state.rest.forces, state.rest.load_factor)
+    return _carried_alone(run.program.without_live_load(), state.rest.forces) or _carries(run, state.rest.forces, 0.0)
 
 
 @shared("carried")

@@ -73,7 +73,7 @@ def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float)
     )
 
 
-FALL, LEAST = 0.2, 1e-15
+FALL, LEAST = 0.2, 1e-24
 """Factor on the products after a direction that is gone more than half, and their least over n₀²."""
 
 EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
@@ -85,17 +85,18 @@ BLOCKED, AGAIN = 0.05, (1e3, 10.0, 1e5)
 over those of the path, in turn."""
 
 
-def solved_peak(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
+def solved_peak(peak: PeakStep, force: float, sharp: float | None = None) -> tuple[PeakStep, int]:
     """The step of the peak from its history with ever smaller products, until the law holds; factorisations spent.
 
     The state with the least misfit that was met, which says how far it came.
 
     force : n₀
+    sharp : misfit with which it is solved, that of a peak unless given
     """
     step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
     best = replace(peak, misfit=misfit(step, peak.state, force))
-    while not best.is_solved and spent < STEPS:
+    while not (best.is_solved if sharp is None else best.misfit <= sharp) and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
         if found is None:

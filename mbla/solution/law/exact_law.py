@@ -19,6 +19,8 @@ from mbla.solution.law.joint_equations import JointStep
 def misfit(step: JointStep, state: StepState, force: float) -> float:
     """Largest difference of a force from the law, over the largest force; what is without balance counts with it.
 
+    Springs that hold the blocks in the step are part of the balance.
+
     force : n₀; where all joints open, none is larger
     """
     joints, limits = step.joints, step.joints.program.limits
@@ -33,4 +35,5 @@ def misfit(step: JointStep, state: StepState, force: float) -> float:
     off = [float(np.abs(one).max(initial=0.0)) for one in (normal - state.normal, shear - state.shear)]
     each = zip(joints.laws, state.interfaces, strict=True)
     off += [law.misfit(one, state.normal, step.length) for law, one in each]
-    return max(max(off) / largest, float(np.abs(joints.unbalanced(state)).max(initial=0.0)))
+    balance = joints.unbalanced(state) - step.held * state.u
+    return max(max(off) / largest, float(np.abs(balance).max(initial=0.0)))

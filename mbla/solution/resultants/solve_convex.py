@@ -22,7 +22,7 @@ from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ContactMode, Mechanics, Solution, Status
 from mbla.solution.solve import recorded
 from mbla.solution.standing.claim import as_it_stands
-from mbla.solution.standing.standing import assess_dead_load, standing_on_model, standing_without_equilibrium
+from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium
 
 LOCKED = (
     "with dilatancy friction locks the structure under any multiple of the live load; "
@@ -42,7 +42,7 @@ def solve_convex(convex: ConvexProgram, settings: SolverSettings, log: Log | Non
     started, (iterations, record) = time.perf_counter(), recorded(log)
     solution = _solved(convex, settings, record)
     if settings.standing:
-        solution = _with_standing(convex, solution, settings)
+        solution = _with_standing(convex, solution)
     return replace(solution, iterations=tuple(iterations), seconds=time.perf_counter() - started)
 
 
@@ -88,15 +88,14 @@ def _solved(convex: ConvexProgram, settings: SolverSettings, log: Log) -> Soluti
     )
 
 
-def _with_standing(convex: ConvexProgram, solution: Solution, settings: SolverSettings) -> Solution:
+def _with_standing(convex: ConvexProgram, solution: Solution) -> Solution:
     """The standing of the blocks on their contact points; torsion of interfaces is left out."""
     if solution.certificate is not None:
         velocities = convex.points.velocities(solution.certificate)
         return replace(solution, standing=standing_without_equilibrium(convex.points, velocities))
     answered = solution.associative is not None or solution.mechanics is not None  # the latter where the former locks
     decided = answered or solution.status is Status.UNBOUNDED
-    state = assess_dead_load(convex.points, settings, True if decided else None)
-    standing = standing_on_model(convex.points, state)
+    standing = assess_dead_load(convex.points, True if decided else None)
     return replace(as_it_stands(solution, standing.verdict), standing=standing)
 
 

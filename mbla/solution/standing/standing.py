@@ -4,12 +4,14 @@ That an equilibrium exists is weaker than that the structure stands. A bar betwe
 vertical faces, has an equilibrium for every friction above zero, since any thrust may be assumed; it falls unless the
 walls are pressed together. Coupled rigid-block analysis rejects such states (Kao et al. 2022,
 doi:10.1016/j.cad.2022.103216); limit analysis does not, and reports a load factor that means nothing. Here equilibrium
-has to arise from the assembly without stress, by the exact law of the joints: see ``weak_spring_continuation``.
+has to arise from the assembly without stress: by the gravity step of elastic joints
+(:mod:`mbla.solution.flow.gravity_step`), at two ratios of their stiffness. Where the weak springs that hold the blocks
+carry a share of the weight it falls. What proves standing are the forces and the displacements from which they follow
+by the law of elastic joints that remember nothing.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,17 +23,30 @@ from mbla.process.stopwatch import stage
 from mbla.program.build import CaseProgram
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
+from mbla.program.stiffness_shares import shares_of
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.mechanics import forces_of, motion_of
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.flow.peak_step import EXACT, PeakStep, solved_peak
+from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.mechanics import lifted, motion_of
+from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult, Status
-from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
+from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult
+
+RATIOS = (0.4, 1.0)
+"""Of shear to normal stiffness, with both of which it must stand: 0.4 is that of a layer of stone, 1/(2 (1 + ν))."""
+
+WEAKER, SHARP = 1e-4, 1e-11
+"""Springs that hold the blocks of what stands, over those of the gravity step, and misfit of the law with which it is
+solved: what proves standing is judged block by block, light ones too."""
 
 YES = "the dead load is carried from the stress-free assembly"
 NO_DEAD_LOAD = "there is no dead load to carry"
 SELF_STRESS = "from the stress-free assembly it falls: it stands only in a self-stressed state"
 DOUBTFUL = "whether it stands from the stress-free assembly is doubtful"
+SLOWLY = "the gravity step of elastic joints was not solved"
+BY_STIFFNESS = "it depends on how stiff the joints are in shear against compression"
 NO = "no contact forces carry the dead load"
 UNKNOWN = "from the stress-free assembly it falls; whether it could stand in a self-stressed state was not decided"
 
@@ -39,88 +54,96 @@ GRAVEST_FIRST = (Standing.NO, Standing.SELF_STRESS, Standing.DOUBTFUL, Standing.
 
 
 @dataclass(frozen=True)
-class DeadLoadState:
-    """Standing, and the forces that arise from the stress-free assembly.
+class StressFree:
+    """What the dead load does to the stress-free assembly.
 
-    forces        : (n_points, components), non-dimensional, in balance with the dead load up to 1e-6 of each block's;
-                    None where they do not balance it
-    displacements : (n_rows,) that cause them: what the verification needs in addition to the forces
+    rest   : forces in balance with it, and the displacements that cause them by the history of joints that remember
+             nothing; None where it is not carried with both ratios of stiffness
+    motion : (n_rows,) displacements; of what falls mostly
+    doubt  : why that is not decided; empty where it is
     """
 
-    standing: StandingResult
-    forces: FloatArray | None
-    displacements: FloatArray | None
+    rest: LawState | None
+    motion: FloatArray
+    doubt: str = ""
 
 
 @stage("standing")
-def stress_free_state(program: Program, settings: SolverSettings) -> Weakening:
-    """State of the stress-free assembly under its dead load: the same whatever the live load and the flow rule."""
-    return _stress_free(program.without_live_load(), settings)
+def stress_free_state(program: Program) -> StressFree:
+    """State of the stress-free assembly under its dead load: the same whatever the live load and the flow rule.
+
+    A support that gives way later is held.
+    """
+    return _stress_free(program if program.settles else program.without_live_load())
 
 
 @shared("standing")
-def _stress_free(program: Program, settings: SolverSettings) -> Weakening:
-    """``stress_free_state`` of a program that has no live load."""
-    if not np.any(program.dead_load):
-        forces = np.zeros((program.n_points, program.components))
-        displacements = np.zeros_like(program.dead_load)
-        return Weakening(Outcome.CARRIED, None, 0.0, forces=forces, displacements=displacements)
-    return weaken_springs(program, "dead_load", program.limits, settings)
+def _stress_free(program: Program) -> StressFree:
+    """``stress_free_state`` of a program that has no live load, unless a support gives way."""
+    if not np.any(program.dead_load) or program.n_points == 0:
+        none = np.zeros((program.n_points, program.components))
+        still = np.zeros_like(program.dead_load)
+        history = StepHistory(none, np.ones(program.n_points), np.ones(program.n_points))
+        rest = None if np.any(program.dead_load) else LawState(none, still, 0.0, 0.0, history=history)
+        return StressFree(rest, program.dead_load)
+    joints = [ElasticJoints.of(program, shares_of(program), ratio) for ratio in RATIOS]
+    found = [gravity_step(one) for one in joints]
+    motion = next((each.state.u for each in found if not each.carried), found[0].state.u)
+    if all(gravity.carried for gravity in found):
+        return StressFree(_solved(joints[0], found[0]), motion)
+    doubt = BY_STIFFNESS if any(gravity.carried for gravity in found) else ""
+    return StressFree(None, motion, doubt if all(gravity.settled for gravity in found) else SLOWLY)
 
 
-def assess_dead_load(
-    program: Program, settings: SolverSettings, carried: bool | None = True, known: Weakening | None = None
-) -> DeadLoadState:
-    """Assess the dead load of a program, reduced or not.
+def _solved(joints: ElasticJoints, gravity: Gravity) -> LawState:
+    """The state at rest, solved until the law holds."""
+    step = replace(gravity.step, held=WEAKER * gravity.step.held)
+    start = PeakStep(step, EXACT**2 * gravity.force**2, gravity.state, 0.0)
+    state = solved_peak(start, gravity.force, SHARP)[0].state
+    history = StepHistory(np.zeros_like(state.forces), joints.normal, joints.shear)
+    return LawState(state.forces, state.u, state.factor, 0.0, history=history)
+
+
+def assess_dead_load(program: Program, carried: bool | None = True, known: StressFree | None = None) -> StandingResult:
+    """Standing of a part, reduced or not, with forces and displacements of the model where it stands.
 
     carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
-              was not decided. False needs no springs: see ``standing_without_equilibrium``
+              was not decided
     known   : ``stress_free_state`` of the program where it was found before
     """
-    weakening = known or stress_free_state(program, settings)
     if not np.any(program.dead_load):
-        nothing = StandingResult(Standing.YES, None, NO_DEAD_LOAD)
-        return DeadLoadState(nothing, weakening.forces, weakening.displacements)
-    if weakening.outcome is Outcome.CARRIED:
-        return DeadLoadState(StandingResult(Standing.YES, None, YES), weakening.forces, weakening.displacements)
-    verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)
+        return StandingResult(Standing.YES, None, NO_DEAD_LOAD)
+    found = known or stress_free_state(program)
+    if found.rest is not None:
+        return _on_model(program, found.rest)
+    block = int(np.linalg.norm(motion_of(program, found.motion), axis=1).argmax())
+    if found.doubt:
+        return StandingResult(Standing.DOUBTFUL, block, f"{DOUBTFUL}: {found.doubt}")
     if carried is None:
-        verdict, reason = Standing.DOUBTFUL, UNKNOWN
-    if weakening.outcome is Outcome.UNDECIDED:
-        verdict, reason = Standing.DOUBTFUL, f"{DOUBTFUL}: {weakening.reason}"
-    return DeadLoadState(StandingResult(verdict, weakening.block, reason), None, None)
+        return StandingResult(Standing.DOUBTFUL, block, UNKNOWN)
+    verdict, reason = (Standing.SELF_STRESS, SELF_STRESS) if carried else (Standing.NO, NO)
+    return StandingResult(verdict, block, reason)
 
 
-def standing_where_carried(program: CaseProgram, settings: SolverSettings) -> StandingResult:
-    """Standing of a load case whose dead load some contact forces are known to carry; without its forces."""
-    parts = program.reduced.parts if program.convex is None else (program.convex.points,)
-    return worst_standing([assess_dead_load(part, settings).standing for part in parts])
+def _on_model(program: Program, rest: LawState) -> StandingResult:
+    """Forces, and the displacements that cause them on joints the stiffest of which has a stiffness of 1.
 
-
-def standing_on_model(program: Program, state: DeadLoadState) -> StandingResult:
-    """Standing of a part with its forces and displacements as those of the model, where they are known."""
-    if state.forces is None or state.displacements is None:
-        return state.standing
-    forces = forces_of(program, state.forces)
-    return replace(state.standing, forces=forces, settlement=settlement_of(program, state.displacements))
-
-
-def settlement_of(program: Program, displacements: FloatArray) -> FloatArray:
-    """Displacements and rotations of all blocks on joints of unit stiffness, (n_blocks, 6), zero where fixed.
-
-    With a force of 1 per length of 1 in the deck's units, contact forces are those that these displacements cause; with
-    joints k times as stiff everything moves 1/k as far. Those of parts add up. Where points are as stiff as their
-    shares (:mod:`mbla.program.reductions.points`) 1 is the stiffest of them; joints of light blocks with units of their
-    own are softer by the square of these.
+    With a force of 1 per length of 1 in the deck's units; with joints k times as stiff everything moves 1/k as far.
     """
-    stiffest = 1.0
     while program.reduction is not None:
-        unit = float(program.reduction.velocities.power(2).sum(axis=0).max(initial=0.0)) or 1.0  # 1/f² of a part
-        most = float(program.reduction.forces.power(2).sum(axis=1).max(initial=0.0)) * unit
-        stiffest *= max(most, 1.0) / unit
-        displacements, program = program.reduction.velocities @ displacements, program.reduction.full
+        rest, program = lifted(program, rest), program.reduction.full
+    assert rest.history is not None
     scaling = program.scaling
-    return program.mechanism(displacements) * (stiffest * scaling.force**2 / scaling.live)
+    units = scaling.force * np.broadcast_to(scaling.units, len(rest.history.normal))
+    stiffest = float((np.maximum(rest.history.normal, rest.history.shear) * units**2).max(initial=0.0)) / scaling.live
+    settlement = program.mechanism(rest.velocities) * stiffest
+    return StandingResult(Standing.YES, None, YES, scaling.forces(rest.forces), settlement)
+
+
+def standing_where_carried(program: CaseProgram) -> StandingResult:
+    """Standing of a load case whose dead load some contact forces are known to carry."""
+    parts = program.reduced.parts if program.convex is None else (program.convex.points,)
+    return worst_standing([assess_dead_load(part) for part in parts])
 
 
 def least_forces(
@@ -135,25 +158,17 @@ def least_forces(
 
 
 def gravity_forces(
-    program: Program, settings: SolverSettings, log: Log, records: list[ProgramRecord], known: Weakening | None = None
+    program: Program, settings: SolverSettings, log: Log, known: StressFree | None = None
 ) -> FloatArray | ConeSolution:
-    """Forces under the dead load that flow without normality starts from, (n_points, components), or a verdict.
+    """Forces under the dead load, (n_points, components): those that arise from the stress-free assembly where it
+    stands, else the least that carry the dead load, or the solver's verdict.
 
-    They are those that arise from the stress-free assembly, where it stands. Where it does not, or that is doubtful,
-    they are the least that carry the dead load. The least forces may hold a thrust between walls that nothing has
-    caused: a bar lying on the ground between two walls and pushed along them, friction 0.5, then moves at 0.786
-    instead of 0.5.
+    The least forces may hold a thrust between walls that nothing has caused.
 
-    records : gets a line
-    known   : ``stress_free_state`` of the program where it was found before
+    known : ``stress_free_state`` of the program where it was found before
     """
-    started, number = time.perf_counter(), len(records) + 1
-    stress_free = assess_dead_load(program, settings, known=known).forces
-    if stress_free is not None:
-        seconds = time.perf_counter() - started
-        records.append(ProgramRecord(number, "gravity", Status.SOLVED, np.nan, np.nan, 0, seconds))
-        return stress_free
-    return least_forces(program, settings, log, records)
+    found = known or stress_free_state(program)
+    return least_forces(program, settings, log) if found.rest is None else found.rest.forces
 
 
 def worst_standing(results: Sequence[StandingResult]) -> StandingResult:

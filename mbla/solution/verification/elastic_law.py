@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.stiffness_shares import stiffness_areas, shares_in_units
+from mbla.program.stiffness_shares import shares_in_units, stiffness_areas
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
@@ -42,18 +42,6 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
     if not _is_in_proportion(case, stiffness, v):
         return float("inf")
     return _off(case, mechanics.contact_forces, v, remembered, stiffness, dilatancy)
-
-
-def elastic_settlement_residual(case: Case, forces: FloatArray, settlement: FloatArray) -> float:
-    """The same of forces under the dead load and the displacements that cause them, of joints that remember nothing.
-
-    forces     : (n_points, 3) N
-    settlement : (n_blocks, 6) displacements and rotations on joints as stiff as their shares
-    """
-    normal = _by_shares(case)
-    stiffness = np.stack([normal, PathSettings().ratio * normal], axis=1)
-    moved = case.velocities(settlement)
-    return _off(case, forces, moved, np.zeros_like(forces), stiffness, np.zeros(len(forces)))
 
 
 def _by_shares(case: Case) -> FloatArray:

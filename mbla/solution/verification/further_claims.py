@@ -91,10 +91,11 @@ def standing_failures(
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load
     failures = []
     if load_case.settlement is not None:  # a support that gives way later is held, whatever its reaction
-        live, free = load_case.live_load, model.free
-        acting = acting - live * float((acting * live)[free].sum() / (live * live)[free].sum())
-        most = float(np.abs(live).max()) * float(np.abs(settlement).max(initial=0.0))
-        if abs(float((live * settlement)[free].sum())) > AGAINST * most:
+        blocks, way = load_case.settlement.blocks, load_case.settlement.motions
+        live = load_case.live_load
+        acting = acting - live * float((acting[blocks] * way).sum() / (live[blocks] * way).sum())
+        along = float((settlement[blocks] * way).sum()) / float(np.linalg.norm(way))
+        if abs(along) > HELD * float(np.linalg.norm(settlement, axis=1).max(initial=0.0)):
             failures.append("the support that gives way is displaced under the dead load alone")
     unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     worst = int((unbalanced / allowed).argmax())
@@ -130,6 +131,9 @@ def _astray(forces: FloatArray, displaced: FloatArray) -> float:
     largest = min(max(force, displacement), HIDDEN * force)
     return off / max(largest, 1e-300)
 
+
+HELD = 1e-9
+"""Displacement of a support that is held, over the largest of a block."""
 
 LASTING = 1e-6
 """Unbalanced share of a block's live load, and excess over the yield conditions, with which forces still prove it: they

@@ -20,11 +20,8 @@ from mbla.process.stopwatch import stage
 from mbla.program.assemble import yield_limits
 from mbla.solution.glued import rule_of, solution_on_solids
 from mbla.solution.solution import Checks, Solution, Standing, Status
-from mbla.solution.thresholds import SOLVED_EQUILIBRIUM
 from mbla.solution.verification.case import Case
-from mbla.solution.verification.elastic_law import elastic_settlement_residual
 from mbla.solution.verification.further_claims import (
-    ASTRAY,
     least_check,
     lock_failures,
     never_failures,
@@ -154,9 +151,6 @@ def _standing_failures(
         return (NOT_SHOWN,) if stands and loaded else ()
     limits = point_limits(model, contacts) if solution.conditions_on_interfaces else yield_limits(model, contacts)
     failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
-    if failures == (ASTRAY,) and not solution.conditions_on_interfaces:
-        off = elastic_settlement_residual(Case(model, contacts, load_case), standing.forces, standing.settlement)
-        failures = () if off <= SOLVED_EQUILIBRIUM else failures
     return failures if stands or failures else (SHOWN,)
 
 

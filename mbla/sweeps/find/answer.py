@@ -187,6 +187,4 @@ def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:
     varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
     settings = solver_settings(varied.analysis)
     model, contacts, case = structure.model, structure.contacts, replace(structure.load_case, tilt=None)
-    return standing_where_carried(
-        build_program(tied(solids_of(model, contacts, case)), case, settings.analysis), settings
-    )
+    return standing_where_carried(build_program(tied(solids_of(model, contacts, case)), case, settings.analysis))
