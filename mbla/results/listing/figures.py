@@ -204,9 +204,9 @@ def program_lines(solution: Solution) -> list[str]:
 ENDS = {
     Stop.FALLS: "from there it falls, to {}",
     Stop.FLAT: "there it stays",
-    Stop.FAR: "it ends at {}",
+    Stop.FAR: "it ends at one of {1:.3g}",
 }
-"""why a path with an answer ended, with the load factor there"""
+"""why a path with an answer ended, with the load factor there and the displacement"""
 
 
 def path_lines(model: Model, case: CaseResult) -> list[str]:
@@ -224,7 +224,7 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
         f"{peak.displacement:.3g}, over the elastic one of the structure at its associative load factor"
     )
     end = next((words for stop, words in ENDS.items() if stop == solution.path_end), "it was followed no further")
-    says += f"; {end.format(ended)}."
+    says += f"; {end.format(ended, path[-1].displacement)}."
     if solution.path_end == Stop.FAR:
         says += f" Of the load factor {100.0 * solution.path_gain:.2g} % were gained over its last half."
     shown = [path[row] for row in sorted({*evenly(len(path), MOST_ROWS - 1), top})]

@@ -20,10 +20,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.solution.flow.peak_step import centred
+from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
+from mbla.solution.nonassociative.imbalance import imbalance
+from mbla.solution.nonassociative.law_state import LawState
 
 STEPS = 100
 """At most; 10 to 25 are usual where a dead load is carried."""
@@ -36,8 +38,10 @@ BACK, HIGHEST, SLOWER = 1e4, 1e4, 0.3
 over n₀², and factor on them from there on: of a house with joints as stiff in shear as in compression four ways from
 stiffer joints and quicker falls were blocked, this was not."""
 
-HELD = 1e-10
-"""ε, over the mean stiffness of a joint."""
+HELD, WEAKER, SHARP = (1e-8, 1e-5), 1e-4, 1e-11
+"""ε over the mean stiffness of a joint, tried in turn until the step is solved: a plug that falls out of its hole was
+not with the weakest. Then factor on it, and misfit of the law, with which the step is solved once more: what stands is
+judged block by block, light ones too."""
 
 FALL, LONG, WHOLE, LEAST = 0.1, 0.5, 0.9, 1e-8
 """Factor on the products after a step that goes more than a share of its way, that share, the same where interfaces
@@ -47,8 +51,10 @@ BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
 
-STANDS = 2e-5
-"""Force of a spring, in mean loads of a block, up to which the structure stands."""
+CARRIED, STANDS, FALLS = 1e-6, 2e-5, 0.01
+"""Share of what a block has to carry up to which it is carried without springs; force of a spring, in mean loads of a
+block, up to which what has interfaces with a law of their own stands; and from which it falls, where the step was not
+solved with weaker springs."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +65,7 @@ class Gravity:
     memory  : what the joints remember of it
     force   : n₀, the mean dead load of a point
     settled : whether the step was solved
-    held    : largest force of a spring, in mean loads of a block
+    carried : whether the joints carry the dead load
     steps   : factorisations
     step    : that was solved
     """
@@ -68,14 +74,9 @@ class Gravity:
     memory: Memory
     force: float
     settled: bool
-    held: float
+    carried: bool
     steps: int
     step: JointStep
-
-    @property
-    def carried(self) -> bool:
-        """Whether the joints carry the dead load."""
-        return self.settled and self.held <= STANDS
 
 
 def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArray | float = 0.0) -> Gravity:
@@ -87,13 +88,30 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
     held = program.settles and bool(np.any(program.live_load))
-    springs, fresh = HELD * joints.matrix.size, Memory.stress_free(joints, gaps)
-    step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=springs)
-    state, settled, spent = _solved(step, force)
+    fresh, spent = Memory.stress_free(joints, gaps), 0
+    for share in HELD:
+        step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=share * joints.matrix.size)
+        state, settled, more = _solved(step, force)
+        spent += more
+        if settled:
+            break
+    most = float(np.abs(step.held * state.u).max(initial=0.0))
+    weaker = replace(step, held=WEAKER * step.held)
+    sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, state, 0.0), force, SHARP) if settled else (None, 0)
+    fits = sharp is not None and sharp.is_solved
+    carried = sharp is not None and fits and _is_carried(joints, sharp.state)
+    if sharp is not None and carried:
+        state, step = sharp.state, weaker
     memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
     memory = replace(memory, shear=state.shear)
-    most = float(np.abs(springs * state.u).max(initial=0.0))
-    return Gravity(state, memory, force, settled, most, spent, step)
+    return Gravity(state, memory, force, settled and (fits or most > FALLS), carried, spent + more, step)
+
+
+def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
+    """Whether the forces of a state carry the dead load without springs, block by block."""
+    if joints.laws:
+        return float(np.abs(joints.unbalanced(state)).max(initial=0.0)) <= STANDS
+    return imbalance(joints.program, LawState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
 
 
 def _solved(step: JointStep, force: float) -> tuple[StepState, bool, int]:

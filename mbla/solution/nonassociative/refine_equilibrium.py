@@ -25,10 +25,10 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.bounds import ZERO_FACTOR
-from mbla.solution.associative.repair import carried_loads, repaired_forces
+from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.mechanics import lifted
+from mbla.solution.nonassociative.imbalance import misfit
 from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import Status
@@ -95,29 +95,6 @@ def stepped(stiffness: Stiffness, slope: FloatArray, state: LawState, most: int)
     law = LawProblem(stiffness, slope, state.forces, rho)
     step = exact_step(law, state.velocities, state.load_factor, most, balanced=0.0)
     return law_state(program, slope, step.forces, step.velocities, step.load_factor), step.factorizations
-
-
-def misfit(program: Program, state: LawState) -> float:
-    """Residual of a state with its unbalanced force, the latter block by block."""
-    return max(state.residual, imbalance(program, state))
-
-
-def imbalance(program: Program, state: LawState) -> float:
-    """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block.
-
-    Of guided blocks only what does work in the motions that their guides allow counts.
-    """
-    while program.halved and not program.guided and program.reduction is not None:
-        state, program = lifted(program, state), program.reduction.full
-    left = np.asarray(
-        program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + state.load_factor * program.live_load
-    )
-    if program.guided and program.reduction is not None:
-        left, program = program.reduction.velocities @ left, program.reduction.full
-    rows = 3 if program.components == 2 else 6
-    carried = carried_loads(program, state.forces).reshape(-1, rows).max(axis=1)
-    scale = np.clip(carried, np.finfo(float).tiny, 1.0)
-    return float((np.abs(left).reshape(-1, rows).max(axis=1) / scale).max(initial=0.0))
 
 
 def _candidates(

@@ -16,9 +16,9 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import Alternation
+from mbla.solution.nonassociative.imbalance import imbalance
 from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState
 from mbla.solution.nonassociative.moving_part import moving_part
-from mbla.solution.nonassociative.refine_equilibrium import imbalance
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
 from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL

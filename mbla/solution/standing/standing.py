@@ -27,7 +27,6 @@ from mbla.program.stiffness_shares import shares_of
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
-from mbla.solution.flow.peak_step import EXACT, PeakStep, solved_peak
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.mechanics import lifted, motion_of
 from mbla.solution.nonassociative.law_state import LawState, StepHistory
@@ -36,10 +35,6 @@ from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, Standing
 
 RATIOS = (0.4, 1.0)
 """Of shear to normal stiffness, with both of which it must stand: 0.4 is that of a layer of stone, 1/(2 (1 + ν))."""
-
-WEAKER, SHARP = 1e-4, 1e-11
-"""Springs that hold the blocks of what stands, over those of the gravity step, and misfit of the law with which it is
-solved: what proves standing is judged block by block, light ones too."""
 
 YES = "the dead load is carried from the stress-free assembly"
 NO_DEAD_LOAD = "there is no dead load to carry"
@@ -90,16 +85,13 @@ def _stress_free(program: Program) -> StressFree:
     found = [gravity_step(one) for one in joints]
     motion = next((each.state.u for each in found if not each.carried), found[0].state.u)
     if all(gravity.carried for gravity in found):
-        return StressFree(_solved(joints[0], found[0]), motion)
+        return StressFree(_at_rest(joints[0], found[0]), motion)
     doubt = BY_STIFFNESS if any(gravity.carried for gravity in found) else ""
     return StressFree(None, motion, doubt if all(gravity.settled for gravity in found) else SLOWLY)
 
 
-def _solved(joints: ElasticJoints, gravity: Gravity) -> LawState:
-    """The state at rest, solved until the law holds."""
-    step = replace(gravity.step, held=WEAKER * gravity.step.held)
-    start = PeakStep(step, EXACT**2 * gravity.force**2, gravity.state, 0.0)
-    state = solved_peak(start, gravity.force, SHARP)[0].state
+def _at_rest(joints: ElasticJoints, gravity: Gravity) -> LawState:
+    state = gravity.state
     history = StepHistory(np.zeros_like(state.forces), joints.normal, joints.shear)
     return LawState(state.forces, state.u, state.factor, 0.0, history=history)
 

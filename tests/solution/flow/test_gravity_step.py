@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.stiffness_shares import shares_of
-from mbla.solution.flow.gravity_step import STANDS, gravity_step
+from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.law.elastic_joints import ElasticJoints
 from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, line_of, line_of_file
@@ -29,7 +29,6 @@ def test_a_block_slides_down_where_its_weight_is_beyond_friction(side: float, st
     gravity = rest_of(line, ratio)
     assert gravity.settled
     assert gravity.carried is stands
-    assert stands or gravity.held > 10.0 * STANDS  # of what falls a share of its weight
 
 
 @pytest.mark.parametrize("name", ["cocchetti_rizzi_mu_700", "cocchetti_rizzi_mu_380", "cocchetti_rizzi_mu_310"])
