@@ -272,7 +272,7 @@ def test_an_interrupted_pushover_leaves_its_steps(
     (case,) = shown["cases"]
     assert (shown["not_done"], case["curve_end"]) == (["onward"], "the run was stopped")
     assert len(case["curve"]) > 2
-    assert all(row["residual"] < 1e-5 for row in case["curve"])
+    assert all(row["residual"] < 1e-5 for row in case["curve"][1:])
     cli.main(["show", "wall.out/wall.partial.h5"])
     assert f"not done: onward (its pushover came to step {len(case['curve']) - 1})" in flat(capsys)
     assert "# onward: solved" in Path("wall.out/wall.partial.sta").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""``scheme: elastic``: its figures are verified by the law of elastic joints, and a history that is none is found."""
+"""Figures of the path are verified by the law of elastic joints, and a history that is none is found."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from tests.analytic.test_ties import SLENDER
 from tests.line import BLOCK, WALL
 from tests.results.changed_files import changing, image_of_run
 
-ELASTIC = "flow_rule: non_associative, scheme: elastic"
+WITHOUT = "flow_rule: non_associative"
 DECKS = {
-    "slides": (BLOCK.replace("flow_rule: associative", ELASTIC).replace("h: 2", "h: 1"), 0.5),
-    "rocks with a tie": (SLENDER.replace("flow_rule: associative", ELASTIC), None),
-    "wall": (WALL.replace("flow_rule: associative", ELASTIC).replace("n: 5", "n: 4"), None),
+    "slides": (BLOCK.replace("flow_rule: associative", WITHOUT).replace("h: 2", "h: 1"), 0.5),
+    "rocks with a tie": (SLENDER.replace("flow_rule: associative", WITHOUT), None),
+    "wall": (WALL.replace("flow_rule: associative", WITHOUT).replace("n: 5", "n: 4"), None),
 }
 """decks, and the load factor of statics where it is simple"""
 

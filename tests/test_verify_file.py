@@ -16,7 +16,7 @@ from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.verify import verify_file
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
-from tests.line import BLOCK
+from tests.line import BLOCK, WALL
 from tests.results.changed_files import change, changing, image_of_run, with_case, written
 from tests.solution.convex_structures import TWIST
 from tests.trust.corrupted.files import SEVERAL, write_decks
@@ -146,9 +146,16 @@ def test_what_the_file_says_of_itself(path: Path, name: str, value: Any, words: 
     assert words in differences(path)
 
 
+@pytest.mark.parametrize("name", ["contact_forces", "mechanism", "load_factor"])
+def test_another_least_state_is_not_believed(name: str, tmp_path: Path) -> None:
+    deck, path = WALL.replace("associative}", "non_associative}"), tmp_path / "deck.h5"
+    path.write_bytes(image_of_run(tmp_path, deck, "parameters.n=3"))
+    assert differences(path) == ""
+    scaled(path, f"cases/push/least/{name}", 1.01)
+    assert "cases/push/least_load_factor" in differences(path)
+
+
 LEFT_OUT: dict[str, dict[str, Any]] = {
-    "lower end of the range": {"lower": None},
-    "upper end of the range": {"upper": None},
     "standing": {"standing": None},
     "ranges of normal forces": {"force_ranges": None},
 }
@@ -235,7 +242,7 @@ def test_files_of_a_deck_stay_in_their_folder(of_several_files: Path) -> None:
         "interfaces/translations",
         "interfaces/hinge_points",
         "interfaces/work",
-        "lower/modes",
+        "least/modes",
         "flow_rule",
         "solver",
     ],

@@ -19,10 +19,10 @@ from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges gap max_iterations peak range reductions residual "
-    "search standing time_limit tolerance",
+    "AnalysisSection": "force_ranges gap max_iterations reductions residual search standing time_limit tolerance",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
+    "PathOfJoints": "ratio",
     "PublishedScheme": "averaging max_programs",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""

@@ -107,8 +107,10 @@ def idle(*overrides: str) -> list[str]:
         ("analysis.gap=1e-5", "contact_model=convex", "contact_model=concave"),
         ("analysis.residual=1e-5", "flow_rule=associative", "flow_rule=dilatancy"),
         ("analysis.residual=1e-5", "scheme=published", "scheme=auto"),
-        ("analysis.peak=false", "flow_rule=dilatancy", "flow_rule=non_associative"),
-        ("analysis.range=false", "flow_rule=associative", "flow_rule=livesley"),
+        ("analysis.path.ratio=0.5", "flow_rule=associative", "flow_rule=dilatancy"),
+        ("analysis.path.until=20", "flow_rule=livesley", "flow_rule=non_associative"),
+        ("analysis.path.until=20", "scheme=published", "scheme=auto"),
+        ("analysis.path.until=20", "contact_model=convex", "contact_model=concave"),
         ("analysis.reductions=false", "contact_model=convex", "contact_model=concave"),
         ("joints.dry.dilatancy=5", "flow_rule=non_associative", "flow_rule=dilatancy"),
     ],
@@ -241,8 +243,6 @@ OTHER: dict[str, Any] = {
     "gap": 1e-4,
     "residual": 1e-5,
     "search": 3.0,
-    "range": False,
-    "peak": False,
     "standing": False,
 }
 """A value of each knob that no preset has, or standard has not."""
@@ -277,4 +277,4 @@ def test_every_description_says_what_the_presets_set() -> None:
     words = {name: AnalysisSection.model_fields[name].description or "" for name in asdict(PRESETS["draft"])}
     assert all("set by accuracy unless given: draft " in text for text in words.values())
     assert words["gap"].endswith("draft 0.001, standard 3e-07, reference 5e-08")
-    assert words["range"].endswith("draft false, standard true, reference true")
+    assert words["search"].endswith("draft 0, standard 1, reference 4")

@@ -62,7 +62,7 @@ def expanded(found: str, file: str) -> set[str]:
     if file == "notices.py" and found == "identifier":  # names of sections in the singular
         return {"parameter-unused", "material-unused", "joint-unused", "load-unused", "vehicle-unused"}
     if file in ("findings.py", "outcome.py") and found == "identifier":
-        return {"tries-disagree", "range-not-verified", "peak-not-verified", "geometric-safety-not-verified"}
+        return {"least-not-verified", "geometric-safety-not-verified"}
     return COMPUTED[found]
 
 
@@ -136,7 +136,8 @@ def test_exit_statuses() -> None:
 def test_residuals_of_the_listing() -> None:
     for name, *_ in residual_rows(tower_results().cases[0]):
         assert len(find_explanations(name)) == 1, name
-    for name in ("associative, static bound", "associative, kinematic bound", "relative gap", "range", "peak"):
+    bounds = ("associative, static bound", "associative, kinematic bound", "relative gap")
+    for name in (*bounds, "least found", "path_last"):
         assert len(find_explanations(name)) == 1, name
 
 
@@ -218,7 +219,7 @@ def test_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert [entry["identifier"] for entry in json.loads(capsys.readouterr().out)["explanations"]] == list(
         explanations()
     )
-    assert main(["explain", "peak", "--json"]) == 0
+    assert main(["explain", "least-found", "--json"]) == 0
     (entry,) = json.loads(capsys.readouterr().out)["explanations"]
     assert entry["kind"] == "figure"
     assert entry["example"] is None

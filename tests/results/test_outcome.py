@@ -4,7 +4,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.outcome import case_notices, dimension_of, factor_unique, law_residual, result_of, standing_of
+from mbla.results.outcome import (
+    case_notices,
+    dimension_of,
+    falls_while_moving,
+    law_residual,
+    least_known,
+    result_of,
+    standing_of,
+)
 from mbla.results.results import CaseResult
 from mbla.solution.solution import ModelSize, Standing, StandingResult, Status
 from tests.results.synthetic import tower_results
@@ -47,7 +55,20 @@ def test_self_stress_takes_the_factor_away_but_not_the_associative_one(verdict: 
     assert (result_of(case) is not None) == has_result
     associative = replace(case, solution=replace(case.solution, flow_rule="associative"))
     assert result_of(associative) is not None
-    assert factor_unique(tower_results().model, associative) is True
+
+
+@pytest.mark.parametrize(("least", "known"), [(0.45, 0.45), (0.55, 0.5), (float("nan"), 0.5)])
+def test_one_designs_with_the_smaller_of_the_load_factor_and_the_least_found(least: float, known: float) -> None:
+    assert least_known(replace(SOLVED, checks=replace(SOLVED.checks, least_load_factor=least))) == known
+    assert np.isnan(least_known(FALLEN))
+
+
+@pytest.mark.parametrize(("end", "last", "falls"), [("falls", 0.4, True), ("falls", 0.5, False), ("far", 0.4, False)])
+def test_the_load_falls_while_it_moves_where_the_path_ends_so_below_its_greatest(
+    end: str, last: float, falls: bool
+) -> None:
+    case = replace(SOLVED, solution=replace(SOLVED.solution, path_end=end, path_last=last))
+    assert falls_while_moving(case) is falls
 
 
 def test_dimension_is_two_only_where_every_case_was_planar() -> None:

@@ -43,15 +43,18 @@ def columns(curve: tuple[CurveRow, ...]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
-    """tan(alpha - theta), its centroid moved by R (sin alpha - sin(alpha - theta)); nothing at half the thickness."""
+    """tan(alpha - theta), its centroid moved by R (sin alpha - sin(alpha - theta)); nothing at half the thickness.
+
+    The first step goes by the motion of elastic joints, of which some also close: 6e-6 of the factor.
+    """
     solution = pushover_of(ROCKING)
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
     moved, factors = columns(solution.curve)
-    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-8)
+    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-5)
     assert solution.curve_end is CurveEnd.NOTHING_LEFT
     before, last = solution.curve[-2:]
     ends = [last.load_factor, before.load_factor], [last.displacement, before.displacement]
-    assert np.interp(0.0, *ends) == pytest.approx(0.1, rel=1e-5)
+    assert np.interp(0.0, *ends) == pytest.approx(0.1, rel=1e-4)
     assert abs(energy_missing(solution.curve)) < 1e-3
 
 
@@ -73,7 +76,7 @@ def test_forces_act_where_they_act_on_the_block(load: str) -> None:
     cos, sin = np.cos(turned), np.sin(turned)
     arms = 0.1 * cos - 0.5 * sin, 0.1 * cos - sin
     heights = 0.1 * sin + 0.5 * cos, 0.1 * sin + cos
-    assert factors == pytest.approx(sum(arms) / (sum(heights) if load == "mass" else heights[0]), abs=1e-6)
+    assert factors == pytest.approx(sum(arms) / (sum(heights) if load == "mass" else heights[0]), abs=3e-5)
 
 
 def test_the_control_point_does_the_work_of_the_live_load() -> None:

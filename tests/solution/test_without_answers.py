@@ -7,25 +7,18 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
-from mbla.solution.standing.standing_path import StandingPath
 
 from mbla.solution.associative import repair
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
-from mbla.solution.nonassociative import livesley, locking, schemes
+from mbla.solution.nonassociative import livesley
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
 from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
-from mbla.solution.nonassociative.locking import Boundedness, non_associative_bounded
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.standing import spring_state
-from mbla.solution.standing.spring_problem import PATTERN_FROM, LatePattern, SpringProblem, joints_at, spring_problem
-from mbla.solution.standing.spring_state import newton_step
-from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening
 from mbla.solution.verification.verify import verify
 from tests.line import BLOCK, line_of, solution_of
 from tests.solution.by_hand import claim
@@ -75,41 +68,6 @@ def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pyte
     assert repair._static_correction(program, state.forces, state.load_factor) is None
     rough = state.forces + 1e-3
     assert repaired_forces(program, rough, state.load_factor) is None
-
-
-def on_springs() -> SpringProblem:
-    program = line_of(BLOCK).program
-    springs = sp.csr_array(sp.eye_array(6, format="csr"))
-    return spring_problem(program.equilibrium_matrix, program.dead_load, program.limits, springs, None)
-
-
-def test_joints_on_springs_without_a_tangent_have_no_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    problem = on_springs()
-    joints = joints_at(problem, 1e-3, np.zeros(6))
-    assert newton_step(problem, 1e-3, joints) is not None
-    monkeypatch.setattr(spring_state, "factors_on_the_diagonal", lambda *arguments: None)
-    assert newton_step(problem, 1e-3, joints) is None
-    late = replace(problem, pattern=LatePattern(line_of(BLOCK).program))
-    monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: None)
-    assert [newton_step(late, 1e-3, joints) for _ in range(PATTERN_FROM + 1)][-1] is None
-
-
-def test_springs_that_decide_nothing_leave_it_in_doubt_whether_it_locks(monkeypatch: pytest.MonkeyPatch) -> None:
-    undecided = Weakening(Outcome.UNDECIDED, 0, 0.5, "the time limit was reached")
-    monkeypatch.setattr(locking, "weaken_springs", lambda *arguments: undecided)
-    program = line_of(BLOCK, PRESSED).program
-    result = non_associative_bounded(StandingPath.from_dead_load(program, SETTINGS))
-    assert result.verdict is Boundedness.DOUBTFUL
-    assert result.block == 0
-    assert result.reason.endswith("whether it does so without is doubtful: the time limit was reached")
-
-
-def test_the_default_scheme_does_not_go_on_beyond_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    late = SequenceResult(Status.TIME_LIMIT, None, "the time limit was reached", ())
-    monkeypatch.setattr(schemes, "solve_by_default", lambda *arguments: late)
-    solution = solution_of(line_of(BLOCK, "analysis.flow_rule=non_associative"))
-    assert solution.status is Status.TIME_LIMIT
-    assert solution.reason == "the time limit was reached"
 
 
 def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -32,7 +32,7 @@ def values(record: dict[str, Any], *paths: str, cases: tuple[str, ...] = ("push_
     [
         ("load_factor", "float", ""),
         ("mechanism.class", "text", ""),
-        ("factor_unique", "bool", ""),
+        ("verified", "bool", ""),
         ("mechanism.moving_blocks", "int", ""),
         ("mechanism.parts.0.weight", "float", "kN"),
         ("reactions.total.moment.2", "float", "kN mm"),
@@ -57,9 +57,9 @@ def test_paths_have_kind_and_unit(path: str, kind: str, unit: str) -> None:
         ("load_facto", "is no result; did you mean load_factor?"),
         ("zzzz", "is no result; results are the keys of `cases[]` in schemas/results.md"),
         ("mechanism", "is an object, no single value; take mechanism.class, mechanism.open"),
-        ("range", "is a list, no single value; take range.0"),
+        ("angle_bounds", "is a list, no single value; take angle_bounds.0"),
         ("reactions.total", "is an object, no single value; take reactions.total.force.0 or reactions.total.moment.0"),
-        ("range.first", "is no result"),
+        ("angle_bounds.first", "is no result"),
         ("mechanism.class.0", "is no result"),
         ("model.slivers", "is no result"),  # of mbla check alone
         ("exit_code", "is no result"),  # a column anyway

@@ -95,7 +95,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
         [
             str(row.step),
             *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
-            *(small(value) for value in (row.residual, row.overlap)),
+            *(small(value) for value in (row.residual if row.step else np.nan, row.overlap)),
             *(number(value) for value in (row.live_work, row.friction, row.potential)),
             *([number(row.tie_work)] if tied else []),
             "new" if row.new_mechanism else "",

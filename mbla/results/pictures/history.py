@@ -128,7 +128,7 @@ def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
     """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
     curve, words = scene.case.solution.curve, scene.words_of("curve")[:2]
     words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
-    sure = np.array([row.residual <= SOLVED_RESIDUAL for row in curve])
+    sure = np.array([not row.step or row.residual <= SOLVED_RESIDUAL for row in curve])  # the first is the case's own
     mark = "" if sure.all() else f"NOT VERIFIED: {int((~sure).sum())} of {len(sure)} steps, hollow"
     with open_diagrams(path, options, words, mark) as sheet:
         page, axes = sheet.page, sheet.frames(1)[0, 0]

@@ -11,7 +11,6 @@ import pytest
 from mbla.program.reductions import Reduced, reduce_program
 from mbla.program.reductions.scene import _unit_of_force, part_of_blocks, split_into_parts
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load
 from tests.line import BLOCK, WALL, Line, line_of, verified
@@ -65,7 +64,7 @@ def test_each_part_has_its_own_unit_of_force(ratio: float) -> None:
     for part in reduced.parts:
         sizes = np.linalg.norm(part.dead_load.reshape(-1, 3), axis=1)
         assert sizes.mean() == pytest.approx(1.0, rel=1e-12)
-        assert assess_dead_load(part, SolverSettings(tolerance=1e-8)).standing.verdict is Standing.YES
+        assert assess_dead_load(part).verdict is Standing.YES
 
 
 def test_parts_know_their_loads_and_strengths() -> None:
@@ -136,7 +135,7 @@ def test_the_answer_is_that_of_the_loaded_wall(flow_rule: str, switch: str) -> N
     assert solution.standing.verdict is Standing.YES
     speeds = np.abs(solution.mechanics.mechanism).max(axis=1)
     groups = np.array(line.model.blocks.groups)
-    assert set(groups[speeds > 1e-6 * speeds.max()]) == {"wall"}
+    assert set(groups[speeds > 1e-2 * speeds.max()]) == {"wall"}  # elastic joints leave 0.3 % to the others
     bodies = np.append(groups == "far", False)[line.contacts.bodies]
     far = np.asarray(bodies).any(axis=-1).reshape(-1)[line.contacts.interface_of_point]
     assert solution.mechanics.contact_forces[far, 0].sum() > 0  # what is at rest carries its weight in the results

@@ -20,7 +20,7 @@ from mbla.program.reductions.restrict import chosen_limits, restricted, selectio
 from mbla.program.reductions.scene import Scene, part_of
 from mbla.program.reductions.steps import ProgramSize, ReductionSwitches, StepState, size_of
 from mbla.solution.settings import SolverSettings
-from mbla.solution.standing.standing import assess_dead_load
+from mbla.solution.standing.standing import stress_free_state
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 from tests.program.reductions.scenes import scene
 from tests.solution.by_hand import own_points
@@ -123,8 +123,8 @@ def test_points_share_the_dead_load_as_they_share_the_area(planar: bool) -> None
     (part,) = reduced(line).parts
     assert part.components == (2 if planar else 3)
     assert part.reduction is not None
-    state = assess_dead_load(part, SETTINGS)
-    assert state.forces is not None
+    state = stress_free_state(part).rest
+    assert state is not None
     forces = part.reduction.forces @ state.forces.ravel()
     normal = forces[:: part.components]
     expected = [0.25, 0.25, 0.5] if planar else [0.0625] * 4 + [0.125] * 4 + [0.25]

@@ -198,7 +198,7 @@ def assert_same_with_and_without(place: str, flow_rule: str, name: str, case: in
     """Load factor and bounds; residuals of forces and velocities were recomputed on the whole model."""
     factors = []
     for switch in ("true", "false"):
-        overrides = (f"analysis.flow_rule={flow_rule}", f"analysis.reductions={switch}", "analysis.range=false")
+        overrides = (f"analysis.flow_rule={flow_rule}", f"analysis.reductions={switch}")
         solution, checks, status = verified(placed(place, *overrides, case=case))
         assert status == "solved", checks.failures
         assert solution.mechanics is not None

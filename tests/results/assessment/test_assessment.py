@@ -190,7 +190,7 @@ def test_the_verdict_of_a_code_is_among_the_first_lines() -> None:
 def test_the_curve_of_a_pushover_as_an_array() -> None:
     case = mbla.run(TEXT, cases="outwards", set=QUICK).case("outwards")
     assert case.curve is not None
-    assert case.curve[0] == pytest.approx([0.0, 0.075], abs=1e-9)
+    assert case.curve[0] == pytest.approx([0.0, 0.075], abs=1e-8)  # from where the path of elastic joints still rises
     assert case.curve.shape == (len(case.record.solution.curve), 2)
     assert case.curve[:, 1] == pytest.approx(0.075 * (1 - case.curve[:, 0] / 0.3), abs=1e-3)
 
@@ -202,8 +202,8 @@ def test_the_verdict_is_of_the_least_load_factor_that_was_found() -> None:
     own = record.solution.mechanics
     assert own is not None
     least = 0.8 * own.load_factor
-    spread = replace(record, solution=replace(record.solution, spread=(least, own.load_factor)))
-    plain, lower = (assessment_of(run.model, run.contacts, case) for case in (record, spread))
+    searched = replace(record, checks=replace(record.checks, least_load_factor=least))
+    plain, lower = (assessment_of(run.model, run.contacts, case) for case in (record, searched))
     assert plain is not None
     assert lower is not None
     assert values(lower)["alpha_0"] == pytest.approx(0.8 * values(plain)["alpha_0"])

@@ -108,8 +108,7 @@ def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
         (lambda p: change(p, "contacts/outline", 5), "outline"),
         (lambda p: change(p, "cases/push_x/modes", 7), "contact modes"),
         (lambda p: change(p, "cases/push_x/status", b"fine"), "'fine' is not a valid Status"),
-        (lambda p: remove(p, "cases/push_x/range"), "incomplete"),
-        (lambda p: replace_dataset(p, "cases/push_x/range", np.zeros(3)), "along end"),
+        (lambda p: remove(p, "cases/push_x/path_last"), "incomplete"),
         (lambda p: remove(p, "cases/push_x/programs/solver"), "incomplete: push_x: solution"),
         (lambda p: change(p, "cases/push_x/programs/solver", b"x"), "name of a solver"),
         (lambda p: change(p, "cases/push_x/solver", b"x"), "name of a solver"),
@@ -138,14 +137,14 @@ def test_reductions_have_known_names(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
-        (lambda p: remove(p, "cases/push_x/lower/modes"), "incomplete: push_x: lower"),
-        (lambda p: remove(p, "cases/push_x/upper/load_factor"), "incomplete: push_x: upper"),
+        (lambda p: remove(p, "cases/push_x/least/modes"), "incomplete: push_x: least"),
+        (lambda p: remove(p, "cases/push_x/level/load_factor"), "incomplete: push_x: level"),
         (lambda p: remove(p, "cases/push_x/standing/falls"), "incomplete: push_x: standing"),
         (lambda p: remove(p, "cases/push_x/size/parts"), "incomplete: push_x: size"),
         (lambda p: change(p, "cases/push_x/size/dimension", 4), "dimension of the model"),
         (lambda p: change(p, "cases/push_x/standing/verdict", b"maybe"), "'maybe' is not a valid Standing"),
         (lambda p: change(p, "cases/push_x/standing/falls", 3), "points outside block"),
-        (lambda p: change(p, "cases/push_x/upper/modes", 7), "contact modes"),
+        (lambda p: change(p, "cases/push_x/least/modes", 7), "contact modes"),
         (lambda p: change(p, "cases/push_x/lock", np.nan), "not finite"),
         (lambda p: replace_dataset(p, "cases/push_x/force_ranges", np.zeros((3, 2))), "along interface"),
         (lambda p: replace_dataset(p, "cases/push_x/path/open", np.zeros(2, dtype=np.int64)), "along path_row"),
@@ -163,8 +162,8 @@ def test_resultants_without_forces_are_refused(tmp_path: Path) -> None:
     path.write_bytes(write_results_hdf5(full_results()))
     with changing(path) as file:
         for name in ("load_factor", "contact_forces", "contact_velocities", "mechanism", "modes", "residual"):
-            del file[f"cases/push_x/upper/{name}"]
-    assert "resultants without forces: upper" in refused(path)
+            del file[f"cases/push_x/least/{name}"]
+    assert "resultants without forces: least" in refused(path)
 
 
 def test_truncated_files_are_refused(path: Path, image: bytes) -> None:

@@ -56,15 +56,15 @@ def test_no_status_but_solved_reads_as_a_plain_collapse(results: Results) -> Non
         assert "0.5 g, verified" not in listing(with_case(results, status=status))
 
 
-def test_the_table_has_the_least_and_the_greatest_where_a_case_has_several() -> None:
-    ranged = with_case(RESULTS, checks={"lower": 0.45, "upper": 0.52}).cases[0]
-    heads, rows = answer_columns(MODEL, [FIRST, ranged, RESULTS.cases[1]])
-    assert heads == ["load factor", "least found", "greatest found", "associative"]
-    assert [row[:3] for row in rows] == [["0.5", "0.5", "0.5"], ["0.5", "0.45", "0.52"], ["-", "-", "-"]]
+def test_the_table_has_the_least_where_a_search_found_one() -> None:
+    searched = with_case(RESULTS, checks={"least_load_factor": 0.45}).cases[0]
+    heads, rows = answer_columns(MODEL, [FIRST, searched, RESULTS.cases[1]])
+    assert heads == ["load factor", "least found", "associative"]
+    assert [row[:2] for row in rows] == [["0.5", "-"], ["0.5", "0.45"], ["-", "-"]]
     assert answer_columns(MODEL, [FIRST])[0] == ["load factor", "associative"]
-    table = summary_lines(replace(RESULTS, cases=(ranged,)))
+    table = summary_lines(replace(RESULTS, cases=(searched,)))
     assert table[1].split() == ["load", "case", "status", *" ".join(heads).split()]
-    assert table[2].split()[2:5] == ["0.5", "0.45", "0.52"]
+    assert table[2].split()[2:4] == ["0.5", "0.45"]
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------
@@ -111,11 +111,10 @@ def test_angle_of_a_table_whose_load_factor_is_no_tangent(results: Results, fact
     assert lines[2].split() == ["tilted", "solved", angle, "-"]
 
 
-def test_a_least_that_was_not_searched_for_is_an_upper_limit() -> None:
-    """A block in space, of which nothing lower is looked for unless the deck says so."""
+def test_in_space_a_least_is_found_where_the_deck_says_how_far_to_search() -> None:
+    """A block pushed aslant, of which nothing lower is looked for unless asked."""
     live: list[dict[str, Any]] = [{"acceleration": [1, 0.3, 0]}]
     changes: dict[str, object] = {"analysis.flow_rule": "non_associative", "load_cases.push.live": live}
     plain, searched = (mbla.run(BLOCK, set=changes | more).summary for more in ({}, {"analysis.search": 1}))
-    assert "<= " in plain
-    assert "lower load factors are looked for where" in " ".join(plain.split())
-    assert "<= " not in searched
+    assert "least found" not in plain
+    assert "least found: " in searched

@@ -1,4 +1,4 @@
-"""How a case was solved: solver, programs, reductions, load path."""
+"""How a case was solved: solver, programs, reductions, path of elastic joints."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_each_name_once_in_the_order_of_the_programs() -> None:
         ("associative", "mbla", "cholmod"),
         ("reverse", "clarabel", "qdldl"),
         ("exact step", "", ""),
-        ("range, lower", "mbla", "qdldl"),
+        ("flow programs", "mbla", "qdldl"),
     )
     assert solver_json(replace(FIRST, solver="auto", programs=programs)) == {
         "asked": "auto",
@@ -93,10 +93,10 @@ def lines_of(*path: PathPoint) -> list[str]:
     return path_lines(MODEL, replace(CASE, solution=replace(CASE.solution, path=path)))
 
 
-def test_a_long_path_is_thinned_but_keeps_peak_and_ends() -> None:
+def test_a_long_path_is_thinned_but_keeps_its_greatest_load_and_ends() -> None:
     factors = [0.001 * i for i in range(300)]
     factors[150] = 1.0
-    lines = lines_of(*(PathPoint(i, factor, i, 0, 1e-9) for i, factor in enumerate(factors)))
+    lines = lines_of(*(PathPoint(i, 0.1 * i, factor, i, 0, balanced=True) for i, factor in enumerate(factors)))
     rows = [line.split()[0] for line in lines if line.split() and line.split()[0].isdigit()]
     assert len(rows) == MOST_ROWS
     assert {"0", "150", "299"} <= set(rows)

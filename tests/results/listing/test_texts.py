@@ -21,8 +21,8 @@ from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import PathPoint, Standing, StandingResult, Status
-from tests.results.synthetic import ASSESSED, full_results, tower_mechanics, tower_results
+from mbla.solution.solution import Standing, StandingResult, Status
+from tests.results.synthetic import ASSESSED, PATH, full_results, tower_mechanics, tower_results
 
 TEXTS = Path(__file__).with_name("texts.txt")
 NAN = float("nan")
@@ -30,9 +30,10 @@ RESULTS, ASSOCIATIVE = tower_results(), tower_results("associative")
 MODEL = RESULTS.model
 SETTLEMENT = Settlement(np.array([0]), np.array([[0.0, 0, -1, 0, 0, 0]]), False, "settlement of base[0]", 30.0, 20.0)
 TILT = Tilt(np.array([0.0, 1.0, 0.0]), np.zeros((3, 6)), np.zeros((3, 6)), np.zeros((3, 6)), NAN, True, np.inf)
+IN_DOUBT = StandingResult(Standing.DOUBTFUL, 1, "no plateau")
 BY_ITSELF = StandingResult(Standing.SELF_STRESS, 1, "the tower hangs between two walls")
 FAILED = {"verified": False, "failures": (Message("yield-violation", "residual 0.1"),), "kinematic_bound": 0.4}
-PATH = (PathPoint(0, 0.0, 0, 0, 1e-9), PathPoint(1, 0.6, 2, 0, 1e-8), PathPoint(2, 0.5, 2, 1, 1e-7))
+BY_PATH = {"elastic_residual": 1e-12, "penetration": NAN, "complementarity_residual": NAN, "power_balance": NAN}
 NONE: dict[str, Any] = {"mechanics": None}
 
 
@@ -56,24 +57,20 @@ def case(
 
 
 CASES = {
-    "range": case(associative=tower_mechanics(0.625), checks={"lower": 0.45, "upper": 0.52}, scheme="proximal"),
-    "range of one figure": case(associative=tower_mechanics(0.625), checks={"lower": 0.5, "upper": 0.5}),
-    "lower end only": case(associative=tower_mechanics(0.625), checks={"lower": 0.45}),
-    "upper end only": case(associative=tower_mechanics(0.625), checks={"upper": 0.52}),
-    "range without end": case(checks={"lower": 0.45, "upper": np.inf}),
-    "range not verified": case(lower=tower_mechanics(0.45), upper=tower_mechanics(0.52)),
-    "spread": case(Status.APPROXIMATE, spread=(0.49, 0.51)),
-    "spread within the residual": case(spread=(0.499, 0.501), checks={"slip_residual": 5e-3}),
-    "peak": case(checks={"lower": 0.45, "upper": 0.52, "peak_load_factor": 0.6}),
+    "another associative factor": case(associative=tower_mechanics(0.625)),
     "published": case(scheme="published"),
-    "lowest": case(scheme="lowest"),
-    "path": case(path=PATH),
-    "path without peak": case(path=PATH[:2]),
-    "remark": case(remarks=(Message("peak-on-path", "The factor is the peak of the path"),)),
+    "path that falls": case(checks=BY_PATH, path=PATH, path_end="falls", path_last=0.4),
+    "path that stays": case(checks=BY_PATH, path=PATH[:2], path_end="flat", path_last=0.5),
+    "path that ends far out": case(checks=BY_PATH, path=PATH[:2], path_end="far", path_gain=0.02, path_last=0.5),
+    "path that is lost": case(Status.APPROXIMATE, checks=BY_PATH, path=PATH[:2], path_end="stuck", path_last=0.5),
+    "path in doubt": case(checks=BY_PATH, standing=IN_DOUBT, path=PATH, path_end="falls", path_last=0.4),
+    "least a little lower": case(checks=BY_PATH | {"least_load_factor": 0.495}),
+    "least far lower": case(checks=BY_PATH | {"least_load_factor": 0.45}),
+    "least not verified": case(checks=BY_PATH, least=tower_mechanics(0.45)),
+    "remark": case(remarks=(Message("elastic-path-rises", "The load still rises"),)),
     "self-stress": case(standing=BY_ITSELF),
     "self-stress, associative": case(of=ASSOCIATIVE, standing=BY_ITSELF),
-    "settlement": case(load={"settlement": SETTLEMENT}, checks={"lower": 0.45, "upper": 0.52}),
-    "settlement without end": case(load={"settlement": SETTLEMENT}, checks={"lower": 0.45, "upper": np.inf}),
+    "settlement": case(load={"settlement": SETTLEMENT}, checks=BY_PATH),
     "settlement, unbounded": case(Status.UNBOUNDED, load={"settlement": SETTLEMENT}, **NONE),
     "tilt": case(load={"tilt": TILT}, associative=None),
     "tilt, unbounded": case(Status.UNBOUNDED, load={"tilt": TILT}, **NONE),
@@ -95,7 +92,7 @@ CASES = {
     "numerical error": case(Status.NUMERICAL_ERROR, **NONE),
 }
 """what a case may be, by what is special to it"""
-SHOWN = ("Verdict", "Load factor and bounds", "Load path", "Assessment", "Locking forces")
+SHOWN = ("Verdict", "Load factor and bounds", "Path of elastic joints", "Assessment", "Locking forces")
 """sections that say something else for it; what they share with the plain case is left out"""
 NEEDS = {"push": CaseNeeds({"unknown_velocities": 12, "cones": 8})}
 DIFFERS = ("push_x: static bound is 1 recomputed, the file says 2",)

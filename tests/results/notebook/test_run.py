@@ -24,7 +24,7 @@ def test_solved_case() -> None:
     assert case.load_factor == 0.5
     assert case.verified
     assert case.reason == ""
-    assert case.range is None
+    assert np.isnan(case.least_load_factor)
     assert np.isnan([case.angle, case.reaction]).all()
     assert case.mechanism is not None
     assert case.mechanism[1, 4] == 0.1
@@ -117,7 +117,7 @@ def test_settlement_has_its_reaction() -> None:
     case = replace(results.cases[0], solution=replace(results.cases[0].solution, standing=None))
     run = Run(replace(results, cases=(case,)))
     assert run.cases[0].reaction == pytest.approx(30.0 - 0.5 * 20.0)
-    assert run.cases[0].range == (0.45, 0.52)
+    assert run.cases[0].least_load_factor == 0.45
 
 
 def test_tables_as_frames() -> None:

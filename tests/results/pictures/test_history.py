@@ -29,7 +29,7 @@ def test_iterations_have_their_residuals(tmp_path: Path) -> None:
     results = tower_results()
     shown = history(tmp_path, results, results.cases[0])
     assert {"gap", "primal residual", "dual residual", "iteration", "load factor 0.5"} <= set(shown)
-    assert "step of the load path" not in shown
+    assert "displacement of the path over the elastic one" not in shown
 
 
 @pytest.mark.parametrize("answer", [0.5, 40.0])
@@ -43,10 +43,10 @@ def test_the_answer_is_in_sight_of_the_diagram(answer: float) -> None:
     assert low <= 0 < answer <= high
 
 
-def test_load_path_where_there_is_one(tmp_path: Path) -> None:
+def test_path_of_elastic_joints_where_there_is_one(tmp_path: Path) -> None:
     results = full_results()
     shown = history(tmp_path, results, results.cases[0])
-    assert {"step of the load path", "open", "sliding", "contact points"} <= set(shown)
+    assert {"displacement of the path over the elastic one", "open", "sliding", "contact points"} <= set(shown)
 
 
 def test_case_without_iterations_says_so(tmp_path: Path) -> None:

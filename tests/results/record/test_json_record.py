@@ -83,7 +83,7 @@ def test_a_case_without_a_result_has_its_best_iterate_instead() -> None:
     case = results_json(with_first(status=Status.NOT_VERIFIED))["cases"][0]
     assert case["load_factor"] is None
     assert case["mechanism"] is None
-    assert case["factor_unique"] is None
+    assert case["least_load_factor"] is None
     assert case["best_iterate"]["load_factor"] == 0.5
     assert case["best_iterate"]["residuals"]["complementarity"] == 1e-11
     assert case["associative_load_factor"] == 0.5  # its bounds meet
@@ -111,12 +111,11 @@ def test_every_answer_is_in_the_record() -> None:
     case = record["cases"][0]
     assert record["model"]["standing"] == "doubtful"
     assert record["model"]["dimension"] == 2
-    assert case["scheme"] == "proximal"
-    assert case["range"] == [0.45, 0.52]
-    assert case["factor_unique"] is False
-    assert case["spread"] == [0.49, 0.51]
+    assert case["scheme"] == "auto"
+    assert case["least_load_factor"] == 0.45
+    assert (case["path_end"], case["path_gain"], case["path_last"]) == ("falls", 0.02, 0.4)
     assert case["standing"] == {"verdict": "doubtful", "block": "tower[0]", "reason": "no plateau"}
-    assert case["remarks"] == ["the factor is the peak of the path", "one more"]
+    assert case["remarks"] == ["the load still rises", "one more"]
     assert (case["tension_violation"], case["slip_residual"]) == (1e-9, 2e-9)
     assert case["residuals"] == {
         "equilibrium": 1e-12,
@@ -128,8 +127,14 @@ def test_every_answer_is_in_the_record() -> None:
         "elastic": 3e-9,
     }
     assert case["size"]["dropped_points"] == 4
-    assert case["path"][1] == {"step": 1, "load_factor": 0.6, "open": 2, "slide": 0, "residual": 1e-8}
-    assert case["path"][2]["residual"] is None
+    assert case["path"][2] == {
+        "step": 3,
+        "displacement": 4.0,
+        "load_factor": 0.6,
+        "open": 2,
+        "slide": 1,
+        "balanced": False,
+    }
     assert case["best_iterate"] is None
 
 
@@ -143,21 +148,10 @@ def test_a_structure_that_hangs_together_by_self_stress_has_no_load_factor_witho
     assert "only-by-self-stress" in [notice["identifier"] for notice in record["notices"]]
 
 
-@pytest.mark.parametrize(
-    ("lower", "upper", "ends", "least", "greatest", "unique"),
-    [
-        (0.45, 0.52, [0.45, 0.52], 0.45, 0.52, False),
-        (0.5, 0.5, [0.5, 0.5], 0.5, 0.5, None),
-        (0.45, float("nan"), [0.45, None], 0.45, 0.5, False),
-        (0.45, float("inf"), [0.45, None], 0.45, None, False),
-        (float("nan"), float("nan"), None, 0.5, 0.5, None),
-    ],
-)
-def test_range_and_uniqueness(lower: float, upper: float, ends: Any, least: Any, greatest: Any, unique: Any) -> None:
-    """Equal ends show one factor for this mechanism, not that no other mechanism has another."""
-    case = results_json(with_first(checks={"lower": lower, "upper": upper}))["cases"][0]
-    assert (case["range"], case["factor_unique"]) == (ends, unique)
-    assert (case["least_load_factor"], case["greatest_load_factor"]) == (least, greatest)
+@pytest.mark.parametrize(("least", "shown"), [(0.45, 0.45), (float("nan"), None)])
+def test_the_least_load_factor_is_there_where_a_search_found_one(least: float, shown: float | None) -> None:
+    case = results_json(with_first(checks={"least_load_factor": least}))["cases"][0]
+    assert (case["load_factor"], case["least_load_factor"]) == (0.5, shown)
 
 
 def test_a_certificate_is_named() -> None:

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.solution import Standing, Status
 from mbla.solution.standing import standing
-from mbla.solution.standing.weak_spring_continuation import Outcome, Weakening, weaken_springs
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK, WALL, line_of, line_of_file, load_factor, solution_of, verified
 
@@ -177,34 +177,34 @@ def test_the_dead_load_is_proved_to_be_carried_by_a_few_iterations() -> None:
 def test_where_standing_is_asked_its_forces_prove_that_the_dead_load_is_carried(
     rule: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The springs are weakened once, for every question about the dead load, and nothing else is solved for it."""
-    weakened = []
+    """It is found once, by a step for each ratio of stiffness, for every question about the dead load."""
+    steps = []
 
-    def counted(*arguments: Any) -> Weakening:
-        weakened.append(arguments)
-        return weaken_springs(*arguments)
+    def counted(*arguments: Any) -> Gravity:
+        steps.append(arguments)
+        return gravity_step(*arguments)
 
-    monkeypatch.setattr(standing, "weaken_springs", counted)
+    monkeypatch.setattr(standing, "gravity_step", counted)
     solution, _, status = verified(line_of(WALL, "parameters.n=6", f"analysis.flow_rule={rule}"))
     assert status is Status.SOLVED
     assert solution.standing is not None
     assert solution.standing.verdict is Standing.YES
     assert "reverse" not in [program.kind for program in solution.programs]
-    assert len(weakened) == 1
+    assert len(steps) == len(standing.RATIOS)
 
 
-def test_where_the_springs_decide_nothing_the_reversed_live_load_does(monkeypatch: pytest.MonkeyPatch) -> None:
-    def undecided(*arguments: Any) -> Weakening:
-        return replace(weaken_springs(*arguments), outcome=Outcome.UNDECIDED)
+def test_where_the_gravity_step_decides_nothing_the_reversed_live_load_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    def undecided(*arguments: Any) -> Gravity:
+        return replace(gravity_step(*arguments), settled=False, carried=False)
 
-    monkeypatch.setattr(standing, "weaken_springs", undecided)
+    monkeypatch.setattr(standing, "gravity_step", undecided)
     solution = solution_of(line_of(WALL, "parameters.n=4"))
     assert "reverse" in [program.kind for program in solution.programs]
     assert solution.standing is not None
     assert solution.standing.verdict is Standing.DOUBTFUL
 
 
-def test_with_a_time_limit_the_programs_come_before_the_springs() -> None:
+def test_with_a_time_limit_the_programs_come_before_the_standing() -> None:
     """What standing takes cannot be foreseen: it must not take the load factor's time."""
     solution = solution_of(line_of(WALL, "parameters.n=4", "analysis.time_limit=60"))
     assert [program.kind for program in solution.programs][:2] == ["associative", "reverse"]

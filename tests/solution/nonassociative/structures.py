@@ -1,4 +1,4 @@
-"""Walls of Ferris and Tin-Loi 2001 (Int. J. Mech. Sci. 43, 209-224), and what the default scheme makes of a program.
+"""Walls of Ferris and Tin-Loi 2001 (Int. J. Mech. Sci. 43, 209-224), and what path and search make of a program.
 
 Without dilatancy a structure has many load factors, and these walls have been searched for low ones by several methods:
 ``LEAST`` are the least states of the exact law that any of them found.
@@ -6,15 +6,20 @@ Without dilatancy a structure has many load factors, and these walls have been s
 
 from __future__ import annotations
 
-import numpy as np
-from mbla.solution.nonassociative.default_scheme import solve_by_default
+import math
+from dataclasses import replace
 
+import numpy as np
+
+from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.nonassociative.elastic import solve_by_elastic_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.least_found import least_found
 from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Status
+from mbla.solution.solution import ProgramRecord, Status
 from tests.line import HEAD
 
 SETTINGS = SolverSettings(tolerance=1e-8)
@@ -39,17 +44,83 @@ FERRIS_5 = opening(
 LEAST = {FERRIS_1: 0.638982, FERRIS_3: 0.355817, FERRIS_5: 0.207973}
 
 
-def sequence_of(program: Program, settings: SolverSettings = SETTINGS) -> SequenceResult:
-    """What the default scheme finds without dilatancy, sharpened as it is in every run."""
-    associative = solve_associative(program, settings, lambda record: None)
-    none = np.zeros(program.n_points)
-    found = solve_by_default(program, associative, none, settings, lambda record: None)
-    return sharpened(program, associative, none, found)
+def groove(friction: float, slope: float) -> str:
+    """Prism in a groove of two planes inclined at ``slope``, pushed along it."""
+    t, s, c = math.tan(slope), math.sin(slope), math.cos(slope)
+    return HEAD + (
+        f"joints: {{dry: {{friction: {friction!r}}}}}\n"
+        "blocks:\n"
+        "  - polyhedron:\n"
+        "      material: stone\n"
+        f"      vertices: [[0, 0, 0], [4, 0, 0], [0, -1, {t!r}], [0, 1, {t!r}], [4, -1, {t!r}], [4, 1, {t!r}]]\n"
+        "      faces: [[0, 2, 3], [1, 4, 5], [0, 1, 4, 2], [0, 1, 5, 3], [2, 3, 5, 4]]\n"
+        "supports:\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {s!r}, {c!r}]}}\n"
+        f"  - ground: {{point: [0, 0, 0], normal: [0, {-s!r}, {c!r}]}}\n"
+        "load_cases: {along: {live: [{acceleration: [1, 0, 0]}]}}\n"
+    )
 
 
-def solved(program: Program, settings: SolverSettings = SETTINGS) -> LawState:
-    """Its state, which must fit the law."""
-    sequence = sequence_of(program, settings)
-    assert sequence.status is Status.SOLVED, sequence.reason
-    assert sequence.state is not None
-    return sequence.state
+def in_the_groove(friction: float, slope: float, rise: float) -> float:
+    """Load factor of a prism that lifts by ``rise``, a tangent, of its sliding on each plane of its groove.
+
+    Velocity 1 along and w upwards: on each plane v_N = w cos b, s = sqrt(1 + w^2 sin^2 b), with v_N = tan(psi) s::
+
+        w^2 (cos^2 b - tan^2 psi sin^2 b) = tan^2 psi.
+
+    Friction mu N against (1, w sin b)/s; with the weight W, 2 N (cos b - mu w sin^2 b/s) = W and 2 mu N/s = load:
+
+        load factor = mu / (s cos b - mu w sin^2 b),
+
+    mu / cos b at psi = 0 and mu / sqrt(cos^2 b - mu^2 sin^2 b) at the friction angle.
+    """
+    w = rise / math.sqrt(math.cos(slope) ** 2 - (rise * math.sin(slope)) ** 2)
+    s = math.hypot(1.0, w * math.sin(slope))
+    return friction / (s * math.cos(slope) - friction * w * math.sin(slope) ** 2)
+
+
+def with_share(program: Program, share: float) -> Program:
+    """The program with a dilatancy angle that is a share of the friction angle at every joint."""
+    limits = program.limits
+    rise = np.tan(share * np.arctan(limits.friction)) * np.ones(program.n_points)
+    return replace(program, limits=replace(limits, dilatancy=rise))
+
+
+def unbalanced(program: Program, state: LawState) -> float:
+    """Largest unbalanced force of a state, in mean block loads."""
+    loads = program.dead_load + state.load_factor * program.live_load
+    return float(np.abs(program.equilibrium_matrix @ state.forces.ravel() + loads).max(initial=0.0))
+
+
+def associative_of(program: Program, settings: SolverSettings = SETTINGS) -> AssociativeResult:
+    return solve_associative(program, settings, lambda record: None)
+
+
+def by_path(
+    program: Program, slope: FloatArray | float = 0.0, settings: SolverSettings = SETTINGS
+) -> tuple[float, SequenceResult]:
+    """Greatest load factor on the path of elastic joints, and what is said of it; nan where there is none.
+
+    slope : tangent of the dilatancy angle
+    """
+    slopes = slope * np.ones(program.n_points)
+    found = solve_by_elastic_path(program, associative_of(program, settings), slopes, settings, lambda record: None)
+    return np.nan if found.state is None else program.scaling.load_factor(found.state.load_factor), found
+
+
+def least_of(
+    program: Program,
+    slope: FloatArray | float = 0.0,
+    settings: SolverSettings = SETTINGS,
+    records: list[ProgramRecord] | None = None,
+) -> LawState:
+    """The least state of rigid joints that the search finds from the path, sharpened as it is in every run."""
+    slopes = slope * np.ones(program.n_points)
+    associative, (_, path) = associative_of(program, settings), by_path(program, slope, settings)
+    assert path.state is not None, path.reason
+    to = [] if records is None else records
+    least = least_found(program, slopes, path.state, associative, settings, lambda record: None, to)
+    assert least is not None
+    found = sharpened(program, associative, slopes, SequenceResult(Status.SOLVED, least, "", ())).state
+    assert found is not None
+    return found

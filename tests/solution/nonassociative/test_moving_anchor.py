@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mbla.solution.nonassociative.factor_range import unbalanced
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
@@ -28,7 +27,7 @@ from mbla.solution.nonassociative.moving_anchor import (
 )
 from mbla.solution.standing.standing import gravity_forces
 from tests.line import BLOCK, WALL, line_of
-from tests.solution.nonassociative.structures import FERRIS_3, SETTINGS
+from tests.solution.nonassociative.structures import FERRIS_3, SETTINGS, unbalanced
 from tests.solution.planar import planar_program
 
 RHO = 0.3
@@ -108,7 +107,7 @@ def test_equal_products_are_left_alone_and_outlying_ones_pulled_back() -> None:
 
 
 def run_of(program: Program) -> _Run:
-    gravity = gravity_forces(program, SETTINGS, lambda record: None, [])
+    gravity = gravity_forces(program, SETTINGS, lambda record: None)
     assert not isinstance(gravity, ConeSolution)
     return _Run(stiffness_of(program), np.zeros(program.n_points), gravity)
 
@@ -177,7 +176,8 @@ def test_it_tells_how_it_goes_and_ends_where_it_is_told() -> None:
 
 @pytest.mark.parametrize("solve", [None, lambda rhs: np.full_like(rhs, np.nan)], ids=["singular", "not a number"])
 def test_without_a_direction_it_ends_where_it_starts(solve: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    run = run_of(wall())
     monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: solve)
-    result = ended(wall())
+    result = run_with_moving_anchor(run.stiffness, run.dilatancy, run.gravity, 100, 1e-7, lambda *seen: None)
     assert result.factorizations <= 2  # of the centring and of the first step
     assert result.best is None or not result.best.residual <= 1e-3

@@ -1,4 +1,4 @@
-"""The part that moves as a program of its own: its way back, and walls that are solved by it and as a whole alike."""
+"""The part that moves as a program of its own: its way back, and walls that are searched by it and as a whole alike."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mbla.solution.nonassociative import moving_part as module
 from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.moving_part import moving_part
 from tests.line import BLOCK, line_of
-from tests.solution.nonassociative.structures import FERRIS_5, SETTINGS, sequence_of, solved
+from tests.solution.nonassociative.structures import FERRIS_5, least_of
 from tests.solution.planar import planar_program
 
 
@@ -25,7 +25,7 @@ def allow_small_parts(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_motion_of_a_part_is_one_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     allow_small_parts(monkeypatch)
     program = planar_program(line_of(FERRIS_5))
-    state = solved(program)
+    state = least_of(program)
     part = moving_part(program, state.velocities)
     assert part is not None
     assert len(part.points) < program.n_points
@@ -37,16 +37,14 @@ def test_the_motion_of_a_part_is_one_of_the_whole(monkeypatch: pytest.MonkeyPatc
     assert part.program.live_load @ inner == pytest.approx(1.0)
 
 
-def test_a_wall_is_solved_by_its_moving_part(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wall_is_searched_by_its_moving_part(monkeypatch: pytest.MonkeyPatch) -> None:
     program = planar_program(line_of(FERRIS_5))
-    whole = sequence_of(program).state
+    whole = least_of(program)
     allow_small_parts(monkeypatch)
     sizes: list[int] = []
     monkeypatch.setattr(Alternation, "__post_init__", noting(sizes))
-    by_part = sequence_of(program).state
+    by_part = least_of(program)
     assert min(sizes) < program.n_points == max(sizes)
-    assert whole is not None
-    assert by_part is not None
     assert by_part.residual < 1e-6
     assert by_part.load_factor == pytest.approx(whole.load_factor, rel=2e-3)
 
@@ -64,6 +62,6 @@ def noting(sizes: list[int]) -> Callable[[Alternation], None]:
 
 def test_small_programs_and_those_that_move_as_a_whole_have_no_part(monkeypatch: pytest.MonkeyPatch) -> None:
     wall, block = planar_program(line_of(FERRIS_5)), line_of(BLOCK).program
-    assert moving_part(wall, solved(wall, SETTINGS).velocities) is None
+    assert moving_part(wall, least_of(wall).velocities) is None
     monkeypatch.setattr(module, "FEW_POINTS", 0)
     assert moving_part(block, np.ones(len(block.dead_load))) is None

@@ -60,17 +60,6 @@ def test_a_sequence_that_may_not_go_on_says_how_far_it_came() -> None:
     assert [program.kind for program in solution.programs] == ["associative", "published", "published"]
 
 
-def test_dilatancy_of_the_joint_sets_the_direction_of_sliding() -> None:
-    """Its forces need not settle: one self-stress of the four corners is free, and the solver's choice of it jumps."""
-    solution, _, _ = verified(
-        line_of(BLOCK, "analysis.flow_rule=dilatancy", "joints.dry.dilatancy=10", "parameters.h=0.5")
-    )
-    assert solution.mechanics is not None
-    v = solution.mechanics.contact_velocities
-    assert v[:, 0] == pytest.approx(np.tan(np.radians(10)) * np.hypot(v[:, 1], v[:, 2]), rel=1e-5)
-    assert solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-6)
-
-
 def test_cohesion_adds_to_friction() -> None:
     weight = 0.5 * 2000 * 9.81
     factor = load_factor(BLOCK, NON_ASSOCIATIVE, "parameters.h=0.5", "parameters.c=1000")

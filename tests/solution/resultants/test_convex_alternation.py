@@ -67,8 +67,6 @@ def test_pairs_that_may_not_go_on_say_how_far_they_came(wall: Wall, monkeypatch:
     assert "did not converge in 3 iterations" in " ".join([result.reason, *map(str, result.remarks)])
     assert result.state is not None
     assert result.state.residual < 1e-8
-    found = result.state.load_factor  # every start leads to it: to 3e-8 by one kernel of OpenBLAS, to 1e-9 by others
-    assert result.spread == pytest.approx((found, found), rel=1e-6)
 
 
 @pytest.mark.parametrize("name", OUTLINES)

@@ -15,7 +15,6 @@ from mbla.solution.resultants.convex_associative import solve_convex_associative
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.standing.claim import ONLY_BY_SELF_STRESS
-from mbla.solution.standing.standing import DeadLoadState
 from tests.line import BLOCK, line_of
 from tests.solution.convex_structures import DECKS
 from tests.solution.convex_structures import convex as convex_of
@@ -57,7 +56,7 @@ def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monk
 
 def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(monkeypatch: pytest.MonkeyPatch) -> None:
     held = StandingResult(Standing.SELF_STRESS, 0, "only by forces locked in before")
-    monkeypatch.setattr(convex, "assess_dead_load", lambda *arguments: DeadLoadState(held, None, None))
+    monkeypatch.setattr(convex, "assess_dead_load", lambda *arguments: held)
     for rule, status in (("associative", Status.SOLVED), ("non_associative", Status.NOT_VERIFIED)):
         solution, _ = convex_of(line_of(BLOCK, "parameters.h=0.5"), rule)
         assert solution.status is status

@@ -22,7 +22,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.results.verify import rebuilt, recomputed
 from mbla.run import run
 from mbla.solution.pushover.pushed import CurveEnd, PushedSteps
-from mbla.solution.solution import Solution
+from mbla.solution.solution import Mechanics, Solution
 from tests.decks.folder import PATHS
 from tests.line import HEAD
 
@@ -37,7 +37,7 @@ DECKS: dict[str, tuple[str, ...]] = {
     "small_wall": (),
     "small_beam": (),
 }
-"""decks with curves, codes, objectives, ties, travel, slopes and ranges, and what is changed in them"""
+"""decks with curves, codes, objectives, ties, travel, slopes and least states, and what is changed in them"""
 WALL = (
     HEAD
     + """\
@@ -49,7 +49,7 @@ supports: [{ground: {z: 0}}]
 load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
 """
 )
-"""a wall whose states have a range"""
+"""a wall in the plane, with a state of a lower load factor than that of its path"""
 BEAM = (
     HEAD
     + """\
@@ -198,12 +198,66 @@ def _present(solution: Solution, what: str) -> bool:
     return part is not None and part != ()
 
 
-def _state_by_upper(results: Results, generator: random.Random) -> Results | None:
+def _least(change: Callable[[CaseResult, Mechanics, random.Random], Mechanics | None]) -> Forgery:
+    """Another state in place of the least, where that has one."""
+
+    def forgery(results: Results, generator: random.Random) -> Results | None:
+        def changed(case: CaseResult) -> CaseResult | None:
+            least = case.solution.least
+            other = None if least is None else change(case, least, generator)
+            return None if other is None else _with(case, least=other)
+
+        return _of_case(results, generator, changed)
+
+    return forgery
+
+
+def _other_factor(case: CaseResult, least: Mechanics, generator: random.Random) -> Mechanics:
+    return replace(least, load_factor=least.load_factor * generator.choice([0.5, 0.9, 1.1]))
+
+
+def _other_forces(case: CaseResult, least: Mechanics, generator: random.Random) -> Mechanics:
+    return replace(least, contact_forces=least.contact_forces * generator.choice([0.9, 1.1]))
+
+
+def _by_associative(case: CaseResult, least: Mechanics, generator: random.Random) -> Mechanics | None:
+    """Where joints of the associative mechanism lift as they slide."""
+    other = case.solution.associative
+    return other if other is not None and other.load_factor > 1.01 * least.load_factor else None
+
+
+def _state_by_least(results: Results, generator: random.Random) -> Results | None:
+    """The least state passed for that of the path, with its history or with none."""
+    with_history = generator.random() < 0.5
+
     def change(case: CaseResult) -> CaseResult | None:
-        own, upper = case.solution.mechanics, case.solution.upper
-        if own is None or upper is None or not upper.load_factor > own.load_factor * (1.0 + 1e-4):
+        own, least = case.solution.mechanics, case.solution.least
+        if own is None or least is None or own.load_factor < 1.01 * least.load_factor:
             return None
-        return _with(case, mechanics=upper, lower=upper)
+        known = (own.remembered, own.stiffness) if with_history else (None, None)
+        return _with(case, mechanics=replace(least, remembered=known[0], stiffness=known[1]))
+
+    return _of_case(results, generator, change)
+
+
+def _history_removed(results: Results, generator: random.Random) -> Results | None:
+    def change(case: CaseResult) -> CaseResult | None:
+        own = case.solution.mechanics
+        if own is None or own.remembered is None:
+            return None
+        rigid = replace(own, remembered=None, stiffness=None, tie_remembered=None, tie_stiffness=None)
+        return _with(case, mechanics=rigid)
+
+    return _of_case(results, generator, change)
+
+
+def _path_not_followed(results: Results, generator: random.Random) -> Results | None:
+    """Its rows removed, or the end of a path that was lost."""
+    lost = {"path_end": generator.choice(["", "stuck", "breaks down", "budget"])}
+    changes: dict[str, Any] = generator.choice([{"path": ()}, lost])
+
+    def change(case: CaseResult) -> CaseResult | None:
+        return _with(case, **changes) if case.solution.path else None
 
     return _of_case(results, generator, change)
 
@@ -265,6 +319,20 @@ def _search_written(results: Results, generator: random.Random) -> Results | Non
     return replace(results, deck=replace(record, overrides=overrides, sha256=sha256))
 
 
+def _end_of_path(results: Results, generator: random.Random) -> Results | None:
+    """Another load factor while it moves, or other rows, as where the load falls."""
+
+    def change(case: CaseResult) -> CaseResult | None:
+        path, by = case.solution.path, generator.choice([0.5, 0.9])
+        if not path:
+            return None
+        rows = tuple(replace(step, load_factor=step.load_factor * by) for step in path)
+        last: dict[str, Any] = {"path_end": "falls", "path_last": case.solution.path_last * by}
+        return _with(case, **generator.choice([last, {"path": rows}]))
+
+    return _of_case(results, generator, change)
+
+
 FORGERIES: Mapping[str, Forgery] = {
     "a case removed": _case_removed,
     "all cases removed": _all_cases_removed,
@@ -276,10 +344,16 @@ FORGERIES: Mapping[str, Forgery] = {
     "geometric safety removed": _left_out(
         "geometric_safety", None, "geometric-safety-not-done", "there is no geometric factor of safety: there are ties"
     ),
-    "associative answer removed": _left_out("associative", None, "locked-by-dilatancy", "friction locks it"),
-    "lower end removed": _left_out("lower", None, "range-not-found", "lower end of the range: the solver ended"),
-    "upper end removed": _left_out("upper", None, "range-not-found", "upper end of the range: there is none"),
-    "state and lower end by upper": _state_by_upper,
+    "associative answer removed": _left_out("associative", None, "associative-bounds-apart", "with associative flow"),
+    "least state removed": _left_out("least", None, "lower-not-searched", "states of lower load factors: none"),
+    "load factor of the least state": _least(_other_factor),
+    "forces of the least state": _least(_other_forces),
+    "least state by the associative one": _least(_by_associative),
+    "least state by that of the path": _least(lambda case, least, generator: case.solution.mechanics),
+    "state of the path by the least": _state_by_least,
+    "history of joints removed": _history_removed,
+    "path not followed": _path_not_followed,
+    "end of a path": _end_of_path,
     "remark removed": _remark_removed,
     "remark invented": _remark_invented,
     "angle of a table": _angle,
