@@ -99,8 +99,12 @@ def unproved_words(cases: Sequence[CaseResult]) -> tuple[str, ...]:
 
 
 def least_of(case: CaseResult) -> float:
-    """Least load factor of the states of rigid joints that a search found; nan where none ran, or it came to none."""
-    return case.checks.least_load_factor if result_of(case) is not None else math.nan
+    """Least load factor that a search found, that of the state shown where states of rigid joints lie above it.
+
+    nan where none ran, or it came to no state.
+    """
+    own, least = result_of(case), case.checks.least_load_factor
+    return math.nan if own is None or math.isnan(least) else min(own.load_factor, least)
 
 
 def least_known(case: CaseResult) -> float:

@@ -30,6 +30,7 @@ LOCKED = ("benchmarks/closed_forms/groove_steep_friction", "regressions/block_un
 LOCKED_IN = ("benchmarks/closed_forms/bar_between_walls",)
 """Held by forces that somebody must have locked in."""
 
+
 def cases_of(path: Path) -> Iterator[tuple[dict[str, Any], Expectation]]:
     """Each load case as the JSON has it, with what is expected of it; of a travelling load the worst position."""
     expected, record = deck_of(path).content.expected, outcome_of(path).record

@@ -41,7 +41,7 @@ from mbla.model.ties.ties import FILL
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.clusters import clusters_of
 from mbla.results.collapse.cracks import Crack, YieldLine, cracks, yield_lines
-from mbla.results.collapse.interface_modes import InterfaceMotion, interface_motion
+from mbla.results.collapse.interface_modes import InterfaceMotion, interface_motion, together_of
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_joints, hinge_lines, sliding_planes
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
@@ -102,7 +102,7 @@ class Collapse:
 @kept
 def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
     """The mechanism of one load case."""
-    parts = rigid_parts(model, contacts, mechanics.mechanism)
+    parts = rigid_parts(model, contacts, mechanics.mechanism, together_of(mechanics))
     rows = tie_rows(model, mechanics)
     states, soil = [row.state for row in rows], [row.state for row in rows if row.form == FILL]
     return Collapse(

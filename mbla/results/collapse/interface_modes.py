@@ -85,6 +85,8 @@ def hinge_ends(
 TOGETHER = 1e-4
 """Share of the largest contact speed up to which two blocks count as moving together: residuals up to 1e-4 count as
 solved, and motions below that are not known."""
+CREEPS = 1e-2
+"""The same of a step of elastic joints, in which those that hold creep as they give way elsewhere: 1e-4 to 1e-2."""
 AT_THE_POINT = 1e-6
 """Relative distance up to which a centre counts as lying on the farthest point, about which blocks do turn: that is
 sliding, not left to rounding."""
@@ -133,6 +135,11 @@ class InterfaceMotion:
         return int(np.sum(self.modes == mode))
 
 
+def together_of(mechanics: Mechanics) -> float:
+    """Share of the largest contact speed up to which blocks count as moving together in a mechanism."""
+    return TOGETHER if mechanics.remembered is None else CREEPS
+
+
 def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> InterfaceMotion:
     """Modes, relative motion and hinge axes of every interface."""
     translation, rotation = relative_motion(model, contacts, mechanics.mechanism)
@@ -140,7 +147,7 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     sliding = np.hypot(mechanics.contact_velocities[:, 1], mechanics.contact_velocities[:, 2])
     is_open = mechanics.modes == ContactMode.OPEN
     n_open = sum_by_interface(contacts, is_open)
-    moving = ~moves_together(contacts, mechanics.contact_velocities, TOGETHER, fastest_tie(model, mechanics.mechanism))
+    moving = ~moves_together(contacts, mechanics.contact_velocities, together_of(mechanics), fastest_tie(model, mechanics.mechanism))
     slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
     is_crushing = mechanics.modes == ContactMode.CRUSH
     crushes = moving & (sum_by_interface(contacts, is_crushing) > 0)

@@ -143,7 +143,7 @@ class Scene:
     @cached_property
     def parts(self) -> IntArray:
         """Part of each block in the motion as drawn, (n_blocks,), 0 at rest."""
-        return rigid_parts(self.model, self.contacts, self.motion)
+        return rigid_parts(self.model, self.contacts, self.motion) if self.collapse is None else self.collapse.parts
 
 
 def scene_of(results: Results, case: CaseResult) -> Scene:

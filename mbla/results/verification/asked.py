@@ -166,6 +166,10 @@ def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     moves = mechanics is not None and mechanics.load_factor != 0.0  # what moves at once has no path
     if mechanics is not None and moves and _by_path(deck, case) and mechanics.remembered is None:
         found.differences.append(lacks("history of elastic joints"))
+    if mechanics is not None and mechanics.stiffness is not None:
+        ratio = float(np.median(mechanics.stiffness[:, 1] / mechanics.stiffness[:, 0]))
+        if not np.isclose(ratio, deck.analysis.path.ratio, rtol=SAME_ROW, atol=0.0):
+            found.differences.append(f"joints have {ratio:.6g} of their stiffness in shear, which the deck does not say")
 
 
 def _path(found: Found, deck: Deck, case: CaseResult) -> None:

@@ -22,6 +22,9 @@ as its step is solved, and change of the load factor that counts as none."""
 HELD, FALLEN = 0.985, 0.9
 """Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
 
+NEGLIGIBLE = 1e-6
+"""Reaction at rest over the part's own unit of load that is none."""
+
 MEASURES, ALIKE, LINEAR = 6, 4.0, 0.5
 """Load factors tried as a measure, factor within which one is of the size of what was found, and share of the elastic
 load at the end of the path from which nothing has given way."""
@@ -128,6 +131,8 @@ def is_lost(path: ElasticPath) -> bool:
 def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:
     """A support that is held, as it gives way; the reaction at rest in units of its live load, to measure paths by.
 
+    Where that is nothing the part's own unit of load stands for it.
+
     The dead load has that reaction in the place of the one that was chosen: λ of its paths is what is lost of it.
     """
     program, factor = rest.joints.program, rest.gravity.state.factor
@@ -136,5 +141,6 @@ def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:
     shifted = replace(program, dead_load=program.dead_load + factor * live)
     joints = replace(rest.joints, program=shifted)
     gravity = replace(rest.gravity, state=replace(rest.gravity.state, factor=0.0))
-    own = replace(rest.settings, dropped=np.inf)
-    return replace(rest, joints=joints, gravity=gravity, settings=own, begins=factor), abs(chosen - factor)
+    own, reaction = replace(rest.settings, dropped=np.inf), abs(chosen - factor)
+    scale = reaction if reaction > NEGLIGIBLE * program.own_unit else program.own_unit
+    return replace(rest, joints=joints, gravity=gravity, settings=own, begins=factor), scale

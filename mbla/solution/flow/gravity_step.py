@@ -40,8 +40,8 @@ stiffer joints and quicker falls were blocked, this was not."""
 
 HELD, WEAKER, SHARP = (1e-8, 1e-5), 1e-4, 1e-11
 """ε over the mean stiffness of a joint, tried in turn until the step is solved: a plug that falls out of its hole was
-not with the weakest. Then factor on it, and misfit of the law, with which the step is solved once more: what stands is
-judged block by block, light ones too."""
+not with the weakest. Then factor on it, and misfit of the law, with which the step is solved once more: what
+stands is judged block by block, light ones too."""
 
 FALL, LONG, WHOLE, LEAST = 0.1, 0.5, 0.9, 1e-8
 """Factor on the products after a step that goes more than a share of its way, that share, the same where interfaces
@@ -50,6 +50,9 @@ have a law of their own, whose bounds are curved, and least products over n₀²
 BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
+
+NEARBY = 1e-6
+"""Products over n₀² with which a way from a state nearby begins."""
 
 CARRIED, STANDS, FALLS = 1e-6, 2e-5, 0.01
 """Share of what a block has to carry up to which it is carried without springs; force of a spring, in mean loads of a
@@ -96,15 +99,19 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
         if settled:
             break
     most = float(np.abs(step.held * state.u).max(initial=0.0))
-    weaker = replace(step, held=WEAKER * step.held)
-    sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, state, 0.0), force, SHARP) if settled else (None, 0)
-    fits = sharp is not None and sharp.is_solved
-    carried = sharp is not None and fits and _is_carried(joints, sharp.state)
-    if sharp is not None and carried:
-        state, step = sharp.state, weaker
+    fits = carried = False
+    if settled:
+        weaker = replace(step, held=WEAKER * step.held)
+        close, fits, more = _solved(weaker, force, state)
+        spent += more
+        if fits:
+            sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, SHARP)
+            fits, spent = sharp.is_solved, spent + more
+            carried = fits and _is_carried(joints, sharp.state)
+            state, step = (sharp.state, weaker) if carried else (state, step)
     memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
     memory = replace(memory, shear=state.shear)
-    return Gravity(state, memory, force, settled and (fits or most > FALLS), carried, spent + more, step)
+    return Gravity(state, memory, force, settled and (fits or most > FALLS), carried, spent, step)
 
 
 def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
@@ -114,10 +121,18 @@ def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
     return imbalance(joints.program, LawState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
 
 
-def _solved(step: JointStep, force: float) -> tuple[StepState, bool, int]:
-    """The state of the step, whether it solves it, and factorisations."""
+def _solved(step: JointStep, force: float, near: StepState | None = None) -> tuple[StepState, bool, int]:
+    """The state of the step, whether it solves it, and factorisations.
+
+    near : a state that is near; else all joints are pressed alike
+    """
     sigma, spent, blocked, fall = force**2, 0, 0, FALL
-    least, state = LEAST * force**2, _start(step.joints, force, sigma)
+    least = LEAST * force**2
+    if near is None:
+        state = _start(step.joints, force, sigma)
+    else:
+        sigma = NEARBY * sigma
+        state = centred(step.joints, near, sigma, 0.95)
     while True:
         residual = residual_of(step, state)
         even = float(residual.products.normal.max(initial=0.0)) < EVEN * sigma

@@ -73,8 +73,9 @@ def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float)
     )
 
 
-FALL, LEAST = 0.2, 1e-24
-"""Factor on the products after a direction that is gone more than half, and their least over n₀²."""
+FALL, QUICK, WHOLE, LEAST = 0.2, 0.01, 0.95, 1e-24
+"""Factor on the products after a direction that is gone more than half, after one that is gone nearly whole, of which
+reach, and their least over n₀²."""
 
 EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
 """Misfit of the law with which the step is solved; the same where interfaces have a law of their own, with which the
@@ -106,7 +107,7 @@ def solved_peak(peak: PeakStep, force: float, sharp: float | None = None) -> tup
         if off < best.misfit:
             best = PeakStep(step, sigma, state, peak.displacement, off)
         if found[1] > 0.5:
-            sigma = max(FALL * sigma, LEAST * force**2)
+            sigma = max((FALL if found[1] < WHOLE else QUICK) * sigma, LEAST * force**2)
         blocked = blocked + 1 if found[1] < BLOCKED else 0
         if blocked >= 2 and not again:
             break

@@ -75,7 +75,7 @@ def stress_free_state(program: Program) -> StressFree:
 @shared("standing")
 def _stress_free(program: Program) -> StressFree:
     """``stress_free_state`` of a program that has no live load, unless a support gives way."""
-    if not np.any(program.dead_load) or program.n_points == 0:
+    if not np.any(program.dead_load) or program.n_points == 0:  # nothing to carry, or guides alone to carry it
         none = np.zeros((program.n_points, program.components))
         still = np.zeros_like(program.dead_load)
         history = StepHistory(none, np.ones(program.n_points), np.ones(program.n_points))
@@ -103,11 +103,10 @@ def assess_dead_load(program: Program, carried: bool | None = True, known: Stres
               was not decided
     known   : ``stress_free_state`` of the program where it was found before
     """
-    if not np.any(program.dead_load):
-        return StandingResult(Standing.YES, None, NO_DEAD_LOAD)
     found = known or stress_free_state(program)
     if found.rest is not None:
-        return _on_model(program, found.rest)
+        shown = _on_model(program, found.rest)
+        return shown if np.any(program.dead_load) else replace(shown, reason=NO_DEAD_LOAD)
     block = int(np.linalg.norm(motion_of(program, found.motion), axis=1).argmax())
     if found.doubt:
         return StandingResult(Standing.DOUBTFUL, block, f"{DOUBTFUL}: {found.doubt}")
