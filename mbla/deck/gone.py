@@ -16,12 +16,13 @@ KEYS: Mapping[str, str] = {
     "analysis.range": "leave it out, the load factor is the greatest on the path of elastic joints; analysis.search "
     "says how far to look for lower ones",
     "analysis.forces": "leave it out, contact forces of associative flow are those that prove its load factor",
-    "analysis.proximal": "leave it out, the default scheme has no parameters but analysis.search",
-    "analysis.interior": "leave it out, the default scheme has no parameters but analysis.search",
+    "analysis.proximal": "leave it out, the path of elastic joints has no parameters but those of analysis.path",
+    "analysis.interior": "leave it out, the path of elastic joints has no parameters but those of analysis.path",
     "analysis.lowest": "leave it out, analysis.search says how far to search for lower load factors",
     "analysis.friction_cone": "leave it out, the cone is circular: programs with polyhedra took 3 to 26 times as "
     "long, and bracketed a load factor that the cone gives with proved bounds",
     "analysis.sides": "leave it out, the friction cone is circular",
+    "expected.lower": "write least_load_factor",
     "supports.stiffness": "leave it out, the collapse load of rigid blocks does not depend on how stiff their supports "
     "are; load_cases.NAME.settlement lets a support give way",
 }

@@ -39,8 +39,8 @@ class PathSettings:
     growth: float = 2.0
     longest: float = 0.3
     smoothing: float = 10.0
-    most_smoothing: float = 500.0
-    smoothed: tuple[float, float] = (0.02, 4.0)
+    most_smoothing: float = 50.0
+    smoothed: tuple[float, float] = (0.05, 4.0)
     dropped: float = 0.015
     counted: float = 1e-5
     short: float = 0.03
