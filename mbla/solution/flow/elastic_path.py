@@ -220,7 +220,7 @@ class _Path:
             return False
         if gone is not None:
             self._keep_near(gone)
-        if gone is not None and state.factor > self.peak:
+        if gone is not None and (self.top is None or state.factor > self.top.state.factor):
             self.top, self.later = gone, None
         elif gone is not None and self.top is not None and gone.sigma <= 0.5 * self.top.sigma:
             self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
@@ -231,7 +231,7 @@ class _Path:
 
     def _keep_near(self, gone: PeakStep) -> None:
         """Steps that may stand for the peak."""
-        greatest = max(self.peak, gone.state.factor)
+        greatest = gone.state.factor if self.top is None else max(self.top.state.factor, gone.state.factor)
         near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - NEAR) * greatest]
         self.near = sorted(near, key=lambda each: -each.state.factor)[:MOST_NEAR]
 

@@ -54,10 +54,13 @@ wanted, with which a state is taken."""
 NEARBY = 1e-6
 """Products over n₀² with which a way from a state nearby begins."""
 
-CARRIED, STANDS, FALLS = 1e-6, 2e-5, 0.01
-"""Share of what a block has to carry up to which it is carried without springs; force of a spring, in mean loads of a
-block, up to which what has interfaces with a law of their own stands; and from which it falls, where the step was not
-solved with weaker springs."""
+CARRIED, STANDS = 1e-6, 2e-5
+"""Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of a
+block, up to which what has interfaces with a law of their own stands."""
+
+LIGHTER, STAYS = 0.1, 0.5
+"""Factor on the springs where the step was not solved with much weaker ones, and share of their force that is still
+there of what falls."""
 
 
 @dataclass(frozen=True)
@@ -98,24 +101,36 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
         spent += more
         if settled:
             break
-    most = float(np.abs(step.held * state.u).max(initial=0.0))
-    fits = carried = False
+    carried = False
     if settled:
         weaker = replace(step, held=WEAKER * step.held)
         close, fits, more = _solved(weaker, force, state)
         spent += more
-        if fits:
+        if not fits:
+            settled, more = _falls(step, force, state)
+            spent += more
+        else:
             sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, SHARP)
-            fits, spent = sharp.is_solved, spent + more
-            carried = fits and _is_carried(joints, sharp.state)
+            settled, spent = sharp.is_solved, spent + more
+            carried = settled and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
     memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
     memory = replace(memory, shear=state.shear)
-    return Gravity(state, memory, force, settled and (fits or most > FALLS), carried, spent, step)
+    return Gravity(state, memory, force, settled, carried, spent, step)
+
+
+def _falls(step: JointStep, force: float, state: StepState) -> tuple[bool, int]:
+    """Whether what springs carry stays as they get weaker, and factorisations."""
+    weaker = replace(step, held=LIGHTER * step.held)
+    close, fits, spent = _solved(weaker, force, state)
+    before, after = (float(np.abs(one.held * at.u).max(initial=0.0)) for one, at in ((step, state), (weaker, close)))
+    return fits and after > STAYS * before, spent
 
 
 def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
     """Whether the forces of a state carry the dead load without springs, block by block."""
+    if not np.any(joints.program.dead_load):
+        return True
     if joints.laws:
         return float(np.abs(joints.unbalanced(state)).max(initial=0.0)) <= STANDS
     return imbalance(joints.program, LawState(state.forces, state.u, state.factor, 0.0)) <= CARRIED

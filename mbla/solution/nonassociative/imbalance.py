@@ -9,8 +9,8 @@ from mbla.solution.associative.repair import carried_loads
 from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.law_state import LawState
 
-NOTHING = 1e-11
-"""Load of a block, over the mean, that is rounding: a block without weight that carries no other."""
+NOTHING = 1e-6
+"""What a block without weight carries, over the mean load, that is rounding."""
 
 
 def misfit(program: Program, state: LawState) -> float:
@@ -28,9 +28,11 @@ def imbalance(program: Program, state: LawState) -> float:
     left = np.asarray(
         program.equilibrium_matrix @ state.forces.ravel() + program.dead_load + state.load_factor * program.live_load
     )
-    if program.guided and program.reduction is not None:
-        left, program = program.reduction.velocities @ left, program.reduction.full
+    while (program.guided or program.halved) and program.reduction is not None:
+        left = np.asarray(program.reduction.velocities @ left)
+        state, program = lifted(program, state), program.reduction.full
     rows = 3 if program.components == 2 else 6
     carried = carried_loads(program, state.forces).reshape(-1, rows).max(axis=1)
-    scale = np.where(carried > NOTHING, np.minimum(carried, 1.0), 1.0)
+    weightless = ~program.dead_load.reshape(-1, rows).any(axis=1) & (carried < NOTHING)
+    scale = np.clip(np.where(weightless, 1.0, carried), np.finfo(float).tiny, 1.0)
     return float((np.abs(left).reshape(-1, rows).max(axis=1) / scale).max(initial=0.0))

@@ -145,7 +145,8 @@ def _other_faults(case: Tree) -> list[str]:
     Where the associative load factor has no bound, nothing can be above it.
     """
     faults = []
-    residuals = [case["residuals"][name] for name in RESIDUALS]
+    elastic = case["residuals"]["elastic"] is not None
+    residuals = [case["residuals"][name] for name in (("equilibrium", "yield", "elastic") if elastic else RESIDUALS)]
     if any(value is None or not math.isfinite(value) or value > SOLVED_RESIDUAL for value in residuals):
         faults.append(f"residuals {case['residuals']}")
     factor, bound = case["load_factor"], case["kinematic_bound"]
