@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import fsolve, minimize_scalar
 
 from tests.line import HEAD, line_of, load_factor, verified
+from tests.reached import reaches
 
 SAME = 1e-7
 
@@ -95,7 +96,7 @@ def test_an_unequal_groove_without_dilatancy(b1: float, b2: float, mu: float) ->
     exact = mu * (math.sin(one) + math.sin(two)) / math.sin(one + two)
     solution, checks, status = verified(line_of(_wedge(b1, b2, mu, "non_associative")))
     assert solution.mechanics is not None
-    assert solution.mechanics.load_factor == pytest.approx(exact, rel=1e-4), (status, checks.failures)
+    assert reaches(solution.mechanics.load_factor, exact), (status, checks.failures)
 
 
 @pytest.mark.parametrize(("lever", "mu"), [(0.1, 0.5), (0.3, 0.5), (0.8, 0.3), (3.0, 0.7)])

@@ -16,15 +16,16 @@ from mbla.solution.part_result import PartResult
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from tests.line import BLOCK, WALL, line_of, solution_of
+from tests.reached import BELOW, reaches
 from tests.solution.nonassociative.structures import in_the_groove
 from tests.solution.planar import planar_program
 from tests.solution.standing_structures import deck, plane, prism
 
 ALONG = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
 
-
-RISING = 5e-4
-"""Relative: what a wedge in a groove may still gain where its path ends, at 50 times its elastic displacement."""
+STEEP = 6e-3
+"""Share by which a wedge that climbs at 50 degrees may lie below its closed form: it carries eight times its weight, and
+slides long until its planes have taken that up."""
 
 
 def wedge(friction: float) -> str:
@@ -45,15 +46,15 @@ def test_livesleys_correction_needs_associative_forces() -> None:
     assert result.sequence is None
 
 
-@pytest.mark.parametrize("dilatancy", [0, 5, 10, 50])
-def test_a_wedge_with_less_dilatancy_than_friction_may_slide_where_that_locks(dilatancy: float) -> None:
+@pytest.mark.parametrize(("dilatancy", "below"), [(0, BELOW), (5, BELOW), (10, BELOW), (50, STEEP)])
+def test_a_wedge_with_less_dilatancy_than_friction_may_slide_where_that_locks(dilatancy: float, below: float) -> None:
     rise = math.tan(math.radians(dilatancy))
     result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=dilatancy", f"joints.dry.dilatancy={dilatancy}")
     assert result.associative.status is Status.UNBOUNDED
     assert result.status is Status.SOLVED
     assert result.state is not None
     factor = result.program.scaling.load_factor(result.state.load_factor)
-    assert factor == pytest.approx(in_the_groove(2.0, math.radians(30), rise), rel=RISING)
+    assert reaches(factor, in_the_groove(2.0, math.radians(30), rise), below)
 
 
 @pytest.mark.parametrize("dilatancy", [60.5, 62])

@@ -52,6 +52,14 @@ NEAR, MOST_NEAR = 1e-3, 8
 """Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
 the decks four peaks could not, each had one that could among the eight greatest, within 0.05 % of it."""
 
+LEVEL = 1e-5
+"""Share of the peak by which a later step may lie below it and take its place: where the load stays joints that hold no
+longer creep, and the motion is that of the fall."""
+
+ONWARDS, ALIKE = 0.05, 1e-3
+"""Length of the short step after that of the peak, in units, and share of its load factor within which it stands for
+it."""
+
 AT_BREAK, NEARLY = 4, 0.99
 """Lengths tried for the step to where a tie breaks, and share of the way to there that is near enough."""
 
@@ -202,6 +210,20 @@ class _Path:
         opened = gone.step.length * self.joints.velocities(gone.state.u)[0]
         return share_until_break(self.joints, self.memory, opened)
 
+    def _onwards(self, top: PeakStep) -> tuple[PeakStep, int]:
+        """The short step after that of the peak, solved, unless the load falls in it; factorisations spent.
+
+        What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
+        """
+        step, joints = top.step, top.step.joints
+        moved = step.length * joints.velocities(top.state.u)
+        motions = [step.length * motion for motion in joints.motions(top.state.u)]
+        memory = step.memory.after(joints, moved, top.state.normal, motions)
+        after = replace(top, step=replace(step, memory=memory, length=ONWARDS * self.unit))
+        after, spent = solved_peak(after, self.force)
+        level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
+        return (after if level else top), spent
+
     def _shorten(self, h: float) -> None:
         """A shorter step, as smooth as it was."""
         self.kappa, self.h = self.kappa * self.h / h, h
@@ -220,7 +242,7 @@ class _Path:
             return False
         if gone is not None:
             self._keep_near(gone)
-        if gone is not None and (self.top is None or state.factor > self.top.state.factor):
+        if gone is not None and (self.top is None or state.factor > self.top.state.factor - LEVEL * self.peak):
             self.top, self.later = gone, None
         elif gone is not None and self.top is not None and gone.sigma <= 0.5 * self.top.sigma:
             self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
@@ -326,5 +348,8 @@ class _Path:
                 later, more = solved_peak(self.later, self.force)
                 spent += more
                 top = later if rough else max(top, later, key=lambda peak: (peak.is_solved, peak.state.factor))
+        if top is not None and top.is_solved and not self.broken:
+            top, more = self._onwards(top)
+            spent += more
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
         return ElasticPath(*found)

@@ -58,7 +58,7 @@ CARRIED, STANDS = 1e-6, 2e-5
 """Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of a
 block, up to which what has interfaces with a law of their own stands."""
 
-LIGHTER, STAYS = 0.1, 0.5
+LIGHTER, STAYS = 0.3, 0.5
 """Factor on the springs where the step was not solved with much weaker ones, and share of their force that is still
 there of what falls."""
 
@@ -107,24 +107,23 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
         close, fits, more = _solved(weaker, force, state)
         spent += more
         if not fits:
-            settled, more = _falls(step, force, state)
-            spent += more
-        else:
+            lighter = replace(step, held=LIGHTER * step.held)
+            there, fits, more = _solved(lighter, force, state)
+            settled, spent = fits and _stays(step, state, lighter, there), spent + more
+        elif not _stays(step, state, weaker, close):
             sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, SHARP)
-            settled, spent = sharp.is_solved, spent + more
-            carried = settled and _is_carried(joints, sharp.state)
+            spent += more
+            settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
     memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
     memory = replace(memory, shear=state.shear)
     return Gravity(state, memory, force, settled, carried, spent, step)
 
 
-def _falls(step: JointStep, force: float, state: StepState) -> tuple[bool, int]:
-    """Whether what springs carry stays as they get weaker, and factorisations."""
-    weaker = replace(step, held=LIGHTER * step.held)
-    close, fits, spent = _solved(weaker, force, state)
+def _stays(step: JointStep, state: StepState, weaker: JointStep, close: StepState) -> bool:
+    """Whether what springs carry stays as they get weaker: of what falls."""
     before, after = (float(np.abs(one.held * at.u).max(initial=0.0)) for one, at in ((step, state), (weaker, close)))
-    return fits and after > STAYS * before, spent
+    return after > STAYS * before
 
 
 def _is_carried(joints: ElasticJoints, state: StepState) -> bool:

@@ -98,6 +98,19 @@ def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
     return ", ".join(words for words, holds in against.items() if holds)
 
 
+SAME_STATE = 5e-3
+"""Share of the load factor within which the least state of rigid joints is that of the path."""
+
+
+def start_of(solution: Solution) -> Mechanics:
+    """The state that a pushover starts from: of rigid joints where a search found it, else that of elastic ones."""
+    own, least = solution.mechanics, solution.least
+    assert own is not None  # else there is no curve
+    if least is None or abs(least.load_factor - own.load_factor) > SAME_STATE * abs(own.load_factor):
+        return own
+    return least
+
+
 def no_pushover(against: str) -> Message:
     """The remark on what keeps a pushover from being done."""
     return Message("pushover-not-done", f"there is no pushover: {against}")
@@ -122,7 +135,7 @@ def pushed(
     against = why_not_pushed(model, solution, solved)
     if against or solution.mechanics is None or case.pushover is None:
         return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
-    search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, solution.mechanics)
+    search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, start_of(solution))
     control = Control.of(model, case, first.mechanism)
     push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
     done: list[Step] = []
@@ -166,7 +179,7 @@ def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution:
     """
     curve, remarks = solution.curve, list[Message]()
     assert solution.mechanics is not None  # else there is no curve
-    first, _ = _as_built(model, contacts, solution.mechanics)
+    first, _ = _as_built(model, contacts, start_of(solution))
     speed = Control.of(model, case, first.mechanism).speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
     if not speed > MOVES * float(np.linalg.norm(first.mechanism[:, :3], axis=1).max()):
         words = "the control point of the pushover does not go the way in which its displacement counts at first"
@@ -209,7 +222,7 @@ def begun_by(model: Model, contacts: Contacts, solution: Solution) -> Solution:
     steps = solution.pushed
     if steps is None or solution.mechanics is None:
         return solution
-    first, _ = _as_built(model, contacts, solution.mechanics)
+    first, _ = _as_built(model, contacts, start_of(solution))
     if int(steps.point_start[1]) != len(first.contact_forces):
         return solution
     factors, mechanisms, forces = steps.load_factors.copy(), steps.mechanisms.copy(), steps.forces.copy()
@@ -235,7 +248,7 @@ def curve_of(
     assert solution.mechanics is not None  # else there is no curve
     assert steps is not None
     assert case.pushover is not None
-    first, built = _as_built(model, contacts, solution.mechanics)
+    first, built = _as_built(model, contacts, start_of(solution))
     search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
     rows: list[CurveRow] = []
     greatest = greatest_value(case, steps.load_factors)

@@ -120,7 +120,7 @@ def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
     assert plane.direction == pytest.approx([1, 0, 0], abs=1e-6)
     assert plane.normal == pytest.approx([0, 0, 1])
     assert plane.centroid == pytest.approx([1.5, 0.5, 1])
-    assert plane.power_share == pytest.approx(1.0, abs=1e-6) == plane.shear_power_share
+    assert plane.power_share == pytest.approx(1.0, abs=1e-5) == plane.shear_power_share
     assert not plane.twists
     assert failure.hinge_lines == () == failure.cracks
 

@@ -10,6 +10,7 @@ from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
 from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, Line, line_of, line_of_file
+from tests.reached import reaches
 from tests.solution.flow.paths import case_of, load_factor_of, path_of
 from tests.solution.nonassociative.structures import FERRIS_1, FERRIS_3
 
@@ -130,8 +131,9 @@ def test_a_path_that_is_blocked_with_its_peak_behind_it_has_its_answer() -> None
     assert case.loaded.scaling.load_factor(found.load_factor) == pytest.approx(0.4135, rel=2e-3)
 
 
-def test_smoothing_that_pushes_back_is_reduced() -> None:
-    """A plank that leans on a rough wall: the load factor was below zero for the first eight units."""
-    found = case_of(DECK["leaning_block_rough_wall"], "away").path()
-    assert found.paths > 1
-    assert found.load_factor == pytest.approx(0.180329, rel=CLOSE)
+def test_where_smoothing_is_more_than_the_load_every_step_is_solved() -> None:
+    """A block on a slope that friction just holds: the path that is smoothed stays below zero."""
+    found = case_of(DECK["incline_too_steep"], "flat_enough").path()
+    assert found.paths == 2
+    flat = math.atan(0.999 * 0.5)
+    assert reaches(found.load_factor, 0.5 * math.cos(flat) - math.sin(flat))

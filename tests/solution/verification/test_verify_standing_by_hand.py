@@ -93,7 +93,10 @@ def test_forces_beyond_yield(dry: Line) -> None:
         ((4.0, 0, -8.0, 0, 0, 0), True),
         ((2.0, 0, -8.0, 0, 0, 0), True),  # as much as the shear
         ((2.0 - 1e-6 * 0.9, 0, -8.0, 0, 0, 0), False),
-        ((2.0 - 8.08e-7 * 0.9, 0, -8.0, 0, 0, 0), True),  # but for 1e-7 of the largest force and 1e-9 of the largest displacement, 8
+        (
+            (2.0 - 8.08e-7 * 0.9, 0, -8.0, 0, 0, 0),
+            True,
+        ),  # 1e-7 of the force and 1e-9 of the displacement, 8
         ((2.0 - 8.08e-7 * 1.1, 0, -8.0, 0, 0, 0), False),
         ((4.0, 0, -8.0 + 8.08e-7 * 0.9, 0, 0, 0), True),
         ((4.0, 0, -8.0 + 8.08e-7 * 1.1, 0, 0, 0), False),
