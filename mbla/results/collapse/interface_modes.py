@@ -147,7 +147,9 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     sliding = np.hypot(mechanics.contact_velocities[:, 1], mechanics.contact_velocities[:, 2])
     is_open = mechanics.modes == ContactMode.OPEN
     n_open = sum_by_interface(contacts, is_open)
-    moving = ~moves_together(contacts, mechanics.contact_velocities, together_of(mechanics), fastest_tie(model, mechanics.mechanism))
+    moving = ~moves_together(
+        contacts, mechanics.contact_velocities, together_of(mechanics), fastest_tie(model, mechanics.mechanism)
+    )
     slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
     is_crushing = mechanics.modes == ContactMode.CRUSH
     crushes = moving & (sum_by_interface(contacts, is_crushing) > 0)

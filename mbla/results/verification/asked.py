@@ -169,7 +169,9 @@ def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     if mechanics is not None and mechanics.stiffness is not None:
         ratio = float(np.median(mechanics.stiffness[:, 1] / mechanics.stiffness[:, 0]))
         if not np.isclose(ratio, deck.analysis.path.ratio, rtol=SAME_ROW, atol=0.0):
-            found.differences.append(f"joints have {ratio:.6g} of their stiffness in shear, which the deck does not say")
+            found.differences.append(
+                f"joints have {ratio:.6g} of their stiffness in shear, which the deck does not say"
+            )
 
 
 def _path(found: Found, deck: Deck, case: CaseResult) -> None:

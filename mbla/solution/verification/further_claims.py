@@ -60,7 +60,7 @@ UNBALANCED = 3e-6
 FORCE_ROUNDING = 1e-12
 """The same over the forces that act on the block."""
 
-STRAY, AGAINST = 1e-7, 1e-9
+STRAY, AGAINST = 1e-6, 1e-9
 """What may be off, over the largest force, to which elastic joints are solved, and over the largest displacement at any
 contact point: rounding leaves 1e-12 of it where whole structures settle far more than their joints."""
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.nonassociative.imbalance import misfit
 from mbla.solution.nonassociative.law_state import SequenceResult
-from mbla.solution.nonassociative.refine_equilibrium import misfit, sharpened
+from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, Status
 from mbla.solution.verification.verify import verify

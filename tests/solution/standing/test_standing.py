@@ -13,6 +13,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.standing import standing as module
@@ -106,7 +107,7 @@ def test_an_equilibrium_that_was_not_decided_leaves_a_fall_doubtful() -> None:
 
 
 def test_ratios_of_stiffness_that_disagree_leave_it_doubtful(monkeypatch: pytest.MonkeyPatch) -> None:
-    carried, by_step = iter([True, False]), module.gravity_step
+    carried, by_step = iter([True, False]), gravity_step
     monkeypatch.setattr(module, "gravity_step", lambda joints: replace(by_step(joints), carried=next(carried)))
     result = assess_dead_load(line_of(arch(0.12)).program)
     assert result.verdict is Standing.DOUBTFUL
