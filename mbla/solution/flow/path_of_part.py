@@ -21,9 +21,9 @@ from mbla.program.program import Program
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, followed, measured_by_itself
-from mbla.solution.flow.gravity_step import gravity_step
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.path_record import ElasticPath, Stop
-from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, mean_live_load, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
@@ -105,8 +105,10 @@ def path_of_part(
         return PathOfPart(Stop.DOES_NOT_STAND if np.any(program.dead_load) else Stop.UNDECIDED)
     state = associative.state
     part = None if state is None else moving_part(program, state.velocities, rings=3, few=1500, worthwhile=0.8)
-    known = None if state is None else state.load_factor
-    found = path_by(program, known, settings, dilatancy, interfaces, gaps, part)
+    known, before = None if state is None else state.load_factor, associative.stress_free
+    same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
+    gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None
+    found = path_by(program, known, settings, dilatancy, interfaces, gaps, part, gravity)
     falls = associative.status is Status.NO_EQUILIBRIUM
     return PathOfPart(Stop.DOES_NOT_STAND, rest=found.rest, factorizations=found.factorizations) if falls else found
 
@@ -119,10 +121,12 @@ def path_by(
     interfaces: Interfaces = NONE,
     gaps: FloatArray | None = None,
     part: MovingPart | None = None,
+    gravity: Gravity | None = None,
 ) -> PathOfPart:
     """The path of a program by its load factor of associative flow, None where it has none.
 
-    part : what alone is followed; the whole unless given
+    part    : what alone is followed; the whole unless given
+    gravity : the structure at rest, where that is known
 
     Raises ValueError where joints dilate and interfaces twist: what torsion opens is not known.
     """
@@ -132,7 +136,8 @@ def path_by(
     whole = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, rows)
     gaps = np.zeros(program.n_points) if gaps is None else gaps
     scale = program.own_unit if associative is None else associative
-    rest = _at_rest(whole if part is None else _of_moving(part, whole, interfaces), scale, settings, gaps, part)
+    joints = whole if part is None else _of_moving(part, whole, interfaces)
+    rest = _at_rest(joints, scale, settings, gaps, part) if gravity is None else AtRest(joints, gravity, settings)
     ends = _ends_at_rest(rest, program, associative)
     if ends is not None:
         return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)

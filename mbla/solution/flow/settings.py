@@ -12,6 +12,11 @@ from dataclasses import dataclass, field
 from mbla.solution.flow.path_record import PathStep
 
 
+RATIOS = (0.4, 1.0)
+"""Of shear to normal stiffness, with both of which a structure must stand; the first is that of a layer of stone,
+1/(2 (1 + ν)), and of paths unless the deck says otherwise."""
+
+
 @dataclass(frozen=True)
 class PathSettings:
     """Displacements are over the unit: the elastic displacement of the whole structure at the associative load.
@@ -33,7 +38,7 @@ class PathSettings:
     watch        : called after every step
     """
 
-    ratio: float = 0.4
+    ratio: float = RATIOS[0]
     until: float = 50.0
     first: float = 0.2
     growth: float = 2.0

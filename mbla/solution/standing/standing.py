@@ -27,14 +27,12 @@ from mbla.program.stiffness_shares import shares_of
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.flow.settings import RATIOS
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.mechanics import lifted, motion_of
 from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult
-
-RATIOS = (0.4, 1.0)
-"""Of shear to normal stiffness, with both of which it must stand: 0.4 is that of a layer of stone, 1/(2 (1 + ν))."""
 
 YES = "the dead load is carried from the stress-free assembly"
 NO_DEAD_LOAD = "there is no dead load to carry"
@@ -56,11 +54,13 @@ class StressFree:
              nothing; None where it is not carried with both ratios of stiffness
     motion : (n_rows,) displacements; of what falls mostly
     doubt  : why that is not decided; empty where it is
+    gravity : the step with the first of both ratios; None without any
     """
 
     rest: LawState | None
     motion: FloatArray
     doubt: str = ""
+    gravity: Gravity | None = None
 
 
 @stage("standing")
@@ -85,7 +85,7 @@ def _stress_free(program: Program) -> StressFree:
     found = [gravity_step(one) for one in joints]
     motion = next((each.state.u for each in found if not each.carried), found[0].state.u)
     if all(gravity.carried for gravity in found):
-        return StressFree(_at_rest(joints[0], found[0]), motion)
+        return StressFree(_at_rest(joints[0], found[0]), motion, gravity=found[0])
     doubt = BY_STIFFNESS if any(gravity.carried for gravity in found) else ""
     return StressFree(None, motion, doubt if all(gravity.settled for gravity in found) else SLOWLY)
 
