@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from mbla.deck.content import Expectation
 from mbla.errors import Notice
 from mbla.results.force_range import ForceRange, end_value, force_ranges_of
-from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
+from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
 from mbla.solution.solution import Status
@@ -109,7 +109,7 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
         "angle": angle_of(case),
         "associative_load_factor": getattr(associative_of(case), "load_factor", None),
         "reaction": reaction_of(case),
-        "least_load_factor": case.checks.least_load_factor,
+        "least_load_factor": least_of(case),
     }
     for key, value in found.items():
         wanted = getattr(expected, key)

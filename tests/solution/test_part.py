@@ -24,8 +24,8 @@ from tests.solution.standing_structures import deck, plane, prism
 ALONG = "load_cases.push.live=[{acceleration: [0, 1, 0]}]"
 
 STEEP = 6e-3
-"""Share by which a wedge that climbs at 50 degrees may lie below its closed form: it carries eight times its weight, and
-slides long until its planes have taken that up."""
+"""Share by which a wedge that climbs at 50 degrees may lie below its closed form: it carries eight times its weight,
+and slides long until its planes have taken that up."""
 
 
 def wedge(friction: float) -> str:

@@ -55,8 +55,8 @@ NEARBY = 1e-6
 """Products over n₀² with which a way from a state nearby begins."""
 
 CARRIED, STANDS = 1e-6, 2e-5
-"""Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of a
-block, up to which what has interfaces with a law of their own stands."""
+"""Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of
+a block, up to which what has interfaces with a law of their own stands."""
 
 LIGHTER, STAYS = 0.3, 0.5
 """Factor on the springs where the step was not solved with much weaker ones, and share of their force that is still

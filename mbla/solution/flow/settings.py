@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 
 from mbla.solution.flow.path_record import PathStep
 
-
 RATIOS = (0.4, 1.0)
 """Of shear to normal stiffness, with both of which a structure must stand; the first is that of a layer of stone,
 1/(2 (1 + ν)), and of paths unless the deck says otherwise."""
@@ -42,7 +41,7 @@ class PathSettings:
     until: float = 50.0
     first: float = 0.2
     growth: float = 2.0
-    longest: float = 0.3
+    longest: float = 0.25
     smoothing: float = 10.0
     most_smoothing: float = 50.0
     smoothed: tuple[float, float] = (0.05, 4.0)

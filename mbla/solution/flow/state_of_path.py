@@ -49,8 +49,11 @@ def state_at_once(
 
     slope : (n_points,) tangent of the dilatancy angle
     """
-    forces = None if associative is None else least_forces(program, settings, log)
-    if associative is None or isinstance(forces, ConeSolution) or forces is None:
+    if associative is None:
+        return None
+    none = np.zeros((program.n_points, program.components))
+    forces = least_forces(program, settings, log) if np.any(program.dead_load) else none
+    if isinstance(forces, ConeSolution):
         return None
     return law_state(program, slope, forces, associative.velocities, 0.0)
 
