@@ -101,8 +101,8 @@ def _agree(found: PathOfPart, other: PathOfPart) -> bool:
 
 
 SAME = 0.05
-"""Share of the load factor by which two stiffnesses may differ: on 40 structures they did by 2 % at most, and of a stair
-tread by 5.5 %."""
+"""Share of the load factor by which two stiffnesses may differ: on 40 structures they did by 2 % at most, and of a
+stair tread by 5.5 %."""
 
 
 def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:
@@ -139,8 +139,8 @@ WITHOUT = {
     Stop.UNLOADED: "no live load acts on it",
 }
 NOT_ALONE = (
-    "with elastic joints nothing gives way on the path, but they were not seen to carry the live load alone, as they must "
-    "if no multiple of it brings the structure down"
+    "with elastic joints nothing gives way on the path, but they were not seen to carry the live load alone, as they "
+    "must if no multiple of it brings the structure down"
 )
 NO_STATE = "the path of elastic joints came to no state in balance"
 MISSED = Message("elastic-law-missed", "the step of the greatest load fits the law of elastic joints to {:.2g} only")
