@@ -54,7 +54,7 @@ def assemble_parts(
         own: LawState | None = state
         if number != part:
             own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log)
-            own = own if own is None or state.history is None else _remembered(other, own)
+            own = own if own is None or state.history is None else _remembered(other, own, state.history)
         if own is None:
             return None
         program, own = to_full(other, own)
@@ -63,10 +63,11 @@ def assemble_parts(
     return program, total
 
 
-def _remembered(program: Program, resting: LawState) -> LawState:
+def _remembered(program: Program, resting: LawState, beside: StepHistory) -> LawState:
     """A part at rest beside one of elastic joints: it remembers its forces, and keeps them for it does not move."""
     stiff = np.ones(program.n_points)
-    return replace(resting, history=StepHistory(resting.forces, stiff, stiff))
+    in_shear = float(np.median(beside.shear / beside.normal))
+    return replace(resting, history=StepHistory(resting.forces, stiff, in_shear * stiff))
 
 
 def _together(one: LawState, other: LawState, deciding: LawState) -> LawState:
