@@ -21,7 +21,7 @@ from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.path_record import RISES, PathStep, Stop
 from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.state_of_path import state_at_once, state_of_path
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult
 from mbla.solution.nonassociative.locking import lasting_limits
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, PathPoint, ProgramRecord, Status
@@ -59,7 +59,7 @@ def solve_by_elastic_path(
         wanted = replace(wanted, ratio=next(ratio for ratio in reversed(RATIOS) if ratio != asked.ratio))
         other = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
         found = replace(found, factorizations=found.factorizations + other.factorizations)
-        if not _agree(found, other):
+        if not _agree(found, other, NEAR_ZERO * program.dead_over_live):
             reason = HANGS.format(f"{other.load_factor * live:.6g}", f"{wanted.ratio:g}", f"{asked.ratio:g}")
             status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
@@ -94,10 +94,14 @@ def _may_hang_on_stiffness(found: PathOfPart, associative: AssociativeResult) ->
     return above is None or found.load_factor < LOW * above.load_factor
 
 
-def _agree(found: PathOfPart, other: PathOfPart) -> bool:
-    """Whether paths of joints of two stiffnesses come to one load factor, or none to any."""
+def _agree(found: PathOfPart, other: PathOfPart, nothing: float) -> bool:
+    """Whether paths of joints of two stiffnesses come to one load factor, or none to any.
+
+    nothing : load factor that is next to none
+    """
     one, two = found.load_factor, other.load_factor
-    return one == two or (other.is_answer and abs(one - two) <= SAME * max(abs(one), abs(two)))
+    most = max(abs(one), abs(two))
+    return one == two or (other.is_answer and abs(one - two) <= SAME * max(most, nothing)) or most <= nothing
 
 
 SAME = 0.05

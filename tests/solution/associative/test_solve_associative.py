@@ -190,7 +190,7 @@ def test_where_standing_is_asked_its_forces_prove_that_the_dead_load_is_carried(
     assert solution.standing is not None
     assert solution.standing.verdict is Standing.YES
     assert "reverse" not in [program.kind for program in solution.programs]
-    assert len(steps) == len(standing.RATIOS)
+    assert len(steps) == len(RATIOS)
 
 
 def test_where_the_gravity_step_decides_nothing_the_reversed_live_load_does(monkeypatch: pytest.MonkeyPatch) -> None:
