@@ -94,8 +94,6 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
     sequence = solve_nonassociative(program, associative, settings, log)
     if sequence.status is Status.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=sequence.reason))
-    if sequence.state is None:
-        return replace(result, associative=replace(associative, status=sequence.status, reason=sequence.reason))
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 
 

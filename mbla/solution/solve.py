@@ -173,6 +173,8 @@ def _factor(state: LawState | None) -> float:
 def _without_load_factor(stage: _Stage, part: int, result: PartResult) -> Solution:
     associative, lock = result.associative, None
     status, reason = associative.status, associative.reason
+    if status is Status.UNBOUNDED and result.sequence is not None:  # nothing is known by the flow rule of the analysis
+        status, reason = result.sequence.status, result.sequence.reason
     if status is Status.UNBOUNDED:
         lock = locking_forces(stage.parts, stage.settings, stage.log)
         if lock is None:

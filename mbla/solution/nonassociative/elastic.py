@@ -24,7 +24,7 @@ from mbla.solution.flow.state_of_path import state_at_once, state_of_path
 from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult
 from mbla.solution.nonassociative.locking import lasting_limits
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, PathPoint, ProgramRecord, Status
+from mbla.solution.solution import WITH_VALUE, IterationRecord, PathPoint, ProgramRecord, Status
 from mbla.solution.standing.standing import stress_free_state
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
@@ -55,13 +55,17 @@ def solve_by_elastic_path(
     status, reason = _claim(found, state, live)
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE
-    if status in (Status.SOLVED, Status.UNBOUNDED) and _may_hang_on_stiffness(found, associative):
+    if status in (*WITH_VALUE, Status.UNBOUNDED) and _may_hang_on_stiffness(found, associative):
         wanted = replace(wanted, ratio=next(ratio for ratio in reversed(RATIOS) if ratio != asked.ratio))
         other = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
-        found = replace(found, factorizations=found.factorizations + other.factorizations)
+        spent = found.factorizations + other.factorizations
         if not _agree(found, other, NEAR_ZERO * program.dead_over_live):
-            reason = HANGS.format(f"{other.load_factor * live:.6g}", f"{wanted.ratio:g}", f"{asked.ratio:g}")
+            one, two = (f"{each.load_factor * live:.6g}" for each in (found, other))
+            reason = HANGS.format(one, asked.ratio, two, wanted.ratio)
+            least = state_of_path(program, other, settings, log) if other.load_factor < found.load_factor else None
+            found, state = (found, state) if least is None else (other, least)
             status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
+        found = replace(found, factorizations=spent)
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
     seconds = time.perf_counter() - started
     record = ProgramRecord(number, "elastic path", status, value, np.nan, found.factorizations, seconds)
@@ -154,7 +158,8 @@ NOT_SEEN = Message(
 )
 HANGS = Message(
     "elastic-path-by-stiffness",
-    "how stiff its joints are decides: it starts to move at {} where they have {} of their stiffness in shear, not {}",
+    "how stiff its joints are decides: it starts to move at {} where they have {} of their stiffness in shear, at {} "
+    "with {}",
 )
 RISING = Message(
     "elastic-path-rises",

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.flow.settings import RATIOS
 from mbla.solution.solution import Standing, Status
 from mbla.solution.standing import standing
 from tests.decks.folder import BENCHMARKS
