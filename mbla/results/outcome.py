@@ -16,7 +16,7 @@ from mbla.errors import Notice
 from mbla.model.model import Tilt
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
-from mbla.solution.flow.path_record import Stop
+from mbla.solution.flow.path_record import RISES, Stop
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
@@ -122,6 +122,11 @@ def falls_while_moving(case: CaseResult) -> bool:
     """Whether the load falls on the path once the structure moves."""
     own = case.solution.mechanics
     return case.solution.path_end == Stop.FALLS and own is not None and case.solution.path_last < own.load_factor
+
+
+def rises_where_it_ends(case: CaseResult) -> bool:
+    """Whether the load still rises where the path ends."""
+    return case.solution.path_end == Stop.FAR and case.solution.path_gain > RISES
 
 
 def law_residual(checks: Checks) -> float:

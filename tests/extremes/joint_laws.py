@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tests.extremes.decks import ARCH, BLOCK, FLOW_RULES, WALL, ruled, worded
+from tests.extremes.decks import ARCH, BLOCK, FLOW_RULES, WALL, ruled, smoothed, worded
 from tests.extremes.outcome import Scene
 
 FRICTIONS = ("0", "1.0e-12", "1.0e-9", "1.0e-6", "1.0e-3", "0.01", "0.1", "10", "1.0e3", "1.0e6", "1.0e9", "1.0e15")
@@ -21,7 +21,8 @@ def frictions() -> Iterator[Scene]:
             said = ("load-factor-rounding",) if value <= 1e-6 else ()
             if mu == "1.0e-9":  # next to which what the programs leave is more than all that friction carries
                 said = (*said, "not_verified")
-            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5), diagnosis=said)
+            near = smoothed(1e-6, 0.05, rule)
+            yield Scene(f"block, {name}", "friction", BLOCK, overrides, min(value, 0.5), near, diagnosis=said)
             if value <= 0.1:
                 long = mu not in ("0", "1.0e-9")
                 yield Scene(f"wall, {name}", "friction", WALL, overrides, value, diagnosis=said, long=long)

@@ -91,6 +91,7 @@ def small() -> Iterator[Scene]:
             name = f"{worded(rule)}, interface 1e{2 * k} of the largest"
             lever = (0.1 * a**2 * 0.05 + 0.6) / (1 + 0.1 * a**2)
             said = (FAR_APART,) if k <= -4 or (k == -3 and rule != "associative") else ()
+            said = (*said, "standing-doubtful") if k <= -2 and rule != "associative" else said
             foot = a / 2 / lever
             yield Scene(f"cube on a foot, {name}", "small interfaces", ON_FOOT, overrides, foot, diagnosis=said)
             yield Scene(f"pebble on a slab, {name}", "small interfaces", PEBBLE, overrides, 0.4, diagnosis=said)
@@ -104,7 +105,7 @@ def thin() -> Iterator[Scene]:
             overrides = (f"parameters.t=1.0e{k}", ruled(rule))
             foot = 0.3**2 * t
             lever = (foot * t / 2 + 0.5 + t) / (1 + foot)
-            said = (FAR_APART,) if k < -6 else ()
+            said = (FAR_APART,) if k < -6 else ("approximate",) if k == -6 else ()
             name = f"{worded(rule)}, 1e{k} thick"
             yield Scene(
                 f"cube on a foot, {name}",

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tests.analytic.planar import polygon_arch
-from tests.extremes.decks import FLOW_RULES, ruled
+from tests.extremes.decks import FLOW_RULES, ruled, smoothed
 from tests.extremes.outcome import Scene
 
 VOUSSOIRS = 20
@@ -102,7 +102,7 @@ def _arch(offset: float, voussoirs: int, flow_rule: str) -> Scene:
             ruled(flow_rule),
         ),
         expected=expected,
-        tolerance=max(1e-6, 1e-10 / offset) if offset > 0 else 0.0,
+        tolerance=smoothed(max(1e-6, 1e-10 / offset), expected, flow_rule) if offset > 0 else 0.0,
         diagnosis=tell if offset > 0 else (FALLS, *tell),
         long=voussoirs != VOUSSOIRS or abs(offset) > 1e-6 or (offset == 1e-8 and flow_rule != "associative"),
     )

@@ -8,6 +8,9 @@ from tests.extremes.decks import deck, under_both_rules
 from tests.extremes.outcome import Scene
 
 OUTLINES = "outlines-simplified"
+DOUBTFUL = ("standing-doubtful",)
+RISES = "elastic-path-rises"
+"""The load gains on hundreds of interfaces that open or slide one after the other, far beyond the end of a path."""
 
 
 ON_MANY = deck(
@@ -41,6 +44,7 @@ def _statics() -> list[Scene]:
                 family,
                 ON_MANY,
                 min(0.5, 1 / h),
+                diagnosis=(RISES,) if h > 2 else (),
                 overrides=(f"parameters.n={n}", f"parameters.h={h!r}"),
                 long=long,
             )
@@ -100,12 +104,24 @@ def _chains() -> list[Scene]:
         size = f"parameters.n={n}"
         scenes += under_both_rules(f"row of {n} blocks, all pushed", family, ROW, 0.5, overrides=(size,), long=long)
         scenes += under_both_rules(
-            f"row of {n} blocks, the first shoves all", family, SHOVED, 0.5 * n, overrides=(size,), long=long
+            f"row of {n} blocks, the first shoves all",
+            family,
+            SHOVED,
+            0.5 * n,
+            diagnosis=(RISES,),
+            overrides=(size,),
+            long=long,
         )
     for n, long in ((100, False), (1000, True)):
         size = f"parameters.n={n}"
         scenes += under_both_rules(
-            f"stack of {n} blocks", family, STACK, min(0.5, 1 / (n * 0.1)), overrides=(size,), long=long
+            f"stack of {n} blocks",
+            family,
+            STACK,
+            min(0.5, 1 / (n * 0.1)),
+            diagnosis=DOUBTFUL if long else (),
+            overrides=(size,),
+            long=long,
         )
     return scenes
 

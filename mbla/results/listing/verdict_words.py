@@ -20,6 +20,7 @@ from mbla.results.outcome import (
     locked_in,
     presumes_standing,
     result_of,
+    rises_where_it_ends,
 )
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
@@ -67,6 +68,9 @@ def verdict(model: Model, case: CaseResult) -> str:
         return (
             f"{moves} at {known}; while it moves, {load_factor_words(model, case.load_case, case.solution.path_last)}"
         )
+    if verified and rises_where_it_ends(case):
+        gained = f"{100.0 * case.solution.path_gain:.2g} %"
+        return f"{moves} at {known}; the load still rises there, by {gained} over the last half"
     return f"{moves} at {known}"
 
 
@@ -79,7 +83,10 @@ def least_words(model: Model, case: CaseResult) -> str:
     own, least = result_of(case), least_of(case)
     if own is None or np.isnan(least):
         return ""
-    words = f"least found: {load_factor_words(model, case.load_case, least)}, a state of rigid joints, verified"
+    known, rigid = (load_factor_words(model, case.load_case, x) for x in (least, case.checks.least_load_factor))
+    if rigid != known:
+        return f"no state of rigid joints was found below it: the least of them at {rigid}"
+    words = f"least found: {known}, a state of rigid joints, verified"
     if least < (1.0 - FAR_BELOW) * own.load_factor:
         words += "; only another history than this loading leads to it: earlier movements, forces that are locked in"
     return words

@@ -256,5 +256,5 @@ def lengths(vectors: FloatArray) -> FloatArray:
 
 def within(vectors: FloatArray, limit: FloatArray, share: float = 1.0) -> FloatArray:
     """Vectors, (components, n), cut to a share of a limit, (n,), where they are longer."""
-    size = lengths(vectors)
-    return np.asarray(vectors * np.where(size > share * limit, share * limit / np.maximum(size, 1e-300), 1.0))
+    size, most = lengths(vectors), share * limit
+    return np.asarray(vectors * np.divide(most, size, out=np.ones_like(size), where=size > most))

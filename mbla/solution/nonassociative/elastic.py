@@ -18,7 +18,7 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.followed import LOW
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
-from mbla.solution.flow.path_record import RISES, PathStep, Stop
+from mbla.solution.flow.path_record import RISES, UNENDED, PathStep, Stop
 from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.state_of_path import state_at_once, state_of_path
 from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult
@@ -70,6 +70,8 @@ def solve_by_elastic_path(
     seconds = time.perf_counter() - started
     record = ProgramRecord(number, "elastic path", status, value, np.nan, found.factorizations, seconds)
     rises = found.stop is Stop.FAR and found.gain > RISES
+    if status is Status.SOLVED and rises and found.gain > UNENDED:
+        status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
     return SequenceResult(
         status,
         state,
@@ -160,6 +162,11 @@ HANGS = Message(
     "elastic-path-by-stiffness",
     "how stiff its joints are decides: it starts to move at {} where they have {} of their stiffness in shear, at {} "
     "with {}",
+)
+UNENDED_PATH = Message(
+    "elastic-path-not-ended",
+    "it stands at least to {}: of it {:.2g} % were gained over the last half of the path of elastic joints, which ends "
+    "before the load does",
 )
 RISING = Message(
     "elastic-path-rises",
