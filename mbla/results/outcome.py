@@ -16,7 +16,7 @@ from mbla.errors import Notice
 from mbla.model.model import Tilt
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
-from mbla.solution.flow.path_record import RISES, Stop
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
@@ -126,7 +126,7 @@ def falls_while_moving(case: CaseResult) -> bool:
 
 def rises_where_it_ends(case: CaseResult) -> bool:
     """Whether the load still rises where the path ends."""
-    return case.solution.path_end == Stop.FAR and case.solution.path_gain > RISES
+    return any(remark.identifier == "elastic-path-rises" for remark in case.solution.remarks)
 
 
 def law_residual(checks: Checks) -> float:

@@ -60,8 +60,9 @@ ONWARDS, ALIKE = 0.05, 1e-3
 """Length of the short step after that of the peak, in units, and share of its load factor within which it stands for
 it."""
 
-AT_BREAK, NEARLY = 4, 0.99
-"""Lengths tried for the step to where a tie breaks, and share of the way to there that is near enough."""
+AT_BREAK, NEARLY = 10, 0.99
+"""Lengths tried for the step to where a tie breaks, and share of the way to there, or of a length between which and the
+next it breaks, that is near enough."""
 
 
 def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
@@ -193,15 +194,17 @@ class _Path:
         whole, spent = solved_peak(gone, self.force)
         self.factorizations += spent
         share, breaking = self._share_until_break(whole)
-        there = whole
+        low, high, length = 0.0, whole.step.length, whole.step.length
         for _ in range(AT_BREAK if len(breaking) else 0):
-            there = replace(gone, step=replace(gone.step, length=share * there.step.length))
+            length = share * length if low < share * length < high else 0.5 * (low + high)
+            there = replace(gone, step=replace(gone.step, length=length))
             sharp, spent = solved_peak(there, self.force)
             self.factorizations += spent
             if sharp.state is there.state:
                 break
-            share, there = self._share_until_break(sharp)[0], sharp
-            if NEARLY < share < 1.0 / NEARLY:
+            share = self._share_until_break(sharp)[0]
+            low, high = (length, high) if share > 1.0 else (low, length)
+            if NEARLY < share < 1.0 / NEARLY or low > NEARLY * high:
                 self.top = sharp if sharp.state.factor > self.peak else self.top
                 break
         return breaking, whole

@@ -55,7 +55,8 @@ def solve_by_elastic_path(
     status, reason = _claim(found, state, live)
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE
-    if status in (*WITH_VALUE, Status.UNBOUNDED) and _may_hang_on_stiffness(found, associative):
+    in_time = found.stop is not Stop.LATE
+    if in_time and status in (*WITH_VALUE, Status.UNBOUNDED) and _may_hang_on_stiffness(found, associative):
         wanted = replace(wanted, ratio=next(ratio for ratio in reversed(RATIOS) if ratio != asked.ratio))
         other = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
         spent = found.factorizations + other.factorizations
@@ -69,7 +70,8 @@ def solve_by_elastic_path(
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
     seconds = time.perf_counter() - started
     record = ProgramRecord(number, "elastic path", status, value, np.nan, found.factorizations, seconds)
-    rises = found.stop is Stop.FAR and found.gain > RISES
+    above = np.inf if associative.state is None else associative.state.load_factor
+    rises = found.stop is Stop.FAR and found.gain > RISES and found.load_factor < (1.0 - RISES) * above
     if status is Status.SOLVED and rises and found.gain > UNENDED:
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
     return SequenceResult(

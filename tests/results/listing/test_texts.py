@@ -56,18 +56,22 @@ def case(
     )
 
 
+RISES = Message("elastic-path-rises", "The load still rises")
 CASES = {
     "another associative factor": case(associative=tower_mechanics(0.625)),
     "published": case(scheme="published"),
     "path that falls": case(checks=BY_PATH, path=PATH, path_end="falls", path_last=0.4),
     "path that stays": case(checks=BY_PATH, path=PATH[:2], path_end="flat", path_last=0.5),
     "path that ends far out": case(checks=BY_PATH, path=PATH[:2], path_end="far", path_gain=0.02, path_last=0.5),
+    "path that still rises": case(
+        checks=BY_PATH, path=PATH[:2], path_end="far", path_gain=0.02, path_last=0.5, remarks=(RISES,)
+    ),
     "path that is lost": case(Status.APPROXIMATE, checks=BY_PATH, path=PATH[:2], path_end="stuck", path_last=0.5),
     "path in doubt": case(checks=BY_PATH, standing=IN_DOUBT, path=PATH, path_end="falls", path_last=0.4),
     "least a little lower": case(checks=BY_PATH | {"least_load_factor": 0.495}),
     "least far lower": case(checks=BY_PATH | {"least_load_factor": 0.45}),
     "least not verified": case(checks=BY_PATH, least=tower_mechanics(0.45)),
-    "remark": case(remarks=(Message("elastic-path-rises", "The load still rises"),)),
+    "remark": case(remarks=(Message("livesley-confirms", "That is confirmed"),)),
     "self-stress": case(standing=BY_ITSELF),
     "self-stress, associative": case(of=ASSOCIATIVE, standing=BY_ITSELF),
     "settlement": case(load={"settlement": SETTLEMENT}, checks=BY_PATH),

@@ -239,7 +239,7 @@ def test_a_ceiling_that_nothing_presses_carries_nothing() -> None:
     assert factor == pytest.approx(0.5, rel=CLOSE)
 
 
-@pytest.mark.parametrize(("friction", "below"), [(1.7, BELOW), (2.0, BELOW), (5.0, 7e-3)])
+@pytest.mark.parametrize(("friction", "below"), [(1.7, BELOW), (2.0, BELOW), (5.0, 1e-2)])
 def test_a_wedge_in_a_groove_slides_where_dilatancy_would_lock_it(friction: float, below: float) -> None:
     """With normality it locks from mu = 1/tan b = 1.732 on; without it slides at mu/cos b for every mu.
 
