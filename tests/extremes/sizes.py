@@ -51,7 +51,7 @@ def distances() -> Iterator[Scene]:
                 deck,
                 (f"parameters.d=1.0e{k}", ruled(rule)),
                 expected,
-                max(tolerance, 1e-6) if k <= FINE else 1e-5,
+                max(tolerance, 1e-6 if k <= FINE else 1e-5),
                 SAID if k > FINE else (),
                 long=k not in (3, 6, 8, 14),
             )
