@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.solution.flow.fall import Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
@@ -51,7 +52,7 @@ class _Path:
         self.top: PeakStep | None = None
         self.half: PeakStep | None = None
         self.steps: list[PathStep] = []
-        self.factorizations, self.halved = 0, 0
+        self.factorizations, self.halved, self.low = 0, 0, Fall()
 
     def advance(self) -> Stop | None:
         """One step, or half of it next time where it could not be solved; why the path ends, None where it goes on."""
@@ -76,7 +77,9 @@ class _Path:
         step = PathStep(self.displacement, there.state.factor, counted=True, reach=1.0, open=opened, slide=slide)
         self.steps.append(self.settings.seen(step))
         self.length = min(GROWTH * length, max(LONGEST * self.displacement, self.settings.first))
-        if there.state.factor < (1.0 - self.settings.dropped) * self.top.state.factor and self.displacement > 1.0:
+        below = there.state.factor < (1.0 - self.settings.dropped) * self.top.state.factor
+        self.low = self.low.after(below, self.displacement, there.state.factor)
+        if self.low.is_over(self.displacement):
             return Stop.FALLS
         if self.displacement >= until * (1.0 - 1e-9):
             return Stop.FAR

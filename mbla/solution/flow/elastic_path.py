@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.solution.flow.fall import Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak, with_openings
@@ -33,9 +34,9 @@ SMOOTHED = 0.3
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
-ELASTIC, SETTLED = 1.0, 8.0
-"""Displacements within which no path falls, and none is flat: on 27 structures 0.1 to 16 made no difference to what is
-flat, but with 1 two of the piers that crush ended at half of their load."""
+SETTLED = 8.0
+"""Displacement within which no path is flat: on 27 structures 0.1 to 16 made no difference to what is flat, but with 1
+two of the piers that crush ended at half of their load."""
 
 ENDS = 0.01
 """Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
@@ -45,7 +46,7 @@ PASSED = 1.1
 """Displacement over that at which the load last rose, from which a blocked path has its peak behind it, in its second
 half: a dome on its drum snaps there, and no smoothing led on from where it was blocked in fewer than 100 steps."""
 
-NOT_LOW = (0, 0.0, np.inf)
+NOT_LOW = Fall()
 """No step below the peak."""
 
 NEAR, MOST_NEAR = 1e-3, 8
@@ -90,7 +91,7 @@ class _Path:
     later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
-    low      : steps in a row that do not rise below the peak, displacement of the first and least load factor of them
+    low      : steps in a row that do not rise below the peak
     fallen   : load factor from which it falls: the greatest since a tie broke last
     blocked  : steps in a row that were blocked, since the last re-centring and in all
     in_balance : steps up to the last one that counts
@@ -114,7 +115,7 @@ class _Path:
     later: PeakStep | None = None
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
-    low: tuple[int, float, float] = NOT_LOW
+    low: Fall = NOT_LOW
     fallen: float = 0.0
     broken: list[tuple[float, int]] = field(default_factory=list)
     blocked: tuple[int, int] = (0, 0)
@@ -270,10 +271,8 @@ class _Path:
         if self._smoothed_little(sigma):
             below = counted and self.fallen > 0.0 and reach > 0.2
             below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
-            count, first, lowest = self.low if self.low[0] else (0, self.displacement, np.inf)
-            rises = self.state.factor > 1.001 * lowest  # it is on its way back from where it was blocked
-            self.low = (count + 1, first, min(lowest, self.state.factor)) if below and not rises else NOT_LOW
-        if self.low[0] >= 3 and self.displacement >= 1.02 * self.low[1] and self.displacement > ELASTIC:
+            self.low = self.low.after(below, self.displacement, self.state.factor)
+        if self.low.is_over(self.displacement):
             return Stop.FALLS
         if counted and self.displacement > max(SETTLED, 2.2 * self.risen[1]):
             return Stop.FLAT

@@ -79,6 +79,9 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     if is_too_rough(path, rest, measure):
         path = follow_solved(rest.joints, rest.gravity, measure, settings)
         paths.append(path)
+    elif path.peak is not None and not path.peak.is_solved:
+        paths.append(follow_solved(rest.joints, rest.gravity, measure, settings))
+        path = _better(*paths)
     elif is_lost(path) or (rest.twists and path.recentred):
         paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
         path = _better(*paths)

