@@ -349,7 +349,6 @@ FORGERIES: Mapping[str, Forgery] = {
     "load factor of the least state": _least(_other_factor),
     "forces of the least state": _least(_other_forces),
     "least state by the associative one": _least(_by_associative),
-    "least state by that of the path": _least(lambda case, least, generator: case.solution.mechanics),
     "state of the path by the least": _state_by_least,
     "history of joints removed": _history_removed,
     "path not followed": _path_not_followed,
