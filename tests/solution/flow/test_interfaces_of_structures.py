@@ -1,7 +1,7 @@
 """The path with stress blocks and torsion on structures: what it says, and that it says the same of equivalent forms.
 
-References are paths in converged steps: dome .4737 and, in shorter ones, .4775 with torsion, .5342 with stress blocks of
-1 MPa; vault on piers .1235 and, of 3 MPa, .1339; wall of 20 × 20 .4750. Corners alone say .541, .1535, .4903.
+References are paths in converged steps: dome .4737 and, in shorter ones, .4775 with torsion, .5342 with stress blocks
+of 1 MPa; vault on piers .1235 and, of 3 MPa, .1339; wall of 20 × 20 .4750. Corners alone say .541, .1535, .4903.
 """
 
 from __future__ import annotations
