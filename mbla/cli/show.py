@@ -21,14 +21,23 @@ def add_show(commands: Any) -> None:
 
 def add_verify(commands: Any) -> None:
     """``mbla verify``."""
-    _add(commands, "verify", verify, "recompute residuals and bounds from a result file alone, with no solver")
+    command = _add(
+        commands, "verify", verify, "recompute residuals and bounds from a result file alone, with no solver"
+    )
+    command.add_argument(
+        "--again",
+        action="store_true",
+        help="follow each path of elastic joints anew from the deck in the file, by other steps and with joints of "
+        "another stiffness in shear: whether the history in the file is that of the loading (needs the solver)",
+    )
 
 
-def _add(commands: Any, name: str, action: Callable[[argparse.Namespace], int], text: str) -> None:
-    command = commands.add_parser(name, help=text)
+def _add(commands: Any, name: str, action: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = commands.add_parser(name, help=text)
     command.set_defaults(action=action, about={"result": "result"})
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+    return command
 
 
 def show(options: argparse.Namespace) -> int:
@@ -52,7 +61,7 @@ def verify(options: argparse.Namespace) -> int:
         from mbla.results.record.json_values import json_line
         from mbla.results.verify import verify_file
 
-    results, agreed = verify_file(options.result)
+    results, agreed = verify_file(options.result, anew=options.again)
     if options.json:
         print(json_line(verification_json(results, agreed)))
     else:

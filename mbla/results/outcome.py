@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import Tilt
+from mbla.model.model import LoadCase, Tilt
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
@@ -127,6 +127,32 @@ def falls_while_moving(case: CaseResult) -> bool:
 def rises_where_it_ends(case: CaseResult) -> bool:
     """Whether the load still rises where the path ends."""
     return any(remark.identifier == "elastic-path-rises" for remark in case.solution.remarks)
+
+
+def off_by_stiffness(case: CaseResult) -> float:
+    """Share by which joints of other stiffnesses come to other answers; nan where that of any is not known."""
+    own = result_of(case)
+    if own is None or not case.solution.path_by_stiffness:
+        return math.nan
+    rows = case.solution.path_by_stiffness
+    return float(np.max([apart(case.load_case, row.load_factor, own.load_factor) for row in rows]))
+
+
+def apart(load_case: LoadCase, one: float, other: float, nothing: float = 0.0) -> float:
+    """Difference of two load factors, or of the reactions that they stand for, over the second; nan over nothing.
+
+    nothing : load factor that is next to none; where both are, they are the same
+    """
+    if one == other or max(abs(one), abs(other)) <= nothing:
+        return 0.0
+    if load_case.settlement is not None:
+        one, other = load_case.settlement.reaction(one), load_case.settlement.reaction(other)
+    return math.nan if other == 0.0 else abs(one - other) / abs(other)
+
+
+def ratio_of(own: Mechanics) -> float:
+    """Shear over normal stiffness of joints in the step of a state of the path; nan for rigid joints."""
+    return math.nan if own.stiffness is None else float(np.median(own.stiffness[:, 1] / own.stiffness[:, 0]))
 
 
 def law_residual(checks: Checks) -> float:

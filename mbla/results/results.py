@@ -45,6 +45,29 @@ class CaseResult:
 
 
 @dataclass(frozen=True)
+class PathAgain:
+    """A path of elastic joints that a verification followed anew, beside a figure of the file.
+
+    case          : name of the load case
+    ratio         : shear over normal stiffness of the joints on it
+    load_factor   : the greatest on it; nan: it does not show, inf: nothing gives way
+    ratio_in_file, in_file : that of the joints, and the load factor that the file has for them
+    off           : difference of the load factors, or of the reactions that they stand for, over that
+    allowed       : the most of it with which they agree
+    agrees        : whether the path confirms the figure
+    """
+
+    case: str
+    ratio: float
+    load_factor: float
+    ratio_in_file: float
+    in_file: float
+    off: float
+    allowed: float
+    agrees: bool
+
+
+@dataclass(frozen=True)
 class Results:
     """A complete run.
 
@@ -57,6 +80,7 @@ class Results:
     complete   : whether the run completed
     not_done   : requested load cases that it did not reach
     unconfirmed : of a verification: what its deck asks for and it lacks, or states, and nothing in it shows; in words
+    paths_again : of a verification: paths that it followed anew; None where it was not asked to
     """
 
     deck: DeckRecord
@@ -73,6 +97,7 @@ class Results:
     complete: bool = True
     not_done: tuple[str, ...] = ()
     unconfirmed: tuple[str, ...] = ()
+    paths_again: tuple[PathAgain, ...] | None = None
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; raises KeyError if there is none."""

@@ -35,7 +35,7 @@ from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
-from mbla.results.results import CaseResult, Results
+from mbla.results.results import CaseResult, PathAgain, Results
 from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
@@ -53,8 +53,10 @@ from mbla.solution.verification.verify_points import verified_status
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is no number fulfils no condition
-def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
+def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, ...]]:
     """Results with checks, status and exit status recomputed, and where they disagree with what the file says.
+
+    anew : whether paths of elastic joints are followed anew, with a solver
 
     Raises FileError as ``read_results_hdf5`` does.
     """
@@ -62,10 +64,17 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     deck, disagreements = rebuilt(results)
     again = recomputed(results, deck)
     unconfirmed: tuple[str, ...] = ()
+    paths: list[PathAgain] = []
     for case in again.cases:
         name, found = case.load_case.name, Found(_unproved(results, case))
         if deck is not None:
             found = _held_against(deck, results, case, found)
+        if deck is not None and anew:
+            from mbla.results.verification.history import held_against_paths, paths_again  # late: it needs solvers
+
+            followed = paths_again(deck, results.model.of_case(case.load_case), results.contacts, case)
+            held_against_paths(found, results.model, case, followed)
+            paths += followed
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
         unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
     disagreements += differences_of_stop(results)
@@ -76,7 +85,8 @@ def verify_file(path: Path) -> tuple[Results, tuple[str, ...]]:
     proved = results.complete and not unconfirmed and not any(presumes_standing(case) for case in again.cases)
     if (disagreements or not proved) and code in (0, 5):
         code = 4
-    return replace(again, exit_code=code, unconfirmed=unconfirmed), disagreements
+    seen = tuple(paths) if anew else None
+    return replace(again, exit_code=code, unconfirmed=unconfirmed, paths_again=seen), disagreements
 
 
 def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:

@@ -27,6 +27,7 @@ class SolverSettings:
     residual       : of the joint law without normality at which a scheme has found its state
     search         : iterations spent on lower load factors, over those of the first state found
     standing       : whether it is assessed in addition to the load factor
+    steps          : length of those of a path of elastic joints, over the usual
     analysis       : flow rule, scheme with its parameters, ranges of forces
     """
 
@@ -40,6 +41,7 @@ class SolverSettings:
     cholesky: str | None = None
     search: float = PRESETS["standard"].search
     standing: bool = PRESETS["standard"].standing
+    steps: float = 1.0
     analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
 
     @property

@@ -125,6 +125,18 @@ class PathPoint:
 
 
 @dataclass(frozen=True)
+class PathByStiffness:
+    """Where joints of another stiffness lead.
+
+    ratio       : their shear over their normal stiffness
+    load_factor : the greatest on their path; nan where it was not seen
+    """
+
+    ratio: float
+    load_factor: float
+
+
+@dataclass(frozen=True)
 class GeometricSafety:
     """The least size of joints, all shrunk about their middles, that carries the dead load, between two sizes.
 
@@ -227,6 +239,7 @@ class Solution:
     path        : states of the path of elastic joints that was followed
     path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
                   at its end
+    path_by_stiffness : what other paths came to, of joints of another stiffness in shear, where any was followed
     curve       : steps of the pushover, the structure as built first; empty where none was asked for
     curve_end   : why it ends
     curve_end_error, curve_last_error : change of the displacement there, m, and of the load factor there with steps of
@@ -262,6 +275,7 @@ class Solution:
     path_end: str = ""
     path_gain: float = math.nan
     path_last: float = math.nan
+    path_by_stiffness: tuple[PathByStiffness, ...] = ()
     curve: tuple[CurveRow, ...] = ()
     curve_end: CurveEnd = CurveEnd.NONE
     curve_end_error: float = math.nan

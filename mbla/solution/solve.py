@@ -26,7 +26,7 @@ from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import IterationRecord, Mechanics, ProgramRecord, Solution, Status
+from mbla.solution.solution import IterationRecord, Mechanics, PathByStiffness, ProgramRecord, Solution, Status
 from mbla.solution.standing.claim import as_it_stands
 from mbla.solution.standing.standing import worst_standing
 
@@ -213,7 +213,15 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         path_end=sequence.path_end,
         path_gain=sequence.path_gain,
         path_last=sequence.path_last,
+        path_by_stiffness=_by_stiffness(results, sequence.by_stiffness),
     )
+
+
+def _by_stiffness(results: Sequence[PartResult], rows: Sequence[PathByStiffness]) -> tuple[PathByStiffness, ...]:
+    """With joints of other stiffnesses the least load factor of all parts, by what is known of the one that decides."""
+    known = [row for each in results if each.sequence is not None for row in each.sequence.by_stiffness]
+    least = {row.ratio: np.min([own.load_factor for own in known if own.ratio == row.ratio]) for row in rows}
+    return tuple(PathByStiffness(ratio, float(factor)) for ratio, factor in least.items())
 
 
 def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:

@@ -30,6 +30,7 @@ from mbla.solution.solution import (
     IterationRecord,
     Mechanics,
     ModelSize,
+    PathByStiffness,
     PathPoint,
     ProgramRecord,
     ReductionStep,
@@ -48,7 +49,12 @@ RECORD_NAMES = {
 }
 """fields of a load case that have other names in the file: netCDF takes a dataset of the name of a dimension for the
 coordinate of that"""
-HISTORY: dict[str, type] = {"programs": ProgramRecord, "iterations": IterationRecord, "path": PathPoint}
+HISTORY: dict[str, type] = {
+    "programs": ProgramRecord,
+    "iterations": IterationRecord,
+    "path": PathPoint,
+    "path_by_stiffness": PathByStiffness,
+}
 """lists of records in a solution, each a group with a dataset a column"""
 MOTIONS = ("torsion_motions", "crushing_motions")
 """motions of interfaces, in the order in which they are stacked"""

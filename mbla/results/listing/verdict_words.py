@@ -18,6 +18,7 @@ from mbla.results.outcome import (
     law_residual,
     least_of,
     locked_in,
+    off_by_stiffness,
     presumes_standing,
     result_of,
     rises_where_it_ends,
@@ -90,6 +91,23 @@ def least_words(model: Model, case: CaseResult) -> str:
     if least < (1.0 - FAR_BELOW) * own.load_factor:
         words += "; only another history than this loading leads to it: earlier movements, forces that are locked in"
     return words
+
+
+LEAST_OFF = 1e-4
+"""share below which differences by stiffness are not told apart"""
+
+
+def stiffness_words(model: Model, case: CaseResult) -> str:
+    """What joints of other stiffnesses come to, and how far that is off; nothing where no such path was followed."""
+    own, rows = result_of(case), case.solution.path_by_stiffness
+    if own is None or not rows:
+        return ""
+    factors = [row.load_factor for row in rows]
+    told = ["not found" if np.isnan(each) else load_factor_words(model, case.load_case, each) for each in factors]
+    ratios = " and ".join(f"{row.ratio:g}" for row in rows)
+    words = f"with joints of {ratios} of their stiffness in shear: {', '.join(told)}"
+    off = off_by_stiffness(case)
+    return words if np.isnan(off) else f"{words}; within ± {100.0 * max(off, LEAST_OFF):.2g} %"
 
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
@@ -190,7 +208,13 @@ PUBLISHED = (
 def known_words(model: Model, case: CaseResult) -> list[str]:
     """Sentences on the quality of the figure, with the solver's own remarks."""
     published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
-    texts = (uniqueness_words(model, case), least_words(model, case), published, *case.solution.remarks)
+    texts = (
+        uniqueness_words(model, case),
+        stiffness_words(model, case),
+        least_words(model, case),
+        published,
+        *case.solution.remarks,
+    )
     return [f"{text[0].upper()}{text[1:]}".rstrip(".") + "." for text in texts if text]
 
 

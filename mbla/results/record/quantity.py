@@ -70,7 +70,7 @@ UNVERIFIED = {
     "curve": "of a pushover: errors of its load factors, which blocks fall without the rest, why it ends",
     "searches": "ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
-    "before, and that what joints remember is the history of its loading",
+    "before",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
     "falls": "which block falls first",
 }

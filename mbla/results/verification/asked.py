@@ -14,16 +14,17 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck
 from mbla.model import Model
-from mbla.results.outcome import WITH_VALUE
+from mbla.results.outcome import WITH_VALUE, off_by_stiffness, ratio_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
-from mbla.solution.flow.settings import RATIOS
+from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
+from mbla.solution.nonassociative.by_stiffness import SAME as SAME_BY_STIFFNESS
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
-from mbla.solution.solution import Solution, Status
+from mbla.solution.solution import Mechanics, Solution, Status
 from mbla.solution.verification.verify import locked_with_normality
 
 SAME = 1e-9
@@ -168,8 +169,8 @@ def _history(found: Found, deck: Deck, case: CaseResult) -> None:
     if mechanics is not None and moves and _by_path(deck, case) and mechanics.remembered is None:
         found.differences.append(lacks("history of elastic joints"))
     if mechanics is not None and mechanics.stiffness is not None:
-        ratio = float(np.median(mechanics.stiffness[:, 1] / mechanics.stiffness[:, 0]))
-        if not np.isclose(ratio, (deck.analysis.path.ratio, *RATIOS), rtol=SAME_ROW, atol=0.0).any():
+        ratio, asked = ratio_of(mechanics), deck.analysis.path.ratio
+        if not np.isclose(ratio, (asked, *RATIOS, *ratios_beside(asked)), rtol=SAME_ROW, atol=0.0).any():
             found.differences.append(
                 f"joints have {ratio:.6g} of their stiffness in shear, which the deck does not say"
             )
@@ -180,6 +181,7 @@ def _path(found: Found, deck: Deck, case: CaseResult) -> None:
     solution, own = case.solution, case.solution.mechanics
     if own is None or own.remembered is None or not _by_path(deck, case):
         return
+    _by_stiffness(found, deck, case, own)
     seen = solution.path_end in ANSWERS
     if solution.status is Status.SOLVED and not seen:
         found.differences.append(
@@ -193,6 +195,22 @@ def _path(found: Found, deck: Deck, case: CaseResult) -> None:
         found.differences.append(
             f"the path ends at the load factor {solution.path_last:.6g}, its last row at {last:.6g}"
         )
+
+
+def _by_stiffness(found: Found, deck: Deck, case: CaseResult, own: Mechanics) -> None:
+    """Paths of joints of other stiffnesses beside the one shown: two by ``accuracy: reference``, one in doubt."""
+    ratio, reference = deck.analysis.path.ratio, deck.analysis.accuracy == "reference"
+    whole = {ratio, *ratios_beside(ratio)} if reference else {ratio, second_ratio(ratio)}
+    solution, shown = case.solution, ratio_of(own)
+    known = [row.ratio for row in solution.path_by_stiffness]
+    known.append(min(whole, key=lambda other: abs(other - shown)))
+    answers = solution.status in WITH_VALUE and solution.path_end != Stop.LATE
+    if reference and answers and len(known) == 1:
+        found.differences.append(lacks("paths of joints of other stiffnesses"))
+    elif solution.status is Status.SOLVED and off_by_stiffness(case) > SAME_BY_STIFFNESS:
+        found.differences.append("the load factor is solved, and joints of other stiffnesses come to another one")
+    elif sorted(known) not in (sorted(whole), [ratio]):
+        found.differences.append("the file has paths of joints of other stiffnesses than the deck leads to")
 
 
 ANSWERS = tuple(stop.value for stop in Stop if stop.answers)

@@ -7,13 +7,27 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mbla.solution.flow.path_record import PathStep
 
 RATIOS = (0.4, 1.0)
 """Of shear to normal stiffness, with both of which a structure must stand; the first is that of a layer of stone,
 1/(2 (1 + ν)), and of paths unless the deck says otherwise."""
+
+BESIDE = (0.2, 1.0)
+"""Such ratios that ``accuracy: reference`` follows besides: the load factors that they give say how far the figure
+hangs on what nobody knows of joints. On 40 structures they lie within 2 per cent of each other."""
+
+
+def ratios_beside(ratio: float) -> tuple[float, ...]:
+    """Two ratios to follow beside one."""
+    return tuple(sorted({*BESIDE, *((RATIOS[0],) if ratio in BESIDE else ())} - {ratio}))
+
+
+def second_ratio(ratio: float) -> float:
+    """The one of both with which structures must stand that differs from a ratio."""
+    return next(other for other in reversed(RATIOS) if other != ratio)
 
 
 @dataclass(frozen=True)
@@ -57,6 +71,10 @@ class PathSettings:
     def late(self) -> bool:
         """Whether the time limit has passed."""
         return self.deadline is not None and time.monotonic() > self.deadline
+
+    def by_steps(self, share: float) -> PathSettings:
+        """The same with steps of a share of their length."""
+        return replace(self, first=share * self.first, longest=share * self.longest)
 
     def seen(self, step: PathStep) -> PathStep:
         """The step, once those who watch have seen it."""

@@ -16,11 +16,16 @@ from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.flow.followed import LOW
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.path_record import RISES, UNENDED, PathStep, Stop
-from mbla.solution.flow.settings import RATIOS, PathSettings
+from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.state_of_path import state_at_once, state_of_path
+from mbla.solution.nonassociative.by_stiffness import (
+    another_answer,
+    load_factors,
+    may_hang_on_stiffness,
+    paths_beside,
+)
 from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult
 from mbla.solution.nonassociative.locking import lasting_limits
 from mbla.solution.settings import SolverSettings
@@ -45,31 +50,39 @@ def solve_by_elastic_path(
         seconds, factor = time.perf_counter() - started, step.load_factor * live
         log(IterationRecord(number, count, factor, np.nan, np.nan, np.nan, step.reach, seconds))
 
-    asked = settings.analysis.path
+    asked, dilates = settings.analysis.path, slope if np.any(slope) else None
     wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, watch=watch)
-    found = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
-    if found.stop is Stop.AT_ONCE:
-        state = state_at_once(program, associative.state, slope, settings, log)
-    else:
-        state = state_of_path(program, found, settings, log)
+    wanted = wanted.by_steps(settings.steps)
+
+    def along(ratio: float) -> PathOfPart:
+        return path_of_part(program, associative, replace(wanted, ratio=ratio), dilates)
+
+    def state_on(path: PathOfPart) -> LawState | None:
+        if path.stop is Stop.AT_ONCE:
+            return state_at_once(program, associative.state, slope, settings, log)
+        return state_of_path(program, path, settings, log)
+
+    shown, found = asked.ratio, along(asked.ratio)
+    state, followed = state_on(found), {shown: found}
     status, reason = _claim(found, state, live)
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE
-    in_time = found.stop is not Stop.LATE
-    if in_time and status in (*WITH_VALUE, Status.UNBOUNDED) and _may_hang_on_stiffness(found, associative):
-        wanted = replace(wanted, ratio=next(ratio for ratio in reversed(RATIOS) if ratio != asked.ratio))
-        other = path_of_part(program, associative, wanted, slope if np.any(slope) else None)
-        spent = found.factorizations + other.factorizations
-        if not _agree(found, other, NEAR_ZERO * program.dead_over_live):
-            one, two = (f"{each.load_factor * live:.6g}" for each in (found, other))
-            reason = HANGS.format(one, asked.ratio, two, wanted.ratio)
-            least = state_of_path(program, other, settings, log) if other.load_factor < found.load_factor else None
-            found, state = (found, state) if least is None else (other, least)
+    if found.stop is not Stop.LATE and status in (*WITH_VALUE, Status.UNBOUNDED):
+        followed |= paths_beside(found, associative, settings.analysis, along)
+        doubtful = may_hang_on_stiffness(found, associative)
+        other = another_answer(followed, shown, NEAR_ZERO * program.dead_over_live, doubtful=doubtful)
+        if other is not None:
+            one, two = (f"{followed[ratio].load_factor * live:.6g}" for ratio in (shown, other))
+            reason = HANGS.format(one, f"{shown:g}", two, f"{other:g}")
+            lower = followed[other].load_factor < found.load_factor
+            least = state_on(followed[other]) if lower else None
+            shown, state = (shown, state) if least is None else (other, least)
             status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
-        found = replace(found, factorizations=spent)
+    found = followed[shown]
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
     seconds = time.perf_counter() - started
-    record = ProgramRecord(number, "elastic path", status, value, np.nan, found.factorizations, seconds)
+    spent = sum(path.factorizations for path in followed.values())
+    record = ProgramRecord(number, "elastic path", status, value, np.nan, spent, seconds)
     above = np.inf if associative.state is None else associative.state.load_factor
     rises = found.stop is Stop.FAR and found.gain > RISES and found.load_factor < (1.0 - RISES) * above
     if status is Status.SOLVED and rises and found.gain > UNENDED:
@@ -84,6 +97,7 @@ def solve_by_elastic_path(
         path_end=found.stop.value,
         path_gain=found.gain,
         path_last=found.moving * live,
+        by_stiffness=load_factors(followed, shown, live),
     )
 
 
@@ -94,27 +108,6 @@ def _carries_the_live_load(program: Program) -> bool:
     """
     alone = replace(program, dead_load=program.live_load, limits=lasting_limits(program.limits))
     return stress_free_state(alone).rest is not None
-
-
-def _may_hang_on_stiffness(found: PathOfPart, associative: AssociativeResult) -> bool:
-    """Whether how stiff joints are may decide: where associative flow locks, and far below its load factor."""
-    above = associative.state
-    return above is None or found.load_factor < LOW * above.load_factor
-
-
-def _agree(found: PathOfPart, other: PathOfPart, nothing: float) -> bool:
-    """Whether paths of joints of two stiffnesses come to one load factor, or none to any.
-
-    nothing : load factor that is next to none
-    """
-    one, two = found.load_factor, other.load_factor
-    most = max(abs(one), abs(two))
-    return one == two or (other.is_answer and abs(one - two) <= SAME * max(most, nothing)) or most <= nothing
-
-
-SAME = 0.05
-"""Share of the load factor by which two stiffnesses may differ: on 40 structures they did by 2 % at most, and of a
-stair tread by 5.5 %."""
 
 
 def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:

@@ -14,7 +14,7 @@ from mbla.program.program import Program
 from mbla.program.static import PointMotion
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
-from mbla.solution.solution import PathPoint, ProgramRecord, Status
+from mbla.solution.solution import PathByStiffness, PathPoint, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL, STILL
 
 NEAR_ZERO = 1e-5
@@ -66,6 +66,7 @@ class SequenceResult:
     path    : of elastic joints, where it was followed, load factors of the model
     path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
               of the model at its end
+    by_stiffness : load factors of the model on paths of joints of other stiffnesses that were followed as well
     tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
     """
 
@@ -78,6 +79,7 @@ class SequenceResult:
     path_end: str = ""
     path_gain: float = math.nan
     path_last: float = math.nan
+    by_stiffness: tuple[PathByStiffness, ...] = ()
     tolerance_requested: float | None = None
 
 

@@ -1,0 +1,48 @@
+"""What is known of the history that a state of elastic joints has: whether a path followed anew leads to it."""
+
+from __future__ import annotations
+
+import math
+
+from mbla.model.model import LoadCase, Model
+from mbla.results.listing.verdict_words import LEAST_OFF, load_factor_words
+from mbla.results.outcome import by_path
+from mbla.results.results import PathAgain, Results
+
+NOT_CHECKED = (
+    "that the history is that of the loading was not checked: mbla verify --again follows paths of elastic joints anew"
+)
+
+
+def history_words(results: Results) -> tuple[str, ...]:
+    """Sentences on the paths that a verification followed anew, or that it did not."""
+    if results.paths_again is None:
+        return (NOT_CHECKED,) if any(by_path(case) for case in results.cases) else ()
+    followed = {path.case for path in results.paths_again}
+    words = [
+        f"{path.case}: {path_words(results.model, case.load_case, path)}"
+        for case in results.cases
+        for path in results.paths_again
+        if path.case == case.load_case.name and path.agrees
+    ]
+    without = [case.load_case.name for case in results.cases if case.load_case.name not in followed]
+    words += [f"no path of elastic joints to follow anew: {', '.join(without)}"] if without else []
+    return tuple(words)
+
+
+def path_words(model: Model, load_case: LoadCase, path: PathAgain) -> str:
+    """What a path that was followed anew came to, beside a figure of the file."""
+    joints = f"the path followed anew, by other steps and with joints of {path.ratio:g} of their stiffness in shear"
+    if math.isnan(path.load_factor):
+        return f"{joints}, does not show its greatest load, and so not that the history is that of the loading"
+    if math.isinf(path.load_factor):
+        return f"{joints}, has no greatest load"
+    again, own = (load_factor_words(model, load_case, value) for value in (path.load_factor, path.in_file))
+    words = f"{joints}, leads to {again}; the file has {own} with {path.ratio_in_file:g}, {_percent(path.off)} off"
+    if path.agrees and path.off > path.allowed:
+        return f"{words}, which is approximate, and carried"
+    return words + (f" (at most {_percent(path.allowed)})" if path.agrees else f": more than {_percent(path.allowed)}")
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %" if share >= LEAST_OFF else f"less than {100.0 * LEAST_OFF:g} %"

@@ -1,0 +1,94 @@
+"""``mbla verify --again``: whether the history in a file is that of the loading, by paths followed anew from its deck.
+
+They begin at the stress-free assembly and have other steps. Where the file has load factors for joints of other
+stiffnesses in shear, paths of such joints must come to them again; plain verification holds them against the state.
+Where it has none, a path of another stiffness must come near its state; where it does not, one of the same stiffness
+says whether that is for the history or for the stiffness. What is approximate is to be carried, no more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
+from mbla.deck import Deck
+from mbla.model import Model
+from mbla.program.build import build_program
+from mbla.results.diff.cases import ZERO, least_factor
+from mbla.results.listing.history_words import path_words
+from mbla.results.outcome import apart, by_path, ratio_of, result_of
+from mbla.results.results import CaseResult, PathAgain
+from mbla.results.verification.asked import ANSWERS, Found
+from mbla.solution.flow.settings import second_ratio
+from mbla.solution.nonassociative.by_stiffness import SAME
+from mbla.solution.nonassociative.law_state import NEAR_ZERO
+from mbla.solution.settings import settings_for, solver_settings
+from mbla.solution.solution import Status
+from mbla.solution.solve import solve
+
+STEPS = 0.6
+"""Length of steps over that of a run: no fraction by which both would come to the same states."""
+
+BY_STEPS = 0.01
+"""Share by which steps may move a load factor: mostly they do by 0.1 to 0.5 per cent."""
+
+
+def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> tuple[PathAgain, ...]:
+    """The paths that are followed anew, beside the figures of the file; none where it has no path.
+
+    model : as it may move under the load case
+    case  : with checks and status recomputed
+    """
+    own = result_of(case)
+    if own is None or not by_path(case):
+        return ()
+
+    def beside(ratio: float, of: float, in_file: float, allowed: float) -> PathAgain:
+        again = _load_factor(deck, model, contacts, case, ratio)
+        off = apart(case.load_case, again, in_file, NEAR_ZERO / ZERO * least_factor(model, case.load_case))
+        return PathAgain(case.load_case.name, ratio, again, of, in_file, off, allowed, off <= allowed)
+
+    rows = [row for row in case.solution.path_by_stiffness if not math.isnan(row.load_factor)]
+    if rows:
+        return tuple(beside(row.ratio, row.ratio, row.load_factor, BY_STEPS) for row in rows)
+    shown = round(ratio_of(own), 6)
+    found = beside(second_ratio(shown), shown, own.load_factor, SAME)
+    if found.agrees or (case.status is Status.APPROXIMATE and found.load_factor >= own.load_factor):
+        return (replace(found, agrees=True),)
+    return found, beside(shown, shown, own.load_factor, BY_STEPS)
+
+
+def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, ratio: float) -> float:
+    """The greatest on the path of joints with a ratio of stiffness; nan where it does not show."""
+    settings = settings_for(case.load_case, solver_settings(deck.analysis))
+    path = settings.analysis.path.model_copy(update={"ratio": ratio})
+    analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard", "force_ranges": False})
+    settings = replace(settings, analysis=analysis, steps=STEPS, search=0.0, standing=False)
+    program = build_program(tied(solids_of(model, contacts, case.load_case)), case.load_case, analysis)
+    found = solve(program, settings)
+    if found.status is Status.UNBOUNDED:
+        return math.inf
+    if found.mechanics is None or found.path_end not in ANSWERS:
+        return math.nan
+    if found.status is Status.SOLVED or math.isclose(ratio_of(found.mechanics), ratio, rel_tol=NEAR_ZERO):
+        return found.mechanics.load_factor
+    return next((row.load_factor for row in found.path_by_stiffness if row.ratio == ratio), math.nan)  # was higher
+
+
+def held_against_paths(found: Found, model: Model, case: CaseResult, paths: Sequence[PathAgain]) -> None:
+    """Where paths that were followed anew do not come to what the file has, added to what was found of a case.
+
+    A figure to which joints of the same stiffness lead, and others do not, is not confirmed; nor is one beside which a
+    path does not show its greatest load.
+    """
+    confirmed = any(path.agrees and path.ratio == path.ratio_in_file for path in paths)
+    for path in paths:
+        by_stiffness = confirmed and path.ratio != path.ratio_in_file
+        if not path.agrees:
+            unconfirmed = by_stiffness or math.isnan(path.load_factor)
+            where = found.unconfirmed if unconfirmed else found.differences
+            where.append(path_words(model, case.load_case, path))
