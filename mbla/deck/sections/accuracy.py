@@ -11,6 +11,8 @@ what it leaves alone costs little or changes the structure that is analysed:
 - standing is an answer in addition to the load factor, which it does not change. A draft goes without, save where flow
   is not associative: what stands by self-stress only has no collapse load;
 - without dilatancy a draft looks for no state of a lower load factor than the one that the loading leads to;
+- ``reference`` alone follows paths of joints of other stiffnesses beside that of the deck: what the load factor
+  without dilatancy hangs on;
 - flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
   to tens of per cent, and no preset touches them.
 """

@@ -117,7 +117,8 @@ class AnalysisSection(Section):
     accuracy: Accuracy = Field(
         "standard",
         description="one word for tolerance, gap, residual, search and standing. draft: first looks and "
-        "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives",
+        "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives, and "
+        "without dilatancy what joints of other stiffnesses come to",
     )
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
         None, description="relative tolerance of the cone solver; " + set_by_accuracy("tolerance")

@@ -107,13 +107,17 @@ def _part_programs(page: Page, frames: tuple[Any, Any], program: Any) -> None:
 
 
 def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
-    """Load factor over the displacement of the path of elastic joints, and how many points are open and slide."""
+    """Load factor over the displacement of the path of elastic joints, from where joints slip; points open, sliding."""
     path = scene.case.solution.path
     steps = [point.displacement for point in path]
     style = {"linewidth": 1.8 * page.scale, "markersize": 3 * page.scale}
     dress(page, axes, "displacement of the path over the elastic one", "load factor")
     factors = [point.load_factor if point.balanced else np.nan for point in path]
     axes.plot(steps, factors, color=BLUE, marker="o", label="load factor", **style)
+    slips = next((point for point in path if point.slide), None)
+    if slips is not None:
+        words = f"joints begin to slip: {number(slips.load_factor)}"
+        axes.axvline(slips.displacement, color=GHOST, linewidth=page.scale, label=words, zorder=0)
     count = axes.twinx()
     count.plot(steps, [point.open for point in path], color=PURPLE, linestyle="--", label="open", **style)
     count.plot(steps, [point.slide for point in path], color=ORANGE, linestyle=":", label="sliding", **style)

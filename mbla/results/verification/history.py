@@ -57,8 +57,9 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
         return tuple(beside(row.ratio, row.ratio, row.load_factor, BY_STEPS) for row in rows)
     shown = round(ratio_of(own), 6)
     found = beside(second_ratio(shown), shown, own.load_factor, SAME)
-    if found.agrees or (case.status is Status.APPROXIMATE and found.load_factor >= own.load_factor):
-        return (replace(found, agrees=True),)
+    carried = case.status is Status.APPROXIMATE and found.load_factor >= own.load_factor
+    if found.agrees or carried or math.isnan(found.load_factor):
+        return (replace(found, agrees=found.agrees or carried),)
     return found, beside(shown, shown, own.load_factor, BY_STEPS)
 
 

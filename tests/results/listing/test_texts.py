@@ -15,13 +15,14 @@ import pytest
 
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
+from mbla.results.listing.history_words import path_words
 from mbla.results.listing.listing import case_sections, listing, verification_lines
 from mbla.results.listing.model_words import check_listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.listing.text import WIDTH
+from mbla.results.listing.text import WIDTH, sentence
 from mbla.results.provenance import CaseNeeds
-from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Standing, StandingResult, Status
+from mbla.results.results import CaseResult, PathAgain, Results
+from mbla.solution.solution import PathByStiffness, Standing, StandingResult, Status
 from tests.results.synthetic import ASSESSED, PATH, full_results, tower_mechanics, tower_results
 
 TEXTS = Path(__file__).with_name("texts.txt")
@@ -56,6 +57,15 @@ def case(
     )
 
 
+OTHERS = PathByStiffness(0.2, 0.505), PathByStiffness(1.0, 0.495)
+AGAIN = PathAgain("push_x", 1.0, 0.495, 0.4, 0.5, 0.01, 0.05, agrees=True)
+AGAINS = {
+    "agrees": AGAIN,
+    "differs": replace(AGAIN, off=0.06, agrees=False),
+    "approximate": replace(AGAIN, off=0.06),
+    "lost": replace(AGAIN, load_factor=np.nan, agrees=False),
+    "no limit": replace(AGAIN, load_factor=np.inf, off=np.inf, agrees=False),
+}
 RISES = Message("elastic-path-rises", "The load still rises")
 CASES = {
     "another associative factor": case(associative=tower_mechanics(0.625)),
@@ -67,6 +77,8 @@ CASES = {
         checks=BY_PATH, path=PATH[:2], path_end="far", path_gain=0.02, path_last=0.5, remarks=(RISES,)
     ),
     "path that is lost": case(Status.APPROXIMATE, checks=BY_PATH, path=PATH[:2], path_end="stuck", path_last=0.5),
+    "path beside others": case(checks=BY_PATH, path_by_stiffness=OTHERS),
+    "path beside one that was lost": case(checks=BY_PATH, path_by_stiffness=(OTHERS[0], PathByStiffness(1.0, np.nan))),
     "path in doubt": case(checks=BY_PATH, standing=IN_DOUBT, path=PATH, path_end="falls", path_last=0.4),
     "least a little lower": case(checks=BY_PATH | {"least_load_factor": 0.495}),
     "least far lower": case(checks=BY_PATH | {"least_load_factor": 0.45}),
@@ -110,6 +122,8 @@ def texts() -> Iterator[tuple[str, list[str]]]:
     yield "listing before a run", check_listing(replace(RESULTS, cases=()), NEEDS).splitlines()
     yield "verification agrees", verification_lines(RESULTS, ())
     yield "verification differs", verification_lines(RESULTS, DIFFERS)
+    for name, path in AGAINS.items():
+        yield f"path followed anew: {name}", sentence(path_words(MODEL, RESULTS.cases[0].load_case, path))
     plain = set(case_text(case()))
     for name, made in CASES.items():
         yield f"case: {name}", [line for line in case_text(made) if line not in plain]

@@ -47,6 +47,7 @@ def test_path_of_elastic_joints_where_there_is_one(tmp_path: Path) -> None:
     results = full_results()
     shown = history(tmp_path, results, results.cases[0])
     assert {"displacement of the path over the elastic one", "open", "sliding", "contact points"} <= set(shown)
+    assert "joints begin to slip: 0.6" in shown
 
 
 def test_case_without_iterations_says_so(tmp_path: Path) -> None:
