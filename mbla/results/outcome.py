@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import LoadCase, Tilt
+from mbla.model.model import LoadCase, Model, Tilt
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
@@ -26,6 +26,8 @@ WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""
 CLEAN_RESIDUAL = 1e-6
 """residual up to which a solved case without associative flow needs no warning"""
+ZERO = 1e-3
+"""Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 RESIDUALS = {
     "equilibrium_residual": "of the mean load of a block",
     "yield_violation": "of the mean load of a block",
@@ -129,25 +131,33 @@ def rises_where_it_ends(case: CaseResult) -> bool:
     return any(remark.identifier == "elastic-path-rises" for remark in case.solution.remarks)
 
 
-def off_by_stiffness(case: CaseResult) -> float:
-    """Share by which joints of other stiffnesses come to other answers; nan where that of any is not known."""
-    own = result_of(case)
-    if own is None or not case.solution.path_by_stiffness:
-        return math.nan
-    rows = case.solution.path_by_stiffness
-    return float(np.max([apart(case.load_case, row.load_factor, own.load_factor) for row in rows]))
+def least_factor(model: Model, load_case: LoadCase) -> float:
+    """A share of dead over live load on the free blocks: load factors below are compared as if they were that.
 
-
-def apart(load_case: LoadCase, one: float, other: float, nothing: float = 0.0) -> float:
-    """Difference of two load factors, or of the reactions that they stand for, over the second; nan over nothing.
-
-    nothing : load factor that is next to none; where both are, they are the same
+    Of a reaction, or another force that is sought, a share of its unit, in which its load factor counts.
     """
-    if one == other or max(abs(one), abs(other)) <= nothing:
-        return 0.0
     if load_case.settlement is not None:
-        one, other = load_case.settlement.reaction(one), load_case.settlement.reaction(other)
-    return math.nan if other == 0.0 else abs(one - other) / abs(other)
+        return ZERO
+    dead, live = (float(np.abs(load[model.free, :3]).sum()) for load in (load_case.dead_load, load_case.live_load))
+    return ZERO * dead / live if live > 0.0 else 0.0
+
+
+def apart(model: Model, load_case: LoadCase, one: float, other: float) -> float:
+    """Difference of two load factors, or of the reactions that they stand for, over the second; 0 of equal ones."""
+    if one == other:
+        return 0.0
+    least, settlement = least_factor(model, load_case), load_case.settlement
+    if settlement is not None:
+        one, other, least = settlement.reaction(one), settlement.reaction(other), least * settlement.unit
+    return abs(one - other) / max(abs(other), least)
+
+
+def off_by_stiffness(model: Model, case: CaseResult) -> float:
+    """Share by which joints of other stiffnesses come to other answers; nan where that of any is not known."""
+    own, rows = result_of(case), case.solution.path_by_stiffness
+    if own is None or not rows:
+        return math.nan
+    return float(np.max([apart(model, case.load_case, row.load_factor, own.load_factor) for row in rows]))
 
 
 def ratio_of(own: Mechanics) -> float:

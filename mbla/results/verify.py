@@ -28,12 +28,11 @@ from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces, takes_stress_blocks
-from mbla.results.diff.cases import least_factor
 from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
-from mbla.results.outcome import WITH_VALUE, locked_in, presumes_standing
+from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, PathAgain, Results
 from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck

@@ -213,11 +213,11 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         path_end=sequence.path_end,
         path_gain=sequence.path_gain,
         path_last=sequence.path_last,
-        path_by_stiffness=_by_stiffness(results, sequence.by_stiffness),
+        path_by_stiffness=least_by_stiffness(results, sequence.by_stiffness),
     )
 
 
-def _by_stiffness(results: Sequence[PartResult], rows: Sequence[PathByStiffness]) -> tuple[PathByStiffness, ...]:
+def least_by_stiffness(results: Sequence[PartResult], rows: Sequence[PathByStiffness]) -> tuple[PathByStiffness, ...]:
     """With joints of other stiffnesses the least load factor of all parts, by what is known of the one that decides."""
     known = [row for each in results if each.sequence is not None for row in each.sequence.by_stiffness]
     least = {row.ratio: np.min([own.load_factor for own in known if own.ratio == row.ratio]) for row in rows}

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.diff.matching import Factors, Matching, match_interfaces
-from mbla.results.outcome import law_residual, result_of
+from mbla.results.outcome import ZERO, law_residual, least_factor, result_of
 from mbla.results.record.columns import CASE_COLUMNS
 from mbla.results.record.quantity import unit_text
 from mbla.results.record.scene import Scene
@@ -29,8 +29,6 @@ from mbla.solution.solution import Status
 
 LEAST_TOLERANCE = 1e-6
 """Relative difference of answers that counts as zero: the accuracy to which solved programs agree."""
-ZERO = 1e-3
-"""Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 NOISE = 1e-9
 """Share of the loads below which a difference of reactions is rounding."""
 ANSWERS = ("load_factor", "angle", "reaction_force", "reaction_moment")
@@ -205,17 +203,6 @@ def _value(scene: Scene, name: str) -> float:
     column, place = COLUMNS[name]
     values = column.of(scene)
     return math.nan if values is None else float(values[0][place])
-
-
-def least_factor(model: Model, load_case: LoadCase) -> float:
-    """A share of dead over live load on the free blocks: load factors below are compared as if they were that.
-
-    Of a reaction, or another force that is sought, a share of its unit, in which its load factor counts.
-    """
-    if load_case.settlement is not None:
-        return ZERO
-    dead, live = (float(np.abs(load[model.free, :3]).sum()) for load in (load_case.dead_load, load_case.live_load))
-    return ZERO * dead / live if live > 0.0 else 0.0
 
 
 def _motions(first: Scene, second: Scene, matching: Matching, length: float) -> MotionComparison:

@@ -106,7 +106,7 @@ def stiffness_words(model: Model, case: CaseResult) -> str:
     told = ["not found" if np.isnan(each) else load_factor_words(model, case.load_case, each) for each in factors]
     ratios = " and ".join(f"{row.ratio:g}" for row in rows)
     words = f"with joints of {ratios} of their stiffness in shear: {', '.join(told)}"
-    off = off_by_stiffness(case)
+    off = off_by_stiffness(model, case)
     return words if np.isnan(off) else f"{words}; within ± {100.0 * max(off, LEAST_OFF):.2g} %"
 
 

@@ -6,6 +6,7 @@ reason that the run alone can state is not confirmed, whatever the file says of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -14,12 +15,12 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck
 from mbla.model import Model
-from mbla.results.outcome import WITH_VALUE, off_by_stiffness, ratio_of
+from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
-from mbla.solution.nonassociative.by_stiffness import SAME as SAME_BY_STIFFNESS
+from mbla.solution.nonassociative.by_stiffness import same
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
@@ -94,7 +95,7 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)
     _history(found, deck, case)
-    _path(found, deck, case)
+    _path(found, deck, model, case)
     _least(found, deck, case)
     return found
 
@@ -176,12 +177,12 @@ def _history(found: Found, deck: Deck, case: CaseResult) -> None:
             )
 
 
-def _path(found: Found, deck: Deck, case: CaseResult) -> None:
+def _path(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
     """How the path of elastic joints ended: a load factor is solved where its greatest load was seen."""
     solution, own = case.solution, case.solution.mechanics
     if own is None or own.remembered is None or not _by_path(deck, case):
         return
-    _by_stiffness(found, deck, case, own)
+    _by_stiffness(found, deck, model, case, own)
     seen = solution.path_end in ANSWERS
     if solution.status is Status.SOLVED and not seen:
         found.differences.append(
@@ -197,17 +198,19 @@ def _path(found: Found, deck: Deck, case: CaseResult) -> None:
         )
 
 
-def _by_stiffness(found: Found, deck: Deck, case: CaseResult, own: Mechanics) -> None:
+def _by_stiffness(found: Found, deck: Deck, model: Model, case: CaseResult, own: Mechanics) -> None:
     """Paths of joints of other stiffnesses beside the one shown: two by ``accuracy: reference``, one in doubt."""
     ratio, reference = deck.analysis.path.ratio, deck.analysis.accuracy == "reference"
     whole = {ratio, *ratios_beside(ratio)} if reference else {ratio, second_ratio(ratio)}
     solution, shown = case.solution, ratio_of(own)
     known = [row.ratio for row in solution.path_by_stiffness]
     known.append(min(whole, key=lambda other: abs(other - shown)))
+    nothing = least_factor(model, case.load_case)
+    seen = [row.load_factor for row in solution.path_by_stiffness if not math.isnan(row.load_factor)]
     answers = solution.status in WITH_VALUE and solution.path_end != Stop.LATE
     if reference and answers and len(known) == 1:
         found.differences.append(lacks("paths of joints of other stiffnesses"))
-    elif solution.status is Status.SOLVED and off_by_stiffness(case) > SAME_BY_STIFFNESS:
+    elif solution.status is Status.SOLVED and not all(same(value, own.load_factor, nothing) for value in seen):
         found.differences.append("the load factor is solved, and joints of other stiffnesses come to another one")
     elif sorted(known) not in (sorted(whole), [ratio]):
         found.differences.append("the file has paths of joints of other stiffnesses than the deck leads to")

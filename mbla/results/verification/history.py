@@ -18,14 +18,12 @@ from mbla.contacts.tied import tied
 from mbla.deck import Deck
 from mbla.model import Model
 from mbla.program.build import build_program
-from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.listing.history_words import path_words
 from mbla.results.outcome import apart, by_path, ratio_of, result_of
 from mbla.results.results import CaseResult, PathAgain
-from mbla.results.verification.asked import ANSWERS, Found
+from mbla.results.verification.asked import ANSWERS, SAME_ROW, Found
 from mbla.solution.flow.settings import second_ratio
 from mbla.solution.nonassociative.by_stiffness import SAME
-from mbla.solution.nonassociative.law_state import NEAR_ZERO
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Status
 from mbla.solution.solve import solve
@@ -49,7 +47,7 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
 
     def beside(ratio: float, of: float, in_file: float, allowed: float) -> PathAgain:
         again = _load_factor(deck, model, contacts, case, ratio)
-        off = apart(case.load_case, again, in_file, NEAR_ZERO / ZERO * least_factor(model, case.load_case))
+        off = apart(model, case.load_case, again, in_file)
         return PathAgain(case.load_case.name, ratio, again, of, in_file, off, allowed, off <= allowed)
 
     rows = [row for row in case.solution.path_by_stiffness if not math.isnan(row.load_factor)]
@@ -75,7 +73,7 @@ def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult,
         return math.inf
     if found.mechanics is None or found.path_end not in ANSWERS:
         return math.nan
-    if found.status is Status.SOLVED or math.isclose(ratio_of(found.mechanics), ratio, rel_tol=NEAR_ZERO):
+    if found.status is Status.SOLVED or math.isclose(ratio_of(found.mechanics), ratio, rel_tol=SAME_ROW):
         return found.mechanics.load_factor
     return next((row.load_factor for row in found.path_by_stiffness if row.ratio == ratio), math.nan)  # was higher
 

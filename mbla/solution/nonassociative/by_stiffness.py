@@ -72,8 +72,12 @@ def load_factors(followed: Mapping[float, PathOfPart], shown: float, live: float
 def _agree(found: PathOfPart, other: PathOfPart, nothing: float) -> bool:
     """Whether paths of joints of two stiffnesses come to one load factor, or none to any."""
     one, two = found.load_factor, other.load_factor
-    most = max(abs(one), abs(two))
-    return one == two or (other.is_answer and abs(one - two) <= SAME * max(most, nothing)) or most <= nothing
+    return one == two or (other.is_answer and same(one, two, nothing)) or max(abs(one), abs(two)) <= nothing
+
+
+def same(one: float, two: float, nothing: float) -> bool:
+    """Whether two load factors are one answer, whichever stiffness joints have."""
+    return abs(one - two) <= SAME * max(abs(one), abs(two), nothing)
 
 
 def _or_last(load_factor: float) -> float:

@@ -18,9 +18,9 @@ from mbla.errors import LimitError, SolverError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model, select_cases
 from mbla.process.run_options import RunOptions
-from mbla.results.diff.cases import ZERO, least_factor
 from mbla.results.listing.answers import answer_head, status_name
 from mbla.results.listing.text import number, sentence, small, table
+from mbla.results.outcome import ZERO, least_factor
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, VERMILION, WARNING
