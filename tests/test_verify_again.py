@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mbla.cli import main
 from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
 from mbla.results.listing.history_words import NOT_CHECKED, history_words
@@ -67,14 +68,15 @@ def with_load(results: Results, share: float) -> Results:
 
 
 def test_a_history_that_is_not_that_of_the_loading_is_found_by_a_path_followed_anew_alone(
-    slides: Results, tmp_path: Path
+    slides: Results, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = written(tmp_path, forged(slides, lambda results: with_load(results, 0.5)))
     plain, differences = verify_file(path)
     assert (differences, plain.exit_code, plain.cases[0].status) == ((), 0, Status.SOLVED)
-    found, differences = verify_file(path, anew=True)
-    assert found.exit_code == 4
-    assert any("the path followed anew" in words and "0.25 g" in words for words in differences)
+    assert main(["verify", "--again", str(path)]) == 4
+    says = " ".join(capsys.readouterr().out.split())
+    assert "differs: push: the path followed anew" in says
+    assert "the file has 0.25 g" in says
 
 
 def test_a_sound_history_is_confirmed_and_without_a_path_followed_anew_said_not_to_be_checked(
