@@ -103,7 +103,7 @@ def stiffness_words(model: Model, case: CaseResult) -> str:
     if own is None or not rows:
         return ""
     factors = [row.load_factor for row in rows]
-    told = ["not found" if np.isnan(each) else load_factor_words(model, case.load_case, each) for each in factors]
+    told = ["not seen" if np.isnan(each) else load_factor_words(model, case.load_case, each) for each in factors]
     ratios = " and ".join(f"{row.ratio:g}" for row in rows)
     words = f"with joints of {ratios} of their stiffness in shear: {', '.join(told)}"
     off = off_by_stiffness(model, case)

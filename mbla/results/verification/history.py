@@ -22,6 +22,7 @@ from mbla.results.listing.history_words import path_words
 from mbla.results.outcome import apart, by_path, ratio_of, result_of
 from mbla.results.results import CaseResult, PathAgain
 from mbla.results.verification.asked import ANSWERS, SAME_ROW, Found
+from mbla.solution.flow.path_record import UNENDED, Stop
 from mbla.solution.flow.settings import second_ratio
 from mbla.solution.nonassociative.by_stiffness import SAME
 from mbla.solution.settings import settings_for, solver_settings
@@ -56,9 +57,10 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
     shown = round(ratio_of(own), 6)
     found = beside(second_ratio(shown), shown, own.load_factor, SAME)
     carried = case.status is Status.APPROXIMATE and found.load_factor >= own.load_factor
-    if found.agrees or carried or math.isnan(found.load_factor):
-        return (replace(found, agrees=found.agrees or carried),)
-    return found, beside(shown, shown, own.load_factor, BY_STEPS)
+    if found.agrees or carried:
+        return (replace(found, agrees=True),)
+    same = beside(shown, shown, own.load_factor, BY_STEPS)
+    return (same,) if math.isnan(found.load_factor) else (found, same)
 
 
 def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, ratio: float) -> float:
@@ -71,7 +73,8 @@ def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult,
     found = solve(program, settings)
     if found.status is Status.UNBOUNDED:
         return math.inf
-    if found.mechanics is None or found.path_end not in ANSWERS:
+    unended = found.status is not Status.SOLVED and found.path_end == Stop.FAR and found.path_gain > UNENDED
+    if found.mechanics is None or found.path_end not in ANSWERS or unended:
         return math.nan
     if found.status is Status.SOLVED or math.isclose(ratio_of(found.mechanics), ratio, rel_tol=SAME_ROW):
         return found.mechanics.load_factor

@@ -22,7 +22,7 @@ from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, followed, measured_by_itself
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
-from mbla.solution.flow.path_record import ElasticPath, Stop
+from mbla.solution.flow.path_record import RISES, ElasticPath, Stop
 from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, mean_live_load, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
@@ -82,6 +82,14 @@ class PathOfPart:
     def gain(self) -> float:
         """Share of λ_p that was gained over the last half of the path."""
         return 0.0 if self.path is None else self.path.gain
+
+    def gains(self, share: float, above: float) -> bool:
+        """Whether more than a share was gained over the last half of a path that ends before the load does.
+
+        above : load factor that it cannot exceed; from there it rises no more
+        """
+        below = self.load_factor < (1.0 - RISES) * above
+        return self.stop is Stop.FAR and self.gain > share and below
 
     def _from_rest(self, of_path: float | None) -> float:
         return math.nan if of_path is None or self.rest is None else self.rest.begins + of_path

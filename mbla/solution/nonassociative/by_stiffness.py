@@ -13,6 +13,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow.followed import LOW
 from mbla.solution.flow.path_of_part import PathOfPart
+from mbla.solution.flow.path_record import UNENDED
 from mbla.solution.flow.settings import ratios_beside, second_ratio
 from mbla.solution.solution import PathByStiffness
 
@@ -46,27 +47,38 @@ def may_hang_on_stiffness(found: PathOfPart, associative: AssociativeResult) -> 
 
 
 def another_answer(
-    followed: Mapping[float, PathOfPart], shown: float, nothing: float, *, doubtful: bool
+    followed: Mapping[float, PathOfPart], shown: float, nothing: float, above: float, *, doubtful: bool
 ) -> float | None:
     """The ratio of the path that does not come to the load factor of the one shown, the least; None where all do.
 
     nothing  : load factor that is next to none
+    above    : what no load factor exceeds
     doubtful : where stiffness may decide, so that a path without an answer is another one
     """
     own = followed[shown]
     apart = [
-        ratio for ratio, other in followed.items() if (other.is_answer or doubtful) and not _agree(own, other, nothing)
+        ratio
+        for ratio, other in followed.items()
+        if (doubtful or not math.isnan(_answer(other, above))) and not _agree(own, other, nothing)
     ]
     return min(apart, key=lambda ratio: _or_last(followed[ratio].load_factor), default=None)
 
 
-def load_factors(followed: Mapping[float, PathOfPart], shown: float, live: float) -> tuple[PathByStiffness, ...]:
+def load_factors(
+    followed: Mapping[float, PathOfPart], shown: float, live: float, above: float
+) -> tuple[PathByStiffness, ...]:
     """Of the model, on all paths but the one whose state is shown.
 
-    live : load factor of the model for one of the program
+    live  : load factor of the model for one of the program
+    above : what no load factor exceeds
     """
-    rows = {ratio: path.load_factor if path.is_answer else math.nan for ratio, path in followed.items()}
-    return tuple(PathByStiffness(ratio, rows[ratio] * live) for ratio in sorted(rows) if ratio != shown)
+    others = sorted(ratio for ratio in followed if ratio != shown)
+    return tuple(PathByStiffness(ratio, _answer(followed[ratio], above) * live) for ratio in others)
+
+
+def _answer(path: PathOfPart, above: float) -> float:
+    """The load factor of a path; nan where its greatest was not seen."""
+    return path.load_factor if path.is_answer and not path.gains(UNENDED, above) else math.nan
 
 
 def _agree(found: PathOfPart, other: PathOfPart, nothing: float) -> bool:

@@ -67,10 +67,11 @@ def solve_by_elastic_path(
     status, reason = _claim(found, state, live)
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE
+    above = np.inf if associative.state is None else associative.state.load_factor
     if found.stop is not Stop.LATE and status in (*WITH_VALUE, Status.UNBOUNDED):
         followed |= paths_beside(found, associative, settings.analysis, along)
         doubtful = may_hang_on_stiffness(found, associative)
-        other = another_answer(followed, shown, NEAR_ZERO * program.dead_over_live, doubtful=doubtful)
+        other = another_answer(followed, shown, NEAR_ZERO * program.dead_over_live, above, doubtful=doubtful)
         if other is not None:
             one, two = (f"{followed[ratio].load_factor * live:.6g}" for ratio in (shown, other))
             reason = HANGS.format(one, f"{shown:g}", two, f"{other:g}")
@@ -83,21 +84,19 @@ def solve_by_elastic_path(
     seconds = time.perf_counter() - started
     spent = sum(path.factorizations for path in followed.values())
     record = ProgramRecord(number, "elastic path", status, value, np.nan, spent, seconds)
-    above = np.inf if associative.state is None else associative.state.load_factor
-    rises = found.stop is Stop.FAR and found.gain > RISES and found.load_factor < (1.0 - RISES) * above
-    if status is Status.SOLVED and rises and found.gain > UNENDED:
+    if status is Status.SOLVED and found.gains(UNENDED, above):
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
     return SequenceResult(
         status,
         state,
         reason,
         (*associative.programs, record),
-        remarks=(RISING.format(100.0 * found.gain),) if rises else (),
+        remarks=(RISING.format(100.0 * found.gain),) if found.gains(RISES, above) else (),
         path=_curve(program, found),
         path_end=found.stop.value,
         path_gain=found.gain,
         path_last=found.moving * live,
-        by_stiffness=load_factors(followed, shown, live),
+        by_stiffness=load_factors(followed, shown, live, above),
     )
 
 

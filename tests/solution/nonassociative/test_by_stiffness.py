@@ -18,10 +18,12 @@ from mbla.solution.solve import least_by_stiffness
 NAN = float("nan")
 
 
-def path(load_factor: float, *, is_answer: bool = True) -> PathOfPart:
-    return cast(PathOfPart, SimpleNamespace(load_factor=load_factor, is_answer=is_answer))
+def path(load_factor: float, *, is_answer: bool = True, gain: float = 0.0) -> PathOfPart:
+    one = SimpleNamespace(load_factor=load_factor, is_answer=is_answer, gains=lambda share, above: gain > share)
+    return cast(PathOfPart, one)
 
 
+RISES = path(0.8, gain=0.2)
 LOST = path(0.2, is_answer=False)
 
 
@@ -33,6 +35,7 @@ LOST = path(0.2, is_answer=False)
         ({0.2: path(0.9), 1.0: path(0.8)}, False, 1.0),
         ({0.2: path(1.2), 1.0: path(1.0)}, False, 0.2),
         ({0.2: LOST, 1.0: path(1.0)}, False, None),
+        ({0.2: RISES, 1.0: path(1.0)}, False, None),
         ({1.0: LOST}, True, 1.0),
         ({0.2: path(NAN, is_answer=False), 1.0: path(0.9)}, True, 1.0),
     ],
@@ -40,13 +43,13 @@ LOST = path(0.2, is_answer=False)
 def test_the_least_that_is_more_than_a_twentieth_off_is_another_answer(
     others: dict[float, PathOfPart], doubtful: bool, another: float | None
 ) -> None:
-    assert another_answer({0.4: path(1.0), **others}, 0.4, 1e-9, doubtful=doubtful) == another
+    assert another_answer({0.4: path(1.0), **others}, 0.4, 1e-9, np.inf, doubtful=doubtful) == another
 
 
-def test_a_path_that_was_lost_has_no_load_factor_and_the_one_shown_is_not_among_them() -> None:
-    rows = load_factors({0.4: path(1.0), 1.0: path(0.9), 0.2: LOST}, 0.4, live=2.0)
-    assert [row.ratio for row in rows] == [0.2, 1.0]
-    np.testing.assert_equal([row.load_factor for row in rows], [NAN, 1.8])
+def test_a_path_that_was_lost_or_still_rises_has_no_load_factor_and_the_one_shown_is_not_among_them() -> None:
+    rows = load_factors({0.4: path(1.0), 1.0: path(0.9), 0.2: LOST, 0.3: RISES}, 0.4, 2.0, np.inf)
+    assert [row.ratio for row in rows] == [0.2, 0.3, 1.0]
+    np.testing.assert_equal([row.load_factor for row in rows], [NAN, NAN, 1.8])
 
 
 def test_of_parts_that_are_not_connected_the_least_counts_with_joints_of_every_stiffness() -> None:
