@@ -2,8 +2,9 @@
 
 They begin at the stress-free assembly and have other steps. Where the file has load factors for joints of other
 stiffnesses in shear, paths of such joints must come to them again; plain verification holds them against the state.
-Where it has none, a path of another stiffness must come near its state; where it does not, one of the same stiffness
-says whether that is for the history or for the stiffness. What is approximate is to be carried, no more.
+Where it has none, a path of another stiffness must come near its state. Where that does not, or does not show its
+greatest load, one of the same stiffness tells a history that is another from a stiffness that decides. What is
+approximate is to be carried, no more.
 """
 
 from __future__ import annotations
