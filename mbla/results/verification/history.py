@@ -48,8 +48,10 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
         return ()
 
     def beside(ratio: float, of: float, in_file: float, allowed: float) -> PathAgain:
-        again = _load_factor(deck, model, contacts, case, ratio)
+        again, seen = _load_factor(deck, model, contacts, case, ratio)
         off = apart(model, case.load_case, again, in_file)
+        carried = case.status is Status.APPROXIMATE and off <= allowed
+        again, off = (again, off) if seen or carried else (math.nan, math.nan)
         return PathAgain(case.load_case.name, ratio, again, of, in_file, off, allowed, off <= allowed)
 
     rows = [row for row in case.solution.path_by_stiffness if not math.isnan(row.load_factor)]
@@ -64,8 +66,8 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
     return (same,) if math.isnan(found.load_factor) else (found, same)
 
 
-def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, ratio: float) -> float:
-    """The greatest on the path of joints with a ratio of stiffness; nan where it does not show."""
+def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, ratio: float) -> tuple[float, bool]:
+    """What the path of joints with a ratio of stiffness reaches, nan for nothing, and whether that is all."""
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     path = settings.analysis.path.model_copy(update={"ratio": ratio})
     analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard", "force_ranges": False})
@@ -73,13 +75,14 @@ def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult,
     program = build_program(tied(solids_of(model, contacts, case.load_case)), case.load_case, analysis)
     found = solve(program, settings)
     if found.status is Status.UNBOUNDED:
-        return math.inf
+        return math.inf, True
+    if found.mechanics is None:
+        return math.nan, False
+    if found.status is not Status.SOLVED and not math.isclose(ratio_of(found.mechanics), ratio, rel_tol=SAME_ROW):
+        own = next((row.load_factor for row in found.path_by_stiffness if row.ratio == ratio), math.nan)
+        return own, not math.isnan(own)  # the state is that of joints of another stiffness
     unended = found.status is not Status.SOLVED and found.path_end == Stop.FAR and found.path_gain > UNENDED
-    if found.mechanics is None or found.path_end not in ANSWERS or unended:
-        return math.nan
-    if found.status is Status.SOLVED or math.isclose(ratio_of(found.mechanics), ratio, rel_tol=SAME_ROW):
-        return found.mechanics.load_factor
-    return next((row.load_factor for row in found.path_by_stiffness if row.ratio == ratio), math.nan)  # was higher
+    return found.mechanics.load_factor, found.path_end in ANSWERS and not unended
 
 
 def held_against_paths(found: Found, model: Model, case: CaseResult, paths: Sequence[PathAgain]) -> None:
