@@ -6,6 +6,7 @@ Forces, motion and history of the state are proved by statics and the law of ela
 
 from __future__ import annotations
 
+import itertools
 import time
 from dataclasses import replace
 
@@ -41,21 +42,20 @@ def solve_by_elastic_path(
 
     slope : (n_points,) tangent of the angle by which joints lift as they slide
     """
-    started, number, live = time.perf_counter(), len(associative.programs) + 1, program.scaling.live
-    count = 0
-
-    def watch(step: PathStep) -> None:
-        nonlocal count
-        count += 1
-        seconds, factor = time.perf_counter() - started, step.load_factor * live
-        log(IterationRecord(number, count, factor, np.nan, np.nan, np.nan, step.reach, seconds))
-
+    live, records = program.scaling.live, list(associative.programs)
     asked, dilates = settings.analysis.path, slope if np.any(slope) else None
-    wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, watch=watch)
-    wanted = wanted.by_steps(settings.steps)
+    wanted = PathSettings(until=asked.until, deadline=settings.deadline).by_steps(settings.steps)
 
     def along(ratio: float) -> PathOfPart:
-        return path_of_part(program, associative, replace(wanted, ratio=ratio), dilates)
+        started, number, count = time.perf_counter(), len(records) + 1, itertools.count(1)
+
+        def watch(step: PathStep) -> None:
+            seconds, factor = time.perf_counter() - started, step.load_factor * live
+            log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
+
+        path = path_of_part(program, associative, replace(wanted, ratio=ratio, watch=watch), dilates)
+        records.append(_record(number, path, live, time.perf_counter() - started))
+        return path
 
     def state_on(path: PathOfPart) -> LawState | None:
         if path.stop is Stop.AT_ONCE:
@@ -81,16 +81,13 @@ def solve_by_elastic_path(
             status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
     found = followed[shown]
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
-    seconds = time.perf_counter() - started
-    spent = sum(path.factorizations for path in followed.values())
-    record = ProgramRecord(number, "elastic path", status, value, np.nan, spent, seconds)
     if status is Status.SOLVED and found.gains(UNENDED, above):
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
     return SequenceResult(
         status,
         state,
         reason,
-        (*associative.programs, record),
+        tuple(records),
         remarks=(RISING.format(100.0 * found.gain),) if found.gains(RISES, above) else (),
         path=_curve(program, found),
         path_end=found.stop.value,
@@ -98,6 +95,16 @@ def solve_by_elastic_path(
         path_last=found.moving * live,
         by_stiffness=load_factors(followed, shown, live, above),
     )
+
+
+def _record(number: int, path: PathOfPart, live: float, seconds: float) -> ProgramRecord:
+    status = Status.SOLVED if path.is_answer else Status.APPROXIMATE
+    status = status if np.isfinite(path.load_factor) else WITHOUT_FIGURE.get(path.stop, Status.NOT_VERIFIED)
+    factor = path.load_factor * live if status in WITH_VALUE else np.nan
+    return ProgramRecord(number, "elastic path", status, factor, np.nan, path.factorizations, seconds)
+
+
+WITHOUT_FIGURE = {Stop.UNBOUNDED: Status.UNBOUNDED, Stop.LATE: Status.TIME_LIMIT}
 
 
 def _carries_the_live_load(program: Program) -> bool:
