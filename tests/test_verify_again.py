@@ -21,6 +21,7 @@ from mbla.results.verify import rebuilt, recomputed, verify_file
 from mbla.run import run
 from mbla.solution.flow.settings import ratios_beside, second_ratio
 from mbla.solution.solution import PathByStiffness, Status
+from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import written
 
@@ -151,3 +152,21 @@ def test_a_load_factor_of_other_joints_is_found_again_or_differs(reference: Resu
 )
 def test_other_stiffnesses_are_none_of_the_deck(ratio: float, beside: tuple[float, ...], second: float) -> None:
     assert (ratios_beside(ratio), second_ratio(ratio)) == (beside, second)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "name",
+    [
+        "beam_on_three_supports",  # a reaction that is nothing
+        "leaning_block_rough_wall",  # joints of another stiffness do not show their greatest load
+        "plank_in_clamp",  # and move the load factor by 2 %
+        "groove_dilatancy",
+        "two_piers",
+    ],
+)
+def test_files_of_runs_are_agreed_with(name: str, tmp_path: Path) -> None:
+    run(BENCHMARKS[name], RunOptions(folder=tmp_path))
+    found, differences = verify_file(tmp_path / f"{name}.h5", anew=True)
+    assert (differences, found.unconfirmed) == ((), ())
+    assert found.paths_again
