@@ -20,6 +20,8 @@ Row = dict[str, str]
 
 CASES = {
     "line": ("structure", "flow_rule"),
+    "forms": ("structure", "case"),
+    "kernels": ("structure", "case"),
     "rivals": ("structure", "rival"),
     "pushover": ("structure", "steps"),
     "sweep": ("sweep", "way", "points"),
