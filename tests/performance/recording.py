@@ -22,6 +22,7 @@ CASES = {
     "line": ("structure", "flow_rule"),
     "forms": ("structure", "case"),
     "kernels": ("structure", "case"),
+    "rigid_in_time": ("structure", "case", "ratio"),
     "rivals": ("structure", "rival"),
     "pushover": ("structure", "steps"),
     "sweep": ("sweep", "way", "points"),
