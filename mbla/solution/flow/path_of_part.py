@@ -55,6 +55,11 @@ class PathOfPart:
     factorizations: int = 0
 
     @property
+    def lets_rest(self) -> bool:
+        """Whether only what moves was followed."""
+        return self.rest is not None and self.rest.points is not None
+
+    @property
     def is_answer(self) -> bool:
         """Whether it starts to move at the load factor, which is not only how far the path came."""
         return self.stop.answers and not math.isnan(self.load_factor)
@@ -102,17 +107,22 @@ def path_of_part(
     dilatancy: FloatArray | None = None,
     interfaces: Interfaces = NONE,
     gaps: FloatArray | None = None,
+    *,
+    whole: bool = False,
 ) -> PathOfPart:
     """The path of a part, or of what moves in it by associative flow.
 
     dilatancy  : (n_points,) tangents of its angles; none unless given
     interfaces : of the model that have a law of their own
     gaps       : (n_points,) displacement by which each joint closes before it touches; none unless given
+    whole      : also where less moves
     """
     if program.n_points == 0:  # held by guides alone, or by nothing
         return PathOfPart(Stop.DOES_NOT_STAND if np.any(program.dead_load) else Stop.UNDECIDED)
     state = associative.state
-    part = None if state is None else moving_part(program, state.velocities, rings=3, few=1500, worthwhile=0.8)
+    part = None
+    if state is not None and not whole:
+        part = moving_part(program, state.velocities, rings=3, few=1500, worthwhile=0.8)
     known, before = None if state is None else state.load_factor, associative.stress_free
     same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None

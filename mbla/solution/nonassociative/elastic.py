@@ -46,14 +46,15 @@ def solve_by_elastic_path(
     asked, dilates = settings.analysis.path, slope if np.any(slope) else None
     wanted = PathSettings(until=asked.until, deadline=settings.deadline).by_steps(settings.steps)
 
-    def along(ratio: float) -> PathOfPart:
+    def along(ratio: float, *, whole: bool = False) -> PathOfPart:
         started, number, count = time.perf_counter(), len(records) + 1, itertools.count(1)
 
         def watch(step: PathStep) -> None:
             seconds, factor = time.perf_counter() - started, step.load_factor * live
             log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
 
-        path = path_of_part(program, associative, replace(wanted, ratio=ratio, watch=watch), dilates)
+        by = replace(wanted, ratio=ratio, watch=watch)
+        path = path_of_part(program, associative, by, dilates, whole=whole)
         records.append(_record(number, path, live, time.perf_counter() - started))
         return path
 
@@ -63,7 +64,11 @@ def solve_by_elastic_path(
         return state_of_path(program, path, settings, log)
 
     shown, found = asked.ratio, along(asked.ratio)
-    state, followed = state_on(found), {shown: found}
+    state = state_on(found)
+    if state is None and found.lets_rest:  # what rests does not carry what is passed on to it
+        found = along(asked.ratio, whole=True)
+        state = state_on(found)
+    followed = {shown: found}
     status, reason = _claim(found, state, live)
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE

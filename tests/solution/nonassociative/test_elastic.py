@@ -18,6 +18,7 @@ from mbla.solution.nonassociative.elastic import _claim
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Checks, Solution, Status
 from tests.line import BLOCK, HEAD, WALL, line_of, line_of_file, solution_of, verified
+from tests.performance.standard_set import DECKS
 from tests.reached import BELOW, reaches
 from tests.solution.nonassociative.structures import (
     FERRIS_3,
@@ -311,6 +312,16 @@ def test_beyond_the_time_limit_the_path_does_not_go_on() -> None:
     assert found.status is Status.APPROXIMATE
     assert factor < 0.3558
     assert found.reason.endswith("could not be followed further (time limit)")
+
+
+@pytest.mark.long
+def test_where_what_rests_cannot_carry_what_is_passed_on_to_it_the_whole_is_followed() -> None:
+    """A parapet is pushed off a bridge whose arch stands by little: a stone of it falls at t/h."""
+    line = line_of_file(DECKS / "tutorials" / "bridge_with_parapets.yaml", NON_ASSOCIATIVE)
+    solution, _, status = verified(line)
+    assert status is Status.SOLVED, (status, solution.reason)
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(0.25 / 0.9, rel=CLOSE)
 
 
 def path_that(stop: Stop, residual: float) -> tuple[Status, str]:
