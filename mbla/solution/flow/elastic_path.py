@@ -38,6 +38,10 @@ SETTLED = 8.0
 """Displacement within which no path is flat: on 27 structures 0.1 to 16 made no difference to what is flat, but with 1
 two of the piers that crush ended at half of their load."""
 
+BACK, CLOSE_BY = 1.001, 0.998
+"""Load factor over the least since it last rose, and over the peak, from which a path is on its way back after a dip and
+not flat: the load of a cross vault dips at 0.3738 and then rises to 0.3771."""
+
 ENDS = 0.01
 """Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
 openings than its products allow, and was blocked."""
@@ -91,6 +95,7 @@ class _Path:
     later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
     half     : the same over half of the path
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
+    least    : least load factor of the steps that count since then
     low      : steps in a row that do not rise below the peak
     fallen   : load factor from which it falls: the greatest since a tie broke last
     blocked  : steps in a row that were blocked, since the last re-centring and in all
@@ -115,6 +120,7 @@ class _Path:
     later: PeakStep | None = None
     half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
+    least: float = 0.0
     low: Fall = NOT_LOW
     fallen: float = 0.0
     broken: list[tuple[float, int]] = field(default_factory=list)
@@ -252,7 +258,8 @@ class _Path:
             self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
         self.in_balance, self.fallen = len(self.steps) + 1, max(self.fallen, state.factor)
         if state.factor > 1.001 * self.risen[0]:
-            self.risen = (state.factor, self.displacement)
+            self.risen, self.least = (state.factor, self.displacement), state.factor
+        self.least = min(self.least, state.factor)
         return True
 
     def _keep_near(self, gone: PeakStep) -> None:
@@ -274,7 +281,8 @@ class _Path:
             self.low = self.low.after(below, self.displacement, self.state.factor)
         if self.low.is_over(self.displacement):
             return Stop.FALLS
-        if counted and self.displacement > max(SETTLED, 2.2 * self.risen[1]):
+        level = self.state.factor <= max(BACK * self.least, CLOSE_BY * self.risen[0])
+        if counted and level and self.displacement > max(SETTLED, 2.2 * self.risen[1]):
             return Stop.FLAT
         if self.displacement >= settings.until * (1.0 - ENDS):
             return Stop.FAR

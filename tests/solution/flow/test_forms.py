@@ -12,6 +12,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import unreduced
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.path_of_part import path_by
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.nonassociative.moving_part import moving_part
 from tests.decks.folder import PATHS
 from tests.line import WALL, line_of
@@ -99,3 +100,16 @@ def test_walls_of_which_a_part_moves(length: int, courses: int) -> None:
     assert alone.is_answer
     assert whole.is_answer
     assert alone.load_factor == pytest.approx(whole.load_factor, rel=3e-3)
+
+
+@pytest.mark.long
+def test_a_load_that_rises_again_after_a_dip_is_not_flat() -> None:
+    """A cross vault dips at 0.3738 and then rises to 0.377: a blocked step more or less after the dip moves 0.1 %."""
+    case = case_of(DECK["cross_vault"], "along_x")
+    associative = case.associative().state
+    assert associative is not None
+    programs = (case.loaded, *(turned(case.loaded, seed) for seed in (1, 2)))
+    found = [path_by(program, associative.load_factor, DEFAULT) for program in programs]
+    factors = [case.loaded.scaling.load_factor(each.load_factor) for each in found]
+    assert [each.stop for each in found] == 3 * [Stop.FAR]
+    assert factors == pytest.approx(3 * [0.3773], rel=2e-3)
