@@ -39,8 +39,8 @@ SETTLED = 8.0
 two of the piers that crush ended at half of their load."""
 
 BACK, CLOSE_BY = 1.001, 0.998
-"""Load factor over the least since it last rose, and over the peak, from which a path is on its way back after a dip and
-not flat: the load of a cross vault dips at 0.3738 and then rises to 0.3771."""
+"""Load factor over the least since it last rose, and over the peak, from which a path is on its way back after a dip
+and not flat: the load of a cross vault dips at 0.3738 and then rises to 0.3771."""
 
 ENDS = 0.01
 """Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
