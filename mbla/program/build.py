@@ -28,12 +28,14 @@ from mbla.program.resultants.assemble import ConvexProgram, assemble_convex, siz
 class CaseProgram:
     """The program of one load case.
 
-    solids  : for blocks, and the way back to these
-    reduced : of the contact points: its parts, and what each reduction left out
-    convex  : with conditions on interfaces, solved together; None where there are none
+    solids    : for blocks, and the way back to these
+    load_case : on these
+    reduced   : of the contact points: its parts, and what each reduction left out
+    convex    : with conditions on interfaces, solved together by associative flow; None where there are none
     """
 
     solids: Solids
+    load_case: LoadCase
     reduced: Reduced
     convex: ConvexProgram | None = None
 
@@ -45,13 +47,16 @@ def build_program(solids: Solids, load_case: LoadCase, analysis: AnalysisSection
     solids : of the model as it may move under the load case
     """
     model, contacts, case = solids.model, solids.contacts, solids.load_case(load_case)
+    convex, associative = None, analysis.flow_rule == "associative"
     if has_conditions_on_interfaces(analysis, model, contacts):
         convex = assemble_convex(model, contacts, case, analysis.contact_model)
+    if convex is not None and associative:
         as_it_is = unreduced(convex.points, contacts)
-        return CaseProgram(solids, replace(as_it_is, steps=(glued_step(solids, size_of_convex(convex)),)), convex)
-    program, associative = assemble(model, contacts, case), analysis.flow_rule == "associative"
+        return CaseProgram(solids, case, replace(as_it_is, steps=(glued_step(solids, size_of_convex(convex)),)), convex)
+    program = assemble(model, contacts, case)
     reduced = reduce_program(model, contacts, program, allowed_reductions(analysis), associative=associative)
-    return CaseProgram(solids, replace(reduced, steps=(glued_step(solids, reduced.steps[0].before), *reduced.steps)))
+    steps = (glued_step(solids, reduced.steps[0].before), *reduced.steps)
+    return CaseProgram(solids, case, replace(reduced, steps=steps), convex)
 
 
 def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:

@@ -117,11 +117,13 @@ def _reason_of(case: CaseResult) -> str:
 
 
 def _of_figures(case: CaseResult) -> list[Notice]:
-    """What the figures show: a least state and a factor of safety that are claimed but not verified."""
+    """What the figures show: states and a factor of safety that are claimed but not verified."""
     name, solution, checks = case.load_case.name, case.solution, case.checks
     texts = []
     if solution.least is not None and checks.least_load_factor != checks.least_load_factor:
         texts.append(("least-not-verified", "a state of a lower load factor was found but is not verified"))
+    if solution.torsion is not None and checks.torsion_load_factor != checks.torsion_load_factor:
+        texts.append(("torsion-not-verified", "the state with torsion of uniform pressure is not verified"))
     if solution.geometric_safety is not None and not solution.geometric_safety.verified:
         texts.append(("geometric-safety-not-verified", "the geometric factor of safety was found but is not verified"))
     return [Notice("warning", identifier, f"{name}: {text}", name) for identifier, text in texts]

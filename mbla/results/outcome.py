@@ -109,6 +109,11 @@ def least_of(case: CaseResult) -> float:
     return math.nan if own is None or math.isnan(least) else min(own.load_factor, least)
 
 
+def torsion_of(case: CaseResult) -> float:
+    """Load factor on the path with torsion of uniform pressure; nan where none was followed, or it is not verified."""
+    return math.nan if result_of(case) is None else case.checks.torsion_load_factor
+
+
 def least_known(case: CaseResult) -> float:
     """The smaller of the load factor and of the least that a search found: to design with; nan without a result."""
     own = result_of(case)

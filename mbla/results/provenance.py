@@ -68,7 +68,7 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "solver": analysis.solver,
         **{name: f"{getattr(settings, name):g}" for name in ("tolerance", "gap", "residual")},
         "search": f"{settings.search:g}",
-        **{name: str(getattr(knobs, name)).lower() for name in ("standing",)},
+        **{name: str(getattr(knobs, name)).lower() for name in ("torsion", "standing")},
         "max_iterations": str(settings.max_iterations),
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",

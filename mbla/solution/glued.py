@@ -24,7 +24,7 @@ from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingRes
 from mbla.solution.thresholds import STILL
 from mbla.solution.verification.statics import contact_velocities
 
-MOTIONS = ("mechanics", "associative", "least", "level")
+MOTIONS = ("mechanics", "associative", "least", "torsion", "level")
 """parts of a solution that hold a mechanism"""
 
 
@@ -35,6 +35,11 @@ BY_NORMALITY = ("associative", "level")
 def rule_of(part: str, solution: Solution) -> str:
     """Flow rule of a part of a solution."""
     return "associative" if part in BY_NORMALITY else solution.flow_rule
+
+
+def model_of(part: str, solution: Solution) -> str:
+    """Contact model of a part of a solution."""
+    return "convex" if part == "torsion" else solution.contact_model
 
 
 def solution_on_blocks(solution: Solution, solids: Solids) -> Solution:
@@ -113,6 +118,8 @@ def _history_apart(mechanics: Mechanics, points: BoolArray, rows: IntArray, coun
     remembered, stiffness = np.full(count, np.nan), np.full(count, np.nan)
     remembered[rows], stiffness[rows] = mechanics.remembered[~points, 0], mechanics.stiffness[~points, 0]
     own = {"remembered": mechanics.remembered[points], "stiffness": mechanics.stiffness[points]}
+    if mechanics.crushed is not None:
+        own["crushed"] = mechanics.crushed[: len(mechanics.crushed) - len(rows)]
     return own | {"tie_remembered": remembered, "tie_stiffness": stiffness}
 
 
@@ -165,7 +172,8 @@ def _history_among(mechanics: Mechanics, rows: IntArray) -> dict[str, Any]:
         return {}
     remembered, stiffness = np.zeros((len(rows), 3)), np.zeros((len(rows), 2))
     remembered[:, 0], stiffness[:] = mechanics.tie_remembered[rows], mechanics.tie_stiffness[rows, None]
-    return {
+    crushed = {} if mechanics.crushed is None else {"crushed": _padded(mechanics.crushed, len(rows))}
+    return crushed | {
         "remembered": np.vstack([mechanics.remembered, remembered]),
         "stiffness": np.vstack([mechanics.stiffness, stiffness]),
     }
@@ -244,7 +252,8 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
                 moved = mechanics.contact_velocities
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
-            mechanics = _with_modes(solids, load_case, mechanics, rule, solution.contact_model)
+            contact_model = model_of(part, solution)
+            mechanics = _with_modes(solids, load_case, mechanics, rule, contact_model)
             found[id(getattr(solution, part))] = _without_rounding(mechanics, solids, model.blocks.sizes)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
@@ -285,7 +294,7 @@ def _with_modes(
     if mechanics.interface_motions is None:
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
     from mbla.program.resultants import assemble_convex
-    from mbla.solution.resultants.solve_convex import modes_of  # late: the law of interfaces is asked for rarely
+    from mbla.solution.resultants.of_interfaces import modes_of  # late: the law of interfaces is asked for rarely
 
     convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case), contact_model)
     of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))

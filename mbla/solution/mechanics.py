@@ -82,6 +82,7 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
         contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
         modes=contact_modes(contact_forces, velocities_of_points, limits, limits.dilatancy_by(flow_rule)),
+        interface_motions=None if state.motions is None else state.motions * (scaling.live / scaling.force),
         **history,
     )
 
@@ -94,7 +95,8 @@ def _history(program: Program, history: StepHistory) -> dict[str, FloatArray]:
     """
     scaling = program.scaling
     unit = scaling.force * np.broadcast_to(scaling.units, len(history.normal))
-    return {
+    own = {} if history.motions is None else {"crushed": history.motions * (scaling.live / scaling.force)}
+    return own | {
         "remembered": scaling.forces(history.remembered),
         "stiffness": np.stack([history.normal, history.shear], axis=1) * (unit**2 / scaling.live)[:, None],
     }
@@ -129,9 +131,9 @@ def lifted(program: Program, state: LawState) -> LawState:
 
     if history is not None:
         normal, shear = _lifted_stiffness(program, history.normal), _lifted_stiffness(program, history.shear)
-        history = StepHistory(of(history.remembered), normal, shear)
+        history = StepHistory(of(history.remembered), normal, shear, history.motions)
     velocities = program.reduction.velocities @ state.velocities
-    return LawState(of(state.forces), velocities, state.load_factor, state.residual, history=history)
+    return LawState(of(state.forces), velocities, state.load_factor, state.residual, state.motions, history)
 
 
 def _lifted_stiffness(program: Program, stiffness: FloatArray) -> FloatArray:

@@ -15,12 +15,14 @@ from mbla.program.program import Program
 from mbla.solution.associative.certificate import steepest_fall
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.alternation import no_mechanism
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.least_found import least_found, looks_lower
 from mbla.solution.nonassociative.locking import locks_at_dilatancy
 from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.nonassociative.schemes import slope_of, solve_nonassociative
+from mbla.solution.nonassociative.torsion import solve_with_torsion
 from mbla.solution.part_result import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
@@ -38,24 +40,32 @@ SEARCH_BROKE_DOWN = Message(
 )
 
 
-def solve_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def solve_part(
+    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE, beside: Interfaces = NONE
+) -> PartResult:
     """The part by the flow rule of the analysis, with everything that is requested in addition to its load factor.
+
+    interfaces : of the model that have a law of their own in the path of elastic joints
+    beside     : those in a second path, with torsion
 
     Raises
     ------
     numpy.linalg.LinAlgError where a system of equations on the way to the load factor is singular
     """
-    result = _by_flow_rule(program, settings, log)
+    result = _by_flow_rule(program, settings, log, interfaces)
     if result.associative.certificate is not None:  # of what does not stand, only that moves
         fall = steepest_fall(program, settings, log)
         if fall is not None:
             result = replace(result, associative=replace(result.associative, certificate=fall))
-    if looks_lower(program, settings):
+    if looks_lower(program, settings, interfaces):
         result = _with_least(result, settings, log)
+    if result.sequence is not None and result.state is not None and result.status in WITH_VALUE:
+        torsion = solve_with_torsion(program, result.associative, settings, log, beside)
+        result = replace(result, torsion=torsion)
     return _with_standing(result) if settings.standing else result
 
 
-def _by_flow_rule(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
     if not np.any(program.live_load):
         return _unloaded_part(program, settings, log)
     associative = solve_associative(program, settings, log, stress_free=settings.standing)
@@ -66,9 +76,10 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log) -> PartR
     if program.n_points == 0:  # blocks held by guides alone: no joint that could flow by another rule
         return result
     if associative.state is None:
-        return _locked_by_dilatancy(result, settings, log)
+        return _locked_by_dilatancy(result, settings, log, interfaces)
     remarks = (APART.format(associative.gap_words),) if associative.gap_words else ()
-    return replace(result, sequence=solve_nonassociative(program, associative, settings, log), remarks=remarks)
+    sequence = solve_nonassociative(program, associative, settings, log, interfaces)
+    return replace(result, sequence=sequence, remarks=remarks)
 
 
 def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
@@ -82,7 +93,7 @@ def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> Part
     return PartResult(program, result, None, loaded=False)
 
 
-def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
+def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
     """Associative flow locks: with less dilatancy joints may still give way, which is decided first."""
     program, associative, flow_rule = result.program, result.associative, settings.analysis.flow_rule
     if flow_rule == "livesley":
@@ -91,7 +102,7 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log)
         return replace(result, associative=replace(associative, reason=NO_MECHANISM_AT_DILATANCY))
     if flow_rule == "non_associative" and no_mechanism(program, settings, log):
         return replace(result, associative=replace(associative, reason=LOCKED_BY_CONTACT))
-    sequence = solve_nonassociative(program, associative, settings, log)
+    sequence = solve_nonassociative(program, associative, settings, log, interfaces)
     if sequence.status is Status.UNBOUNDED:
         return replace(result, associative=replace(associative, reason=sequence.reason))
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)

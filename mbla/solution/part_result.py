@@ -8,6 +8,7 @@ from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
+from mbla.solution.nonassociative.torsion import WithTorsion
 from mbla.solution.solution import ProgramRecord, StandingResult, Status
 
 
@@ -19,6 +20,7 @@ class PartResult:
     sequence    : by the flow rule of the analysis where that is another one, None where it was not reached
     loaded      : false where no live load acts on the part; then it only has to carry its dead load
     standing    : assessment of the dead load alone, None where it was not asked for
+    torsion     : of a path with torsion of uniform pressure, None where none was followed
     least       : state of the least load factor that a search found, None where none ran or it came to none
     remarks     : on the figure, besides those of the sequence
     more        : programs solved for what is found in addition to the load factor
@@ -29,6 +31,7 @@ class PartResult:
     sequence: SequenceResult | None
     loaded: bool
     standing: StandingResult | None = None
+    torsion: WithTorsion | None = None
     least: LawState | None = None
     remarks: tuple[Message, ...] = ()
     more: tuple[ProgramRecord, ...] = ()

@@ -13,11 +13,12 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.flow.resting_forces import resting_forces
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.settings import SolverSettings
-from mbla.solution.standing.standing import least_forces
 
 SAME_FACTOR = 1e-9
 """Relative difference of load factors within which a part is about to collapse as well: it has the forces of its own
@@ -39,12 +40,14 @@ def assemble_parts(
     settings: SolverSettings,
     log: Log,
     collapse: Sequence[LawState | None] = (),
+    interfaces: Interfaces = NONE,
 ) -> tuple[Program, LawState] | None:
     """A state of one part as one of the full model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
 
-    collapse : of each part its own state at collapse, None where there is none; nothing where none is known
+    collapse   : of each part its own state at collapse, None where there is none; nothing where none is known
+    interfaces : of the model that have a law of their own
     """
     if len(parts) == 1:
         return parts[0], state
@@ -53,7 +56,7 @@ def assemble_parts(
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log)
+            own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log, interfaces)
             own = own if own is None or state.history is None else _remembered(other, own, state.history)
         if own is None:
             return None
@@ -74,14 +77,32 @@ def _together(one: LawState, other: LawState, deciding: LawState) -> LawState:
     """States of two parts of the full model, each nothing where the other is."""
     history = None
     if one.history is not None and other.history is not None:
-        pairs = zip(vars(one.history).values(), vars(other.history).values(), strict=True)
-        history = StepHistory(*(first + second for first, second in pairs))
+        first, second = one.history, other.history
+        history = StepHistory(
+            first.remembered + second.remembered,
+            first.normal + second.normal,
+            first.shear + second.shear,
+            _sum(first.motions, second.motions),
+        )
     forces, velocities = one.forces + other.forces, one.velocities + other.velocities
-    return LawState(forces, velocities, deciding.load_factor, deciding.residual, history=history)
+    motions = _sum(one.motions, other.motions)
+    return LawState(forces, velocities, deciding.load_factor, deciding.residual, motions, history)
+
+
+def _sum(one: FloatArray | None, other: FloatArray | None) -> FloatArray | None:
+    """Of what each may lack."""
+    if one is None or other is None:
+        return one if other is None else other
+    return one + other
 
 
 def _resting(
-    program: Program, collapse: LawState | None, load_factor: float, settings: SolverSettings, log: Log
+    program: Program,
+    collapse: LawState | None,
+    load_factor: float,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces,
 ) -> LawState | None:
     """Forces of a part that does not move at a load factor; from its own collapse where that is near."""
     apart = np.inf if collapse is None else abs(collapse.load_factor - load_factor)
@@ -89,11 +110,11 @@ def _resting(
         return _without_motion(collapse, collapse.forces, load_factor)
     if collapse is not None and apart <= NEAR * abs(load_factor):
         lower = load_factor - BELOW * abs(load_factor)
-        below = at_rest(program, lower, settings, log)
+        below = at_rest(program, lower, settings, log, interfaces)
         if below is not None:
             share = (load_factor - lower) / (collapse.load_factor - lower)
             return _without_motion(collapse, (1.0 - share) * below.forces + share * collapse.forces, load_factor)
-    return at_rest(program, load_factor, settings, log)
+    return at_rest(program, load_factor, settings, log, interfaces)
 
 
 def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) -> LawState:
@@ -107,11 +128,17 @@ def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:
     return program, state
 
 
-def at_rest(program: Program, load_factor: float, settings: SolverSettings, log: Log) -> LawState | None:
-    """Least forces that carry the load, no motion; None where the solver finds none."""
+def at_rest(
+    program: Program, load_factor: float, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE
+) -> LawState | None:
+    """Forces that carry the load, no motion; None where the solver finds none.
+
+    interfaces : of the model that have a law of their own
+    """
     load = program.dead_load + load_factor * program.live_load
     at_rest = np.zeros_like(program.dead_load)
     if not np.any(load):
         return LawState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
-    found = least_forces(replace(program, dead_load=load), settings, log)
-    return None if isinstance(found, ConeSolution) else LawState(found, at_rest, load_factor, 0.0)
+    alone = replace(program, dead_load=load, live_load=np.zeros_like(load))
+    found = resting_forces(alone, interfaces, settings, log)
+    return None if found is None else LawState(found, at_rest, load_factor, 0.0)

@@ -26,6 +26,7 @@ class SolverSettings:
     gap            : relative distance of the proved bounds that an associative load factor should have
     residual       : of the joint law without normality at which a scheme has found its state
     search         : iterations spent on lower load factors, over those of the first state found
+    torsion        : whether the load factor with torsion of uniform pressure is wanted beside that of contact points
     standing       : whether it is assessed in addition to the load factor
     steps          : length of those of a path of elastic joints, over the usual
     analysis       : flow rule, scheme with its parameters, ranges of forces
@@ -40,6 +41,7 @@ class SolverSettings:
     residual: float = PRESETS["standard"].residual
     cholesky: str | None = None
     search: float = PRESETS["standard"].search
+    torsion: bool = PRESETS["standard"].torsion
     standing: bool = PRESETS["standard"].standing
     steps: float = 1.0
     analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
@@ -49,6 +51,13 @@ class SolverSettings:
         """Whether the analysis asks for the path of elastic joints."""
         rule = self.analysis.flow_rule
         return rule == "dilatancy" or (rule == "non_associative" and self.analysis.scheme == "auto")
+
+    @property
+    def by_torsion(self) -> bool:
+        """Whether a second path is followed, with torsion of uniform pressure."""
+        own = self.analysis
+        by_points = own.flow_rule == "non_associative" and own.contact_model == "concave"
+        return self.torsion and self.by_elastic_path and by_points
 
 
 def solver_settings(analysis: AnalysisSection) -> SolverSettings:

@@ -192,6 +192,8 @@ class Mechanics:
                          in the step of this state; None for rigid joints
     stiffness          : (n_points, 2) normal and shear stiffness in that step: force lost for a velocity, scaled as
                          mechanism
+    crushed            : (n_interfaces, 6) motions by which interfaces had crushed before that step, over its length,
+                         scaled as mechanism; None where none can
     tie_remembered, tie_stiffness : (n_ties,) the same of ties, as points between their ends, compression positive
     """
 
@@ -206,6 +208,7 @@ class Mechanics:
     tie_rates: FloatArray | None = None
     remembered: FloatArray | None = None
     stiffness: FloatArray | None = None
+    crushed: FloatArray | None = None
     tie_remembered: FloatArray | None = None
     tie_stiffness: FloatArray | None = None
 
@@ -228,6 +231,9 @@ class Solution:
     reason      : for every status but solved, one sentence in words
     scheme      : how a flow without normality was solved; empty for associative flow
     remarks     : what a reader of the figure must know
+    torsion     : in space, without dilatancy: the state on the path of elastic joints with torsion of uniform pressure,
+                  beside that of contact points alone
+    torsion_end : why that path ended; empty where none was followed
     least       : flow other than associative: the state of rigid joints of the least load factor that a search found
     level       : tilting table: associative answer of the level table with the load across, which proves how much of
                   that it bears
@@ -266,6 +272,8 @@ class Solution:
     scheme: str = ""
     remarks: tuple[Message, ...] = ()
     least: Mechanics | None = None
+    torsion: Mechanics | None = None
+    torsion_end: str = ""
     level: Mechanics | None = None
     level_lock: FloatArray | None = None
     standing: StandingResult | None = None
@@ -314,6 +322,7 @@ class Checks:
     slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of
                                the complementarity residual is opening under force
     least_load_factor        : of the least state that was found, where it fits the law of rigid joints; NaN where none
+    torsion_load_factor      : of the state with torsion of uniform pressure, where it fits its law; NaN where none
     elastic_residual         : path of elastic joints: largest force that is off their law, over the largest;
                                penetration, complementarity and balance of power are those of rigid ones, NaN here
     verified                 : true where everything is within tolerance
@@ -334,4 +343,5 @@ class Checks:
     tension_violation: float = float("nan")
     slip_residual: float = float("nan")
     least_load_factor: float = float("nan")
+    torsion_load_factor: float = float("nan")
     elastic_residual: float = float("nan")

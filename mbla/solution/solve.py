@@ -10,13 +10,16 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
-from mbla.program.build import CaseProgram
+from mbla.program.build import CaseProgram, crushable_interfaces
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.glued import solution_on_blocks
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
@@ -53,6 +56,12 @@ OTHER_HISTORIES = Message(
     "analysis.search says how far",
 )
 
+OF_INTERFACES = Message(
+    "lower-not-searched",
+    "states of lower load factors, to which only other histories lead, were not looked for: interfaces have a law of "
+    "their own beside that of their points",
+)
+
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
 
 
@@ -64,18 +73,26 @@ class _Stage:
     interface_of_point: IntArray
     settings: SolverSettings
     log: Log
+    interfaces: Interfaces = NONE
+    beside: Interfaces = NONE
     more: list[ProgramRecord] = field(default_factory=list)
 
     def mechanics(
-        self, part: int, state: LawState | None, flow_rule: str, collapse: Sequence[LawState | None] = ()
+        self,
+        part: int,
+        state: LawState | None,
+        flow_rule: str,
+        collapse: Sequence[LawState | None] = (),
+        interfaces: Interfaces = NONE,
     ) -> Mechanics | None:
         """A state of one part as mechanics of the full model; None where the other parts do not carry it.
 
-        collapse : of each part its own state at collapse
+        collapse   : of each part its own state at collapse
+        interfaces : that have a law of their own in these states
         """
         if state is None:
             return None
-        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse)
+        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse, interfaces)
         return None if assembled is None else mechanics_of(*assembled, flow_rule)
 
 
@@ -84,23 +101,46 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
 
     log : called once per iteration of a cone program, as it goes
     """
-    if program.convex is None:
-        solution = solve_parts(program.reduced, settings, log)
-    else:
-        from mbla.solution.resultants.solve_convex import solve_convex  # late: interfaces are rarely needed
+    if program.convex is not None:
+        from mbla.solution.resultants.solve_convex import solve_with_interfaces  # late: interfaces are rarely needed
 
-        solution = solve_convex(program.convex, settings, log)
+        solution = solve_with_interfaces(program, settings, log)
+    else:
+        solution = solve_parts(program.reduced, settings, log, beside=_with_torsion(program, settings))
+        if solution.torsion is not None:
+            from mbla.solution.resultants.of_interfaces import torsion_of_interfaces
+
+            solution = replace(solution, torsion=torsion_of_interfaces(program, solution.torsion))
     return solution_on_blocks(solution, program.solids)
 
 
-def solve_parts(reduced: Reduced, settings: SolverSettings, log: Log | None = None) -> Solution:
+def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
+    """Interfaces whose torsion a second path limits, so that its load factor stands beside the answer."""
+    turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
+    spatial = any(part.components == 3 for part in program.reduced.parts)
+    model, contacts = program.solids.model, program.solids.contacts
+    at_points = crushable_interfaces(model, contacts).any()  # points that crush by themselves have no such law
+    if turned or not spatial or at_points or not settings.by_torsion:
+        return NONE
+    return Interfaces(twisting=TwistingInterfaces.of(model, contacts))
+
+
+def solve_parts(
+    reduced: Reduced,
+    settings: SolverSettings,
+    log: Log | None = None,
+    interfaces: Interfaces = NONE,
+    beside: Interfaces = NONE,
+) -> Solution:
     """The same of the contact points of solids: their parts one after the other, then the whole structure.
 
-    log : called once per iteration of a cone program, as it goes
+    log        : called once per iteration of a cone program, as it goes
+    interfaces : of the model that have a law of their own in the path of elastic joints
+    beside     : those in a second path, with torsion
     """
     started, (iterations, record) = time.perf_counter(), recorded(log)
-    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record)
-    results = [_result_of(program, settings, record) for program in reduced.parts]
+    stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record, interfaces, beside)
+    results = [_result_of(program, settings, record, interfaces, beside) for program in reduced.parts]
     solution = _combined(stage, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -130,16 +170,18 @@ def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
     return iterations, record
 
 
-def _result_of(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def _result_of(
+    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces, beside: Interfaces
+) -> PartResult:
     """What was found for one part; a system of equations that nobody expected to be singular is a reported failure."""
     try:
         easier = within_reach(program)
         if easier is not None:
-            result = solve_part(easier, settings, log)
+            result = solve_part(easier, settings, log, interfaces, beside)
             states = [state for state in (result.associative.state, result.state) if state is not None]
             if states and all(stays_within(program, state.forces) for state in states):
                 return replace(result, program=program)
-        return solve_part(program, settings, log)
+        return solve_part(program, settings, log, interfaces, beside)
     except np.linalg.LinAlgError as error:
         reason = BROKE_DOWN.format(str(error).lower())
         failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())
@@ -201,11 +243,12 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
-    searched = looks_lower(stage.parts[first], stage.settings) or stage.parts[first].settles
+    searched = looks_lower(stage.parts[first], stage.settings, stage.interfaces) or stage.parts[first].settles
     words = [] if searched or not stage.settings.by_elastic_path else [OTHER_HISTORIES]
+    words = [OF_INTERFACES] if words and stage.interfaces is not NONE else words
     return replace(
-        solution,
-        mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results]),
+        _with_torsion_of_parts(solution, stage, results),
+        mechanics=stage.mechanics(first, sequence.state, rule, [each.state for each in results], stage.interfaces),
         least=stage.mechanics(first, result.least, rule),
         scheme=analysis.scheme if rule == "non_associative" else "",
         remarks=(*sequence.remarks, *words, *remarks),
@@ -222,6 +265,29 @@ def least_by_stiffness(results: Sequence[PartResult], rows: Sequence[PathByStiff
     known = [row for each in results if each.sequence is not None for row in each.sequence.by_stiffness]
     least = {row.ratio: np.min([own.load_factor for own in known if own.ratio == row.ratio]) for row in rows}
     return tuple(PathByStiffness(ratio, float(factor)) for ratio, factor in least.items())
+
+
+def _with_torsion_of_parts(solution: Solution, stage: _Stage, results: Sequence[PartResult]) -> Solution:
+    """With the state of the part that starts to move first with torsion of uniform pressure.
+
+    Without one where no part twists, or the first to move does not; with nothing but the end of its path where a part
+    came to no state: it may be the first.
+    """
+    twisting = [part for part, result in enumerate(results) if result.torsion is not None]
+    for part in twisting:
+        torsion = results[part].torsion
+        if torsion is not None and torsion.state is None and torsion.stop is not Stop.UNBOUNDED:
+            return replace(solution, torsion_end=torsion.stop.value)
+    known = {part: _factor(torsion.state) for part in twisting if (torsion := results[part].torsion) is not None}
+    first = min(known, key=known.__getitem__, default=None)
+    others = [_load_factor(result) for part, result in enumerate(results) if part not in known]
+    if first is None or known[first] >= min(others, default=np.inf):
+        return solution
+    torsion = results[first].torsion
+    assert torsion is not None
+    states = [result.state if result.torsion is None else result.torsion.state for result in results]
+    found = stage.mechanics(first, torsion.state, "non_associative", states, stage.beside)
+    return replace(solution, torsion=found, torsion_end=torsion.stop.value)
 
 
 def _claim(results: Sequence[PartResult], first: int) -> tuple[Status, str]:

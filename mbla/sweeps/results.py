@@ -29,6 +29,7 @@ STATUS = "status"
 FACTORS = (
     "load_factor",
     "least_load_factor",
+    "torsion_load_factor",
     "static_bound",
     "kinematic_bound",
     "associative_load_factor",

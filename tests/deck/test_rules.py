@@ -110,8 +110,9 @@ def idle(*overrides: str) -> list[str]:
         ("analysis.path.ratio=0.5", "flow_rule=associative", "flow_rule=dilatancy"),
         ("analysis.path.until=20", "flow_rule=livesley", "flow_rule=non_associative"),
         ("analysis.path.until=20", "scheme=published", "scheme=auto"),
-        ("analysis.path.until=20", "contact_model=convex", "contact_model=concave"),
-        ("analysis.reductions=false", "contact_model=convex", "contact_model=concave"),
+        ("analysis.torsion=false", "flow_rule=dilatancy", "flow_rule=non_associative"),
+        ("analysis.torsion=false", "contact_model=convex", "contact_model=concave"),
+        ("analysis.torsion=false", "scheme=published", "scheme=auto"),
         ("joints.dry.dilatancy=5", "flow_rule=non_associative", "flow_rule=dilatancy"),
     ],
 )
@@ -119,6 +120,12 @@ def test_with_what_a_key_has_an_effect(key: str, idle_with: str, used_with: str)
     (message,) = idle(key, f"analysis.{idle_with}")
     assert "has no effect: it applies to" in message
     assert idle(key, f"analysis.{used_with}") == []
+
+
+def test_reductions_have_no_effect_on_interfaces_of_associative_flow_alone() -> None:
+    ways = ("analysis.reductions=false", "analysis.contact_model=convex")
+    assert len(idle(*ways, "analysis.flow_rule=associative")) == 1
+    assert idle(*ways, "analysis.flow_rule=non_associative") == []
 
 
 def test_keys_that_are_not_given_are_not_mentioned() -> None:
@@ -243,6 +250,7 @@ OTHER: dict[str, Any] = {
     "gap": 1e-4,
     "residual": 1e-5,
     "search": 3.0,
+    "torsion": False,
     "standing": False,
 }
 """A value of each knob that no preset has, or standard has not."""

@@ -245,6 +245,7 @@ def full_results() -> Results:
         tension_violation=1e-9,
         slip_residual=2e-9,
         least_load_factor=0.45,
+        torsion_load_factor=0.42,
         elastic_residual=3e-9,
         failures=(Message("penetration", "x"),),
     )
@@ -266,6 +267,7 @@ def full_solution(solution: Solution) -> Solution:
         tie_rates=np.array([0.5]),
         remembered=tower_mechanics().contact_forces + 1.0,
         stiffness=np.full((len(tower_mechanics().contact_forces), 2), 2.0),
+        crushed=np.arange(12.0).reshape(2, 6),
         tie_remembered=np.array([2.0]),
         tie_stiffness=np.array([4.0]),
     )
@@ -284,6 +286,8 @@ def full_solution(solution: Solution) -> Solution:
             Message("tilt-by-steps", "one more"),
         ),
         least=replace(mechanics, load_factor=0.45),
+        torsion=replace(mechanics, load_factor=0.42),
+        torsion_end="falls",
         level=replace(mechanics, load_factor=0.57),
         level_lock=np.arange(24.0, 51.0).reshape(9, 3),
         tolerance_requested=5e-3,

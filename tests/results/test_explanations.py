@@ -62,7 +62,7 @@ def expanded(found: str, file: str) -> set[str]:
     if file == "notices.py" and found == "identifier":  # names of sections in the singular
         return {"parameter-unused", "material-unused", "joint-unused", "load-unused", "vehicle-unused"}
     if file in ("findings.py", "outcome.py") and found == "identifier":
-        return {"least-not-verified", "geometric-safety-not-verified"}
+        return {"least-not-verified", "torsion-not-verified", "geometric-safety-not-verified"}
     return COMPUTED[found]
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mbla.program.resultants import assemble_convex
-from mbla.solution.resultants.solve_convex import solve_convex
+from mbla.contacts.glue import solids_of
+from mbla.contacts.tied import tied
+from mbla.program.build import build_program
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution, Status
+from mbla.solution.solve import solve
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
 from tests.line import HEAD, Line, line_of, solution_of
@@ -65,8 +67,8 @@ def prism(outline: Sequence[tuple[float, float]], point: Sequence[float]) -> str
 def convex(line: Line, flow_rule: str = "associative") -> tuple[Solution, Checks]:
     """Solve and verify with interface resultants."""
     analysis = line.deck.analysis.model_copy(update={"flow_rule": flow_rule, "contact_model": "convex"})
-    program = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    solution = solve_convex(program, solver_settings(analysis))
+    solids = tied(solids_of(line.model, line.contacts, line.load_case))
+    solution = solve(build_program(solids, line.load_case, analysis), solver_settings(analysis))
     return solution, verify(line.model, line.contacts, line.load_case, solution)
 
 

@@ -10,7 +10,8 @@ what it leaves alone costs little or changes the structure that is analysed:
   shows that the dead load is carried, without which a load factor means nothing;
 - standing is an answer in addition to the load factor, which it does not change. A draft goes without, save where flow
   is not associative: what stands by self-stress only has no collapse load;
-- without dilatancy a draft looks for no state of a lower load factor than the one that the loading leads to;
+- without dilatancy a draft looks for no state of a lower load factor than the one that the loading leads to, and in
+  space follows no second path with torsion of uniform pressure;
 - ``reference`` alone follows paths of joints of other stiffnesses beside that of the deck: what the load factor
   without dilatancy hangs on;
 - flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
@@ -38,6 +39,7 @@ class Knobs:
                 further apart is solved again, more sharply
     residual  : wanted of flow without normality: largest residual at which a search has found a state
     search    : flow without normality: iterations spent on lower load factors, over those of the first state found
+    torsion   : in space without dilatancy: whether a second path tells the load factor with torsion of uniform pressure
     standing  : whether it is assessed that the structure stands under its dead load
     """
 
@@ -45,13 +47,14 @@ class Knobs:
     gap: float
     residual: float
     search: float
+    torsion: bool
     standing: bool
 
 
 PRESETS: Mapping[Accuracy, Knobs] = {
-    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, search=0.0, standing=False),
-    "standard": Knobs(tolerance=1e-9, gap=3e-7, residual=1e-6, search=1.0, standing=True),
-    "reference": Knobs(tolerance=1e-10, gap=5e-8, residual=1e-9, search=4.0, standing=True),
+    "draft": Knobs(tolerance=1e-8, gap=1e-3, residual=5e-3, search=0.0, torsion=False, standing=False),
+    "standard": Knobs(tolerance=1e-9, gap=3e-7, residual=1e-6, search=1.0, torsion=True, standing=True),
+    "reference": Knobs(tolerance=1e-10, gap=5e-8, residual=1e-9, search=4.0, torsion=True, standing=True),
 }
 """By the deck's word."""
 

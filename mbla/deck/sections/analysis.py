@@ -103,6 +103,12 @@ class AnalysisSection(Section):
         "every joint law, density of every material, capacity of every tie, sizes of dead and live load; or a list of "
         "key paths of real numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
     )
+    torsion: Switch | None = Field(
+        None,
+        description="in space, flow_rule: non_associative: a second path of elastic joints whose interfaces twist "
+        "under uniform pressure: contact points overstate torsion; its load factor stands beside the answer; "
+        + set_by_accuracy("torsion"),
+    )
     geometric_safety: Switch = Field(
         False,
         description="by how much all joints may shrink about their middles before the dead load falls: of an arch the "
@@ -116,7 +122,7 @@ class AnalysisSection(Section):
     )
     accuracy: Accuracy = Field(
         "standard",
-        description="one word for tolerance, gap, residual, search and standing. draft: first looks and "
+        description="one word for tolerance, gap, residual, search, torsion and standing. draft: first looks and "
         "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives, and "
         "without dilatancy what joints of other stiffnesses come to",
     )
@@ -188,10 +194,14 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
         lambda analysis: _concave(analysis) and _by_exact_law(analysis),
         "contact_model: concave and flow_rule: non_associative or dilatancy with scheme: auto",
     ),
-    "path": (
-        lambda analysis: _concave(analysis) and _by_exact_law(analysis),
-        "contact_model: concave and flow_rule: non_associative or dilatancy with scheme: auto",
+    "path": (_by_exact_law, "flow_rule: non_associative or dilatancy with scheme: auto"),
+    "torsion": (
+        lambda analysis: _concave(analysis) and _with_scheme("auto")(analysis),
+        "contact_model: concave and flow_rule: non_associative with scheme: auto",
     ),
-    "reductions": (_concave, "contact_model: concave"),
+    "reductions": (
+        lambda analysis: _concave(analysis) or _by_exact_law(analysis),
+        "contact_model: concave, or another flow rule than associative",
+    ),
 }
 """Key of the analysis section -> whether it has an effect, and with what it has."""

@@ -28,7 +28,7 @@ from mbla.program.reductions.steps import ProgramSize
 from mbla.program.resultants.conditions import ConditionRows, joined
 from mbla.program.resultants.crushing import CrushingLimits, crushing_limits, crushing_rows, crushing_violation
 from mbla.program.resultants.shapes import InterfaceShapes, interface_shapes, local_points
-from mbla.program.resultants.torsion import REDUCED, SHEAR, UNKNOWNS, TorsionLimits, torsion_limits, torsion_rows
+from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsion_rows
 from mbla.program.yield_conditions import YieldLimits
 
 
@@ -201,34 +201,6 @@ square of their norm is about one over the number of blocks), so that the load f
 OF_CRUSHING = 1e-4
 """Share of that weight on multipliers of crushing: with all of it the load factor of eight blocks with a strength of
 8 MPa moved by 5e-5."""
-
-
-def given_friction(convex: ConvexProgram) -> ConvexProgram:
-    """The program without friction: slip and twist of its interfaces move nothing else, what resists them is a cost."""
-    none, own = np.zeros(convex.n_interfaces), convex.strengths
-    shear = np.where(own.friction > 0.0, 1.0, own.cohesion)  # the interfaces that have torsion stay the same
-    limits = replace(convex.points.limits, friction=np.zeros(convex.points.n_points))
-    strengths = replace(own, friction=none, cohesion=shear)
-    return replace(convex, points=replace(convex.points, limits=limits), strengths=strengths)
-
-
-def given_friction_form(convex: ConvexProgram) -> KinematicForm:
-    """The program of the least power against given friction, from a program without (``given_friction``)."""
-    return convex_form(convex, reduce_dry=False)
-
-
-def given_friction_cost(
-    form: KinematicForm, convex: ConvexProgram, limit: FloatArray, share: FloatArray, rest: FloatArray
-) -> FloatArray:
-    """Cost of that program, (n_unknowns,).
-
-    limit       : (n_points,) of the shear of points
-    share, rest : (n_torsion,) R and V − R of interfaces with torsion
-    """
-    cost = form.cost_for(replace(convex.points.limits, cohesion=limit))
-    column = convex.n_block_rows + UNKNOWNS * np.arange(len(share))
-    cost[column + SHEAR], cost[column + REDUCED] = share + rest, -rest
-    return cost
 
 
 def convex_form(convex: ConvexProgram, stabilised: float = 0.0, *, reduce_dry: bool = True) -> KinematicForm:

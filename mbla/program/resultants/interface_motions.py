@@ -100,11 +100,14 @@ class CrushingOfProgram:
     """Interfaces of a program that crush.
 
     resultants : R, (components n, components n_points) in the unit of force of the program
+    motions    : (6 n_interfaces, components n) from ψ to motions of the interfaces of the model, dual to their
+                 resultants
     pieces     : each kind by itself, owners numbered by the rows of R
     points     : (n_points,) which belong to them
     """
 
     resultants: sp.csr_array
+    motions: sp.csr_array
     pieces: tuple[Pieces, ...]
     points: BoolArray
 
@@ -133,7 +136,7 @@ def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfP
     if not here.any():
         return None
     seen = _in_plane if program.components == 2 else _in_space
-    map_, owners, plates = seen(interfaces, full, forces, here)
+    map_, motions, owners, plates = seen(interfaces, full, forces, here)
     unit = float(np.abs(map_[:: program.components].data).max())
     map_ = tidied(sp.csr_array(map_ / unit))
     of_force = full.scaling.force * unit
@@ -144,11 +147,12 @@ def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfP
     pieces = tuple(with_conditions(plate, kind, strength, tension) for kind, plate in plates if len(plate.owner))
     points = np.zeros(program.n_points, dtype=bool)
     points[np.unique(map_.indices) // program.components] = True
-    return CrushingOfProgram(map_, pieces, points)
+    return CrushingOfProgram(map_, sp.csr_array(motions / unit), pieces, points)
 
 
-Seen = tuple[sp.csr_array, IntArray, tuple[tuple[str, Plates], ...]]
-"""R, the row of R to which each interface belongs, (n_interfaces,), −1 where none, and pieces by their kind."""
+Seen = tuple[sp.csr_array, sp.csr_array, IntArray, tuple[tuple[str, Plates], ...]]
+"""R, motions of the interfaces, the row of R to which each interface belongs, (n_interfaces,), −1 where none, and
+pieces by their kind."""
 
 
 def _in_space(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_array, here: BoolArray) -> Seen:
@@ -159,7 +163,8 @@ def _in_space(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_arra
     map_ = _sums(owner_of_point, here, full, forces, [np.ones(len(arms)), *arms.T])
     outlines = [interfaces.outline(row) for row in rows.tolist()]
     flat, triangles = pieces_in_space(interfaces.shapes, outlines, rows, interfaces.radii)
-    return map_, owners, (("parallelogram", flat), ("triangle", triangles))
+    motions = _motions(owners, [(np.eye(2)[k], interfaces.radii) for k in (0, 1)])
+    return map_, motions, owners, (("parallelogram", flat), ("triangle", triangles))
 
 
 def _in_plane(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_array, here: BoolArray) -> Seen:
@@ -186,7 +191,28 @@ def _in_plane(interfaces: CrushingInterfaces, full: Program, forces: sp.csr_arra
     for row, (a, b), owner in zip(rows.tolist(), along.tolist(), group.tolist(), strict=True):
         outlines[owner].append(interfaces.outline(row) @ np.array([[a, -b], [b, a]]))
     strips, ramps = pieces_in_plane(outlines, radii)
-    return map_, owners, (("strip", strips), ("triangle", ramps))
+    ways = np.zeros((len(owners), 2))
+    ways[rows] = along
+    motions = _motions(owners, [(ways, radii[np.maximum(owners, 0)])])
+    return map_, motions, owners, (("strip", strips), ("triangle", ramps))
+
+
+def _motions(owners: IntArray, moments: list[tuple[FloatArray, FloatArray]]) -> sp.csr_array:
+    """Opening and rotations in the plane of each interface, from ψ of the row to which it belongs.
+
+    owners  : (n_interfaces,) −1 where none
+    moments : directions, (2,) or (n_interfaces, 2), of the place that each moment takes normal forces by, and lengths
+              ρ, (n_interfaces,), that it is over
+    """
+    seen, size = np.flatnonzero(owners >= 0), 1 + len(moments)
+    first, column = 6 * seen, size * owners[seen]
+    entries = [(first, column, np.ones(len(seen)))]
+    for number, (way, radii) in enumerate(moments, start=1):
+        one, two = np.broadcast_to(way, (len(owners), 2))[seen].T / radii[seen]
+        entries += [(first + 4, column + number, two), (first + 5, column + number, -one)]
+    row, place, values = (np.concatenate(parts) for parts in zip(*entries, strict=True))
+    shape = (6 * len(owners), size * (int(owners.max()) + 1))
+    return sp.csr_array(sp.coo_array((values, (row, place)), shape=shape))
 
 
 def _turned(s: FloatArray, stands_for: IntArray, place: IntArray, leader: IntArray, n: int) -> FloatArray:

@@ -57,6 +57,7 @@ class TwistingOfProgram:
     """Interfaces of a program with torsion, m of them; p points at most, with weights of zero where there are less.
 
     resultants : (3 m, 3 n_points) from contact forces to T_1, T_2 and M/ρ
+    motions    : (6 n_interfaces, 3 m) from ψ to motions of the interfaces of the model, dual to their resultants
     thetas     : (m,) θ
     points     : (m, p)
     cohesion   : (m,) cA
@@ -65,6 +66,7 @@ class TwistingOfProgram:
     """
 
     resultants: sp.csr_array
+    motions: sp.csr_array
     thetas: FloatArray
     points: IntArray
     cohesion: FloatArray
@@ -107,12 +109,21 @@ def twisting_of(program: Program, interfaces: TwistingInterfaces) -> TwistingOfP
     moment = np.stack([some * _taken(moment, points) for moment in moments])
     return TwistingOfProgram(
         resultants=tidied(sp.csr_array(shear / unit)),
+        motions=sp.csr_array(_motions(limits.interfaces[chosen], limits.radii[chosen], len(place)) / unit),
         thetas=limits.thetas[chosen],
         points=points,
         cohesion=limits.cohesion[chosen] / (full.scaling.force * unit),
         pressing=some * _taken(pressing, points) / unit,
         offsets=np.einsum("mkj,jmp->mkp", slopes, moment),
     )
+
+
+def _motions(interfaces: IntArray, radii: FloatArray, n_interfaces: int) -> sp.csr_array:
+    """(6 n_interfaces, 3 m): slips and rotation about the normal, from slips and ρ twist of some interfaces, (m,)."""
+    m = len(interfaces)
+    rows = (6 * interfaces[:, None] + np.arange(1, 4)).ravel()
+    values = np.column_stack([np.ones(m), np.ones(m), 1.0 / radii]).ravel()
+    return sp.csr_array(sp.coo_array((values, (rows, np.arange(3 * m))), shape=(6 * n_interfaces, 3 * m)))
 
 
 def _padded(pressing: sp.csr_array) -> tuple[IntArray, IntArray]:

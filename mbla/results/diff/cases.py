@@ -38,6 +38,7 @@ FURTHER = (
     "static_bound",
     "kinematic_bound",
     "least_load_factor",
+    "torsion_load_factor",
     "path_last",
 )
 """figures that are compared besides"""

@@ -13,7 +13,7 @@ from mbla.results.listing.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import counted, number, sentence, table
-from mbla.results.listing.verdict_words import bound_words, least_words, reasons, verdict
+from mbla.results.listing.verdict_words import bound_words, least_words, reasons, torsion_words, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
@@ -108,7 +108,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
     assessed = assessment_words(model, contacts, case)
-    said = (least_words(model, case), *details, *reasons(case), bound_words(model, case))
+    said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
     for words in (*said, curve_words(model, case), assessed):
         lines += sentence(words, DETAIL)
     return lines

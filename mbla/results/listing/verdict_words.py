@@ -24,6 +24,7 @@ from mbla.results.outcome import (
     rises_where_it_ends,
 )
 from mbla.results.results import CaseResult
+from mbla.solution.flow.path_record import Stop
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE, SOLVED_RESIDUAL
 
@@ -73,6 +74,26 @@ def verdict(model: Model, case: CaseResult) -> str:
         gained = f"{100.0 * case.solution.path_gain:.2g} %"
         return f"{moves} at {known}; the load still rises there, by {gained} over the last half"
     return f"{moves} at {known}"
+
+
+NO_TORSION = {
+    Stop.DOES_NOT_STAND: "it does not carry its dead load from the stress-free assembly",
+    Stop.UNBOUNDED: "nothing gives way, however large the live load",
+}
+
+
+def torsion_words(model: Model, case: CaseResult) -> str:
+    """The load factor with torsion of uniform pressure; nothing where no path with it was followed."""
+    own, solution = result_of(case), case.solution
+    if own is None or not solution.torsion_end:
+        return ""
+    if solution.torsion is None:
+        why = NO_TORSION.get(Stop(solution.torsion_end), f"not found ({solution.torsion_end})")
+        return f"with torsion of uniform pressure: {why}"
+    known = load_factor_words(model, case.load_case, solution.torsion.load_factor)
+    least = "" if Stop(solution.torsion_end).answers else "at least "
+    verified = "" if not np.isnan(case.checks.torsion_load_factor) else ", not verified"
+    return f"with torsion of uniform pressure: {least}{known}{verified}"
 
 
 FAR_BELOW = 0.03
@@ -212,6 +233,7 @@ def known_words(model: Model, case: CaseResult) -> list[str]:
         uniqueness_words(model, case),
         stiffness_words(model, case),
         least_words(model, case),
+        torsion_words(model, case),
         published,
         *case.solution.remarks,
     )

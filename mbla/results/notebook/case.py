@@ -17,7 +17,7 @@ from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
-from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of
+from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of, torsion_of
 from mbla.results.pictures.image import Picture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -63,6 +63,11 @@ class Case:
     def least_load_factor(self) -> float:
         """Of the states of rigid joints that a search found; nan where none ran, or it came to none."""
         return least_of(self.record)
+
+    @property
+    def torsion_load_factor(self) -> float:
+        """In space, with torsion of uniform pressure; nan where no path with it was followed, or it is not verified."""
+        return torsion_of(self.record)
 
     @property
     def associative_load_factor(self) -> float:

@@ -25,6 +25,7 @@ from mbla.results.outcome import (
     angle_of,
     least_of,
     result_of,
+    torsion_of,
     ultimate_displacement,
 )
 from mbla.results.record.quantity import STORED_BY_PATH, Quantity, quantity_of, rows_of
@@ -153,6 +154,7 @@ def _friction_use(scene: Scene, _: str) -> Values | None:
 
 FOUND: dict[str, Callable[[Scene, str], Any]] = {
     "least": _of_case(least_of),
+    "torsion": _of_case(torsion_of),
     "angle": _of_case(angle_of),
     "angle_bounds": _of_case(lambda case: None if case.load_case.tilt is None else angle_bounds(case)),
     "ultimate_displacement": _of_case(ultimate_displacement),

@@ -66,7 +66,7 @@ UNVERIFIED = {
     "times": "times",
     "files": "names of files",
     "words": "reasons and remarks in words",
-    "course": "how it was solved: scheme, programs, iterations, steps and end of the path, sizes, reductions",
+    "course": "how it was solved: scheme, programs, iterations, steps and ends of paths, sizes, reductions",
     "curve": "of a pushover: errors of its load factors, which blocks fall without the rest, why it ends",
     "searches": "ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
@@ -147,6 +147,7 @@ ANSWERS = {
     "mechanics": ("", "by the deck's flow rule"),
     "associative": ("/associative", "by the associative flow rule, where that is not the deck's"),
     "least": ("/least", "the least of the states of rigid joints that a search found"),
+    "torsion": ("/torsion", "on the path of elastic joints with torsion of uniform pressure"),
     "level": ("/level", "of the level table with the load across, by the associative flow rule"),
 }
 """answers of a solution: group below the load case, and whose forces and velocities they are"""

@@ -97,7 +97,14 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     _history(found, deck, case)
     _path(found, deck, model, case)
     _least(found, deck, case)
+    if _torsion_unverified(case):
+        found.unconfirmed.append("the state with torsion of uniform pressure is not verified")
     return found
+
+
+def _torsion_unverified(case: CaseResult) -> bool:
+    """Whether a state with torsion of uniform pressure is there that does not fit its law."""
+    return case.solution.torsion is not None and bool(np.isnan(case.checks.torsion_load_factor))
 
 
 def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
@@ -112,6 +119,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
         "ranges of normal forces": (solution.force_ranges, settings.analysis.force_ranges),
         "a verdict on standing": (solution.standing, settings.standing),
+        "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
         "the answer of a level table": (solution.level, load_case.tilt is not None),
         "the lock of a level table": (solution.level_lock, load_case.tilt is not None),
@@ -236,16 +244,16 @@ def _least(found: Found, deck: Deck, case: CaseResult) -> None:
     planar = solution.size is not None and solution.size.dimension == 2
     if case.load_case.settlement is not None or by_normality(solution):
         return
-    if settings.search > 0.0 and (planar or settings.analysis.search is not None):
+    by_points = not solution.conditions_on_interfaces
+    if by_points and settings.search > 0.0 and (planar or settings.analysis.search is not None):
         found.unconfirmed.append("that the search came to no state of rigid joints is not verified")
     elif all(remark.identifier != "lower-not-searched" for remark in solution.remarks):
         found.differences.append("the remark lower-not-searched is missing")
 
 
 def _by_path(deck: Deck, case: CaseResult) -> bool:
-    """Whether the load factor is one of the path of elastic joints, of contact points."""
-    settings = settings_for(case.load_case, solver_settings(deck.analysis))
-    return settings.by_elastic_path and not case.solution.conditions_on_interfaces
+    """Whether the load factor is one of the path of elastic joints."""
+    return settings_for(case.load_case, solver_settings(deck.analysis)).by_elastic_path
 
 
 def _missing(found: Found, what: str, case: CaseResult, *excuses: str) -> None:

@@ -71,7 +71,7 @@ def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult,
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     path = settings.analysis.path.model_copy(update={"ratio": ratio})
     analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard", "force_ranges": False})
-    settings = replace(settings, analysis=analysis, steps=STEPS, search=0.0, standing=False)
+    settings = replace(settings, analysis=analysis, steps=STEPS, search=0.0, torsion=False, standing=False)
     program = build_program(tied(solids_of(model, contacts, case.load_case)), case.load_case, analysis)
     found = solve(program, settings)
     if found.status is Status.UNBOUNDED:

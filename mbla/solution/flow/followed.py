@@ -79,10 +79,10 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     if is_too_rough(path, rest, measure):
         path = follow_solved(rest.joints, rest.gravity, measure, settings)
         paths.append(path)
-    elif path.peak is not None and not path.peak.is_solved:
+    elif path.peak is not None and not path.peak.is_solved and not rest.joints.laws:
         paths.append(follow_solved(rest.joints, rest.gravity, measure, settings))
         path = _better(*paths)
-    elif is_lost(path) or (rest.twists and path.recentred):
+    elif settings.again and (is_lost(path) or (rest.twists and path.recentred)):
         paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
         path = _better(*paths)
     return Followed(path, path.stop, tuple(paths))
@@ -131,12 +131,14 @@ def is_lost(path: ElasticPath) -> bool:
     return path.recentred > 0 and path.moving < FALLEN * path.load_factor
 
 
-def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:
+def as_it_gives_way(rest: AtRest, own_unit: float) -> tuple[AtRest, float]:
     """A support that is held, as it gives way; the reaction at rest in units of its live load, to measure paths by.
 
     Where that is nothing the part's own unit of load stands for it.
 
     The dead load has that reaction in the place of the one that was chosen: λ of its paths is what is lost of it.
+
+    own_unit : load factor that is the part's own unit
     """
     program, factor = rest.joints.program, rest.gravity.state.factor
     live = program.live_load
@@ -145,5 +147,5 @@ def as_it_gives_way(rest: AtRest) -> tuple[AtRest, float]:
     joints = replace(rest.joints, program=shifted)
     gravity = replace(rest.gravity, state=replace(rest.gravity.state, factor=0.0))
     own, reaction = replace(rest.settings, dropped=np.inf), abs(chosen - factor)
-    scale = reaction if reaction > NEGLIGIBLE * program.own_unit else program.own_unit
+    scale = reaction if reaction > NEGLIGIBLE * own_unit else own_unit
     return replace(rest, joints=joints, gravity=gravity, settings=own, begins=factor), scale

@@ -23,6 +23,7 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, followed, measured_by_itself
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.path_record import RISES, ElasticPath, Stop
+from mbla.solution.flow.peak_step import EXACT, solved_peak
 from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, mean_live_load, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
@@ -160,7 +161,7 @@ def path_by(
     if ends is not None:
         return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)
     if program.settles:
-        rest, scale = as_it_gives_way(rest)
+        rest, scale = as_it_gives_way(rest, (program if part is None else part.program).own_unit)
     elif associative is None:
         return _record(measured_by_itself(rest, scale), rest)
     measure = measure_of(rest.joints, scale, rest.pressed)
@@ -171,7 +172,11 @@ def path_by(
 
 def _record(found: Followed, rest: AtRest) -> PathOfPart:
     spent = sum(path.factorizations - rest.gravity.steps for path in found.paths) + rest.gravity.steps
-    return PathOfPart(found.stop, found.path, rest, len(found.paths), spent)
+    path, peak = found.path, found.path.peak
+    if rest.joints.laws and peak is not None:  # while it was followed less was enough
+        sharp, more = solved_peak(peak, rest.gravity.force, EXACT)
+        path, spent = replace(path, peak=sharp), spent + more
+    return PathOfPart(found.stop, path, rest, len(found.paths), spent)
 
 
 def _at_rest(

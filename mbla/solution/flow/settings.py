@@ -47,6 +47,7 @@ class PathSettings:
     short        : reach of a direction below which a step is blocked
     wandering    : steps in a row out of balance, once it was reached, after which a path is stuck
     steps        : at most
+    again        : whether a path that is lost is followed once more, with less smoothing
     deadline     : time.monotonic() at which a path ends, or None
     watch        : called after every step
     """
@@ -64,6 +65,7 @@ class PathSettings:
     short: float = 0.03
     wandering: int = 60
     steps: int = 600
+    again: bool = True
     deadline: float | None = None
     watch: Callable[[PathStep], None] | None = field(default=None, compare=False)
 

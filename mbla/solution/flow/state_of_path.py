@@ -17,13 +17,19 @@ from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.followed import AtRest
 from mbla.solution.flow.path_of_part import PathOfPart
 from mbla.solution.flow.peak_step import PeakStep
+from mbla.solution.flow.resting_forces import resting_forces
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.law_state import LawState, StepHistory, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
 
-def state_of_path(program: Program, found: PathOfPart, settings: SolverSettings, log: Log) -> LawState | None:
+def state_of_path(
+    program: Program, found: PathOfPart, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE
+) -> LawState | None:
     """The state, with the misfit of the law as its residual.
+
+    interfaces : of the model that have a law of their own
 
     None where the path has no step that counts, or no forces carry what rests.
     """
@@ -33,13 +39,14 @@ def state_of_path(program: Program, found: PathOfPart, settings: SolverSettings,
     factor = rest.begins + peak.state.factor
     points = np.arange(n) if rest.points is None else rest.points
     forces, history, velocities = _of_followed(program, peak, rest, points)
+    motions, history = _of_interfaces(peak, history)
     resting = np.setdiff1d(np.arange(n), points)
     if len(resting):
-        carried = _at_rest(program, forces, factor, resting, settings, log)
+        carried = _at_rest(program, forces, factor, resting, settings, log, interfaces)
         if carried is None:
             return None
         forces[resting] = history.remembered[resting] = carried
-    return LawState(forces, velocities, factor, peak.misfit, history=history)
+    return LawState(forces, velocities, factor, peak.misfit, motions, history)
 
 
 def state_at_once(
@@ -77,8 +84,32 @@ def _of_followed(
     return forces, StepHistory(remembered, normal, shear), velocities
 
 
+def _of_interfaces(peak: PeakStep, history: StepHistory) -> tuple[FloatArray | None, StepHistory]:
+    """Motions of the interfaces of the model by torsion and by crushing, (n_interfaces, 2, 6), None where no interface
+    has any; and the history with how far they had crushed before.
+    """
+    joints, step = peak.step.joints, peak.step
+    if not joints.rows:
+        return None, history
+    motions, before = np.zeros((joints.rows[0].n_interfaces, 2, 6)), iter(step.memory.interfaces)
+    first = len(peak.state.u) - sum(rows.motions.shape[1] for rows in joints.rows)
+    for rows in joints.rows:
+        last = first + rows.motions.shape[1]
+        motions[:, int(rows.crush)] = rows.moved(peak.state.u[first:last])
+        own, first = [next(before) for _ in rows.laws], last
+        if rows.crush:
+            history = replace(history, motions=rows.moved(rows.carried_on(own) / step.length))
+    return motions, history
+
+
 def _at_rest(
-    program: Program, forces: FloatArray, factor: float, resting: IntArray, settings: SolverSettings, log: Log
+    program: Program,
+    forces: FloatArray,
+    factor: float,
+    resting: IntArray,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces,
 ) -> FloatArray | None:
     """Forces of the points that were not followed, (n, components), beside those of all, zero there; None without."""
     passed = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
@@ -89,5 +120,4 @@ def _at_rest(
     ways = selection(np.flatnonzero(touched), len(touched), size)
     loads = replace(program, dead_load=passed, live_load=np.zeros_like(passed))
     rest = restricted(loads, ways, chosen, chosen_limits(program.limits, resting))
-    carried = least_forces(rest, settings, log)
-    return None if isinstance(carried, ConeSolution) else carried
+    return resting_forces(rest, interfaces, settings, log)

@@ -131,4 +131,4 @@ def crushing_rows(program: Program, interfaces: CrushingInterfaces) -> Interface
         rows = (size * owner[:, None] + np.arange(size)).ravel()
         acts = sp.csr_array(sp.coo_array((np.ones(len(own)), (rows, own)), shape=(n_rows, len(own))))
         laws.append(InterfaceLaw(Crushing(pieces, pressed, IN_PLANE if size == 2 else IN_SPACE), acts))
-    return InterfaceRows(found.resultants, tuple(laws), found.points)
+    return InterfaceRows(found.resultants, tuple(laws), found.points, found.motions)

@@ -50,7 +50,7 @@ class ElasticJoints:
     dilatancy : tangent of the angle
     normal    : k_N, with mean 1
     shear     : k_T
-    laws      : of interfaces with a motion of their own
+    rows      : of interfaces with a motion of their own
     brittle   : (n_points, 2) which carry nothing once they have given way at f_c, and at −f_t
     """
 
@@ -60,7 +60,12 @@ class ElasticJoints:
     normal: FloatArray
     shear: FloatArray
     brittle: BoolArray
-    laws: tuple[InterfaceLaw, ...] = ()
+    rows: tuple[InterfaceRows, ...] = ()
+
+    @cached_property
+    def laws(self) -> tuple[InterfaceLaw, ...]:
+        """Of interfaces with a motion of their own, one behind the other."""
+        return tuple(law for rows in self.rows for law in rows.laws)
 
     @staticmethod
     def of(
@@ -80,8 +85,7 @@ class ElasticJoints:
         slope, brittle = np.zeros(program.n_points) if dilatancy is None else dilatancy, brittle_of(program)
         program = with_rows(program, interfaces)
         matrix = stiffness_of(with_resultants(program, interfaces))
-        laws = tuple(law for rows in interfaces for law in rows.laws)
-        return ElasticJoints(program, matrix, slope, shares, ratio * shares, brittle, laws)
+        return ElasticJoints(program, matrix, slope, shares, ratio * shares, brittle, tuple(interfaces))
 
     @cached_property
     def friction(self) -> FloatArray:

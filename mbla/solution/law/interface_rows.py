@@ -21,11 +21,34 @@ class InterfaceRows:
     resultants : R, (n_rows, components n_points)
     laws       : side by side
     released   : (n_points,) points that have no limit of compression of their own
+    motions    : (6 n_interfaces, n_rows) from velocities of the rows to motions of the interfaces of the model
     """
 
     resultants: sp.csr_array
     laws: tuple[InterfaceLaw, ...]
     released: BoolArray
+    motions: sp.csr_array
+
+    @property
+    def crush(self) -> bool:
+        """Whether they are those of crushing, whose motion stays, and not of torsion."""
+        return self.laws[0].conditions.remembers
+
+    @property
+    def n_interfaces(self) -> int:
+        """Of the model."""
+        return self.motions.shape[0] // 6
+
+    def moved(self, velocities: FloatArray) -> FloatArray:
+        """Motions of the interfaces of the model, (n_interfaces, 6), by velocities of the rows, (n_rows,)."""
+        return np.asarray((self.motions @ velocities).reshape(-1, 6))
+
+    def carried_on(self, motions: Sequence[FloatArray]) -> FloatArray:
+        """Of the rows, (n_rows,), from motions of what carries the resultants of each law, (components, m) each."""
+        pairs = [(law.rows, of_law.T.ravel()) for law, of_law in zip(self.laws, motions, strict=True)]
+        total = np.sum([rows @ values for rows, values in pairs], axis=0)
+        alike = np.sum([rows @ np.ones_like(values) for rows, values in pairs], axis=0)
+        return np.asarray(total / np.maximum(alike, 1.0))
 
 
 def with_rows(program: Program, rows: Sequence[InterfaceRows]) -> Program:

@@ -188,4 +188,4 @@ def torsion_rows(program: Program, interfaces: TwistingInterfaces) -> InterfaceR
         InterfaceLaw(Twist(found), sp.csr_array(sp.eye_array(3 * m))),
         InterfaceLaw(Shear(found), sp.csr_array(sp.diags_array(np.tile([1.0, 1.0, 0.0], m)))),
     )
-    return InterfaceRows(found.resultants, laws, np.zeros(program.n_points, dtype=bool))
+    return InterfaceRows(found.resultants, laws, np.zeros(program.n_points, dtype=bool), found.motions)

@@ -21,6 +21,7 @@ from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.path_record import RISES, UNENDED, PathStep, Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.state_of_path import state_at_once, state_of_path
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.by_stiffness import (
     another_answer,
     load_factors,
@@ -36,11 +37,17 @@ from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 
 def solve_by_elastic_path(
-    program: Program, associative: AssociativeResult, slope: FloatArray, settings: SolverSettings, log: Log
+    program: Program,
+    associative: AssociativeResult,
+    slope: FloatArray,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces = NONE,
 ) -> SequenceResult:
     """The state at the greatest load of the path.
 
-    slope : (n_points,) tangent of the angle by which joints lift as they slide
+    slope      : (n_points,) tangent of the angle by which joints lift as they slide
+    interfaces : of the model that have a law of their own
     """
     live, records = program.scaling.live, list(associative.programs)
     asked, dilates = settings.analysis.path, slope if np.any(slope) else None
@@ -54,14 +61,14 @@ def solve_by_elastic_path(
             log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
 
         by = replace(wanted, ratio=ratio, watch=watch)
-        path = path_of_part(program, associative, by, dilates, whole=whole)
+        path = path_of_part(program, associative, by, dilates, interfaces, whole=whole)
         records.append(_record(number, path, live, time.perf_counter() - started))
         return path
 
     def state_on(path: PathOfPart) -> LawState | None:
         if path.stop is Stop.AT_ONCE:
             return state_at_once(program, associative.state, slope, settings, log)
-        return state_of_path(program, path, settings, log)
+        return state_of_path(program, path, settings, log, interfaces)
 
     shown, found = asked.ratio, along(asked.ratio)
     state = state_on(found)

@@ -32,11 +32,14 @@ class StepHistory:
 
     remembered : (n_points, components) forces n̄ and t̄ that they would have if they did not move in the step
     normal, shear : (n_points,) k_N h and k_T h, force for a velocity
+    motions    : (n_interfaces, 6) by which interfaces of the model have crushed before, over the length of the step;
+                 None where none does
     """
 
     remembered: FloatArray
     normal: FloatArray
     shear: FloatArray
+    motions: FloatArray | None = None
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.search import Search
 from mbla.solution.settings import SolverSettings
@@ -26,15 +27,19 @@ from mbla.solution.solution import ProgramRecord
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 
-def looks_lower(program: Program, settings: SolverSettings) -> bool:
+def looks_lower(program: Program, settings: SolverSettings, interfaces: Interfaces = NONE) -> bool:
     """Whether states of lower load factors are looked for: in the plane, in space where the deck says how far.
 
     In space contact points let a joint carry all its force at the one point about which it twists, where friction does
     no work: of a block that is twisted alone the least load factor is nothing. That belongs to the points, not to the
-    structure, and is not looked for unasked. The reaction of a support that gives way is that of its path.
+    structure, and is not looked for unasked. The reaction of a support that gives way is that of its path, and the
+    programs of the search know points alone.
+
+    interfaces : that have a law of their own
     """
     in_question = program.components == 2 or settings.analysis.search is not None
-    return settings.by_elastic_path and settings.search > 0.0 and in_question and not program.settles
+    by_points = interfaces is NONE and not program.settles
+    return settings.by_elastic_path and settings.search > 0.0 and in_question and by_points
 
 
 def least_found(

@@ -14,6 +14,7 @@ from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.elastic import solve_by_elastic_path
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.settings import SolverSettings
@@ -26,16 +27,24 @@ NOT_PUBLISHED = Message(
 
 
 def solve_nonassociative(
-    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log
+    program: Program,
+    associative: AssociativeResult,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces = NONE,
 ) -> SequenceResult:
-    """The sequence that the flow rule and the scheme of the analysis ask for."""
+    """The sequence that the flow rule and the scheme of the analysis ask for.
+
+    interfaces : of the model that have a law of their own in the path of elastic joints
+    """
     analysis = settings.analysis
     if analysis.flow_rule == "livesley":
         from mbla.solution.nonassociative.livesley import solve_livesley
 
         return solve_livesley(program, associative, settings, log)
     if settings.by_elastic_path:
-        return solve_by_elastic_path(program, associative, slope_of(program, analysis.flow_rule), settings, log)
+        slope = slope_of(program, analysis.flow_rule)
+        return solve_by_elastic_path(program, associative, slope, settings, log, interfaces)
     return _published(program, associative, settings, log)
 
 

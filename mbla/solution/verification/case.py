@@ -118,6 +118,10 @@ class Case:
         """What the interfaces add to residuals."""
         return InterfaceTerms()
 
+    def off_flow(self, mechanics: Mechanics) -> FloatArray:
+        """How far forces of interfaces are from those with which they flow as they do, (n_interfaces,) [force]."""
+        return np.zeros(len(self.contacts))
+
     def interface_excess(self, forces: FloatArray, point_scale: FloatArray) -> float:
         """Largest excess of an interface over its conditions, relative to the scale of its points.
 

@@ -7,8 +7,9 @@ loses for a velocity::
     N = N̄ − k_N v_N + k_N tan ψ ‖T̄ − k_T v_T − T‖/k_T,  within −f_t … f_c
 
 It slides against the force that shortens T, and an open joint has none: friction and unilateral contact are parts of
-the same law. Stiffness is in proportion to area, shared equally by the points of an interface, and k_T/k_N is that of
-the path. Forces, motion and history are those of a result; no code of the step is used.
+the same law. Where interfaces crush or twist v is what their own motion leaves of that of the blocks, and how well that
+motion fits their law counts too. Stiffness is in proportion to area, shared equally by the points of an interface, and
+k_T/k_N is that of the path. Forces, motion and history are those of a result; no code of the step is used.
 """
 
 from __future__ import annotations
@@ -37,10 +38,15 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
         return float("nan")
     if not (np.isfinite(remembered).all() and np.isfinite(stiffness).all() and (stiffness > 0.0).all()):
         return float("inf")
-    v = case.velocities(mechanics.mechanism)
+    mechanism, motions = case.motion_of(mechanics)
+    v = case.velocities(mechanism) - case.interface_velocities(motions)[0]
     if not _is_in_proportion(case, stiffness, v):
         return float("inf")
-    return _off(case, mechanics.contact_forces, v, remembered, stiffness, dilatancy)
+    forces = mechanics.contact_forces
+    off = np.append(_off(case, forces, v, remembered, stiffness, dilatancy), case.off_flow(mechanics))
+    weight = np.abs(case.load_case.dead_load[case.model.free][:, :3]).sum() / max(len(forces), 1)
+    largest = max(float(np.abs(forces).max(initial=0.0)), float(weight))
+    return float(off.max(initial=0.0)) / largest if largest > 0.0 else float("nan")
 
 
 def _by_shares(case: Case) -> FloatArray:
@@ -51,8 +57,8 @@ def _by_shares(case: Case) -> FloatArray:
 
 def _off(
     case: Case, forces: FloatArray, v: FloatArray, remembered: FloatArray, stiffness: FloatArray, dilatancy: FloatArray
-) -> float:
-    """Largest force that is off the law."""
+) -> FloatArray:
+    """Forces that are off the law, (n_points,)."""
     limits, (normal_stiffness, shear_stiffness) = case.limits, stiffness.T
     trial = remembered[:, 1:] - shear_stiffness[:, None] * v[:, 1:]
     strength = np.maximum(limits.friction * forces[:, 0] + limits.cohesion, 0.0)
@@ -61,10 +67,7 @@ def _off(
     slid = np.hypot(*(trial - shear).T)
     normal = remembered[:, 0] - normal_stiffness * v[:, 0] + normal_stiffness * dilatancy * slid / shear_stiffness
     normal = np.clip(normal, -limits.tension, limits.compression)
-    off = np.hypot(normal - forces[:, 0], np.hypot(*(shear - forces[:, 1:]).T))
-    weight = np.abs(case.load_case.dead_load[case.model.free][:, :3]).sum() / max(len(forces), 1)
-    largest = max(float(np.abs(forces).max(initial=0.0)), float(weight))
-    return float(off.max(initial=0.0)) / largest if largest > 0.0 else float("nan")
+    return np.asarray(np.hypot(normal - forces[:, 0], np.hypot(*(shear - forces[:, 1:]).T)))
 
 
 def _is_in_proportion(case: Case, stiffness: FloatArray, v: FloatArray) -> bool:

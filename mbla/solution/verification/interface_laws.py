@@ -179,9 +179,20 @@ def tilt(shapes: InterfaceShapes, motions: FloatArray) -> FloatArray:
     return np.asarray((shapes.corners * opening_slope(motions)[shapes.interface_of_corner]).sum(axis=1))
 
 
-def sliding_power(laws: InterfaceLaws, resultants: FloatArray, motions: FloatArray) -> FloatArray:
-    """What slip and twist dissipate at given resultants where they do not dilate, (n,)."""
+ROUNDED, LEAST = 1e-3, 1e-6
+"""Of the path of elastic joints, over V: what the rest V − R of the strength is rounded by, and the least R."""
+
+
+def sliding_power(
+    laws: InterfaceLaws, resultants: FloatArray, motions: FloatArray, *, rounded: bool = False
+) -> FloatArray:
+    """What slip and twist dissipate at given resultants where they do not dilate, (n,).
+
+    rounded : by the law of the path of elastic joints: with √((V − R)² + (ε V)²) in the place of V − R
+    """
     total, share = shear_strength(laws, resultants)
+    if rounded:
+        share = np.maximum(total - np.hypot(total - share, ROUNDED * total), LEAST * total)
     slip = np.hypot(motions[:, 1], motions[:, 2])
     support = curve_support(slip, np.abs(motions[:, 3]) * laws.shapes.radii, laws.shapes.thetas)
     return np.where(laws.torsional, np.maximum(share, 0.0) * support + np.maximum(total - share, 0.0) * slip, 0.0)

@@ -18,7 +18,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
 from mbla.program.assemble import yield_limits
-from mbla.solution.glued import rule_of, solution_on_solids
+from mbla.solution.glued import model_of, rule_of, solution_on_solids
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.further_claims import (
@@ -29,7 +29,13 @@ from mbla.solution.verification.further_claims import (
     tilt_failures,
 )
 from mbla.solution.verification.residuals import residuals_of
-from mbla.solution.verification.verify_convex import InterfaceCase, convex_lock_failures, point_limits, verify_convex
+from mbla.solution.verification.verify_convex import (
+    InterfaceCase,
+    convex_lock_failures,
+    point_limits,
+    torsion_check,
+    verify_convex,
+)
 from mbla.solution.verification.verify_points import verify_points
 
 NOT_SHOWN = Message("standing-not-proved", "nothing is given that shows that it stands under the dead load alone")
@@ -83,7 +89,11 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
             else (*failures, *_lock_failures(model, contacts, load_case, solution))
         )
         checks = replace(checks, verified=not failures, failures=failures)
-    return replace(checks, least_load_factor=least_check(model, contacts, load_case, solution))
+    return replace(
+        checks,
+        least_load_factor=least_check(model, contacts, load_case, solution),
+        torsion_load_factor=torsion_check(model, contacts, load_case, solution),
+    )
 
 
 def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
@@ -100,7 +110,7 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     parts = solids.model, solids.contacts, solids.load_case(load_case)
     case = Case(*parts)
     if mechanics.interface_motions is not None:
-        case = InterfaceCase(*parts, solution.contact_model, rule)
+        case = InterfaceCase(*parts, model_of(part, solution), rule)
     return residuals_of(case, mechanics, case.limits.dilatancy_by(rule)).largest
 
 

@@ -24,7 +24,9 @@ from mbla.program.resultants.assemble import near_crushing, without_crushing
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.resultants.convex_repair import repaired_convex_forces, repaired_convex_motions
 from mbla.solution.solution import Checks, Mechanics, Solution
+from mbla.solution.thresholds import LIVE_POWER_DEVIATION, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
 from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, Case, InterfaceTerms, Motion
+from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.further_claims import LASTING
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,
@@ -35,6 +37,7 @@ from mbla.solution.verification.interface_laws import (
     torsion_excess,
     torsion_power,
 )
+from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.statics import allowed_motion
 from mbla.solution.verification.verify_points import checked
 
@@ -58,6 +61,21 @@ def verify_convex(model: Model, contacts: Contacts, load_case: LoadCase, solutio
         return checks
     failures = (*checks.failures, *_wrong_resultants(case, solution.mechanics))
     return replace(checks, verified=not failures, failures=failures)
+
+
+def torsion_check(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
+    """Load factor of the state with torsion of uniform pressure where it fits its law; NaN where not, or without one.
+
+    Its forces balance the loads within the conditions of points and interfaces, and follow from its motion and history.
+    """
+    state = solution.torsion
+    if state is None:
+        return np.nan
+    case = InterfaceCase(model, contacts, load_case, "convex", solution.flow_rule)
+    none = np.zeros(len(contacts.points))
+    residuals, elastic = residuals_of(case, state, none), elastic_residual(case, state, none)
+    fits = max(residuals.yielding, elastic) <= SOLVED_RESIDUAL and residuals.equilibrium <= SOLVED_EQUILIBRIUM
+    return state.load_factor if fits and abs(residuals.live_power - 1.0) <= LIVE_POWER_DEVIATION else np.nan
 
 
 @dataclass(frozen=True)
@@ -139,6 +157,30 @@ class InterfaceCase(Case):
             unexplained=float((slip + of_crushing).sum()),
             slip=float(slip.sum()),
         )
+
+    def off_flow(self, mechanics: Mechanics) -> FloatArray:
+        """How far forces of interfaces are from those with which they flow as they do, (n_interfaces,) [force].
+
+        Torsion flows by the motion of the step, crushing by all that it has been, that before the step included. Power
+        that neither force nor strength explains is, over the speed of a corner, what the force lacks; the same speed
+        times the stiffness of the points is the force that springs without that motion would have. The lesser counts,
+        as an interface that does not flow may lack any force, and one that lacks none may flow.
+        """
+        laws, resultants = self.laws, self.resultants(mechanics.contact_forces)
+        motions, stiffness = self._motions(mechanics.interface_motions), mechanics.stiffness
+        assert stiffness is not None
+        crushed = motions[:, 1] if mechanics.crushed is None else motions[:, 1] + mechanics.crushed
+        flows = (
+            (sliding_power(laws, resultants, motions[:, 0], rounded=True), motions[:, 0], stiffness[:, 1]),
+            (crushing_power(laws, crushed), crushed, stiffness[:, 0]),
+        )
+        start, interface, found = self.contacts.point_start[:-1], self.contacts.interface_of_point, []
+        for power, motion, springs in flows:
+            moved = motion[interface, :3] + np.cross(motion[interface, 3:], self._arms)
+            speed = np.maximum.reduceat(np.linalg.norm(moved, axis=1), start)
+            lacks = np.abs(power + (resultants * motion).sum(axis=1)) / np.maximum(speed, 1e-300)
+            found.append(np.minimum(lacks, np.add.reduceat(springs, start) * speed))
+        return np.asarray(np.maximum(*found))
 
     def _excess(self, forces: FloatArray) -> FloatArray:
         """Over the conditions of each interface, (n_interfaces,) [force]."""

@@ -128,19 +128,22 @@ ON_REQUEST = (
         "settings",
         "solver",
         "time",
+        "torsion_end",
+        "torsion_load_factor",
     ),
 )
-"""first keys of columns that need, or may depend on, the least load factor that a search finds"""
+"""first keys of columns that need, or may depend on, the least load factor that a search finds, or a second path"""
 
 
 def requested_only(deck: Deck, plan: Plan) -> Deck:
-    """The deck of a point, without a search for lower load factors where no column and no file shows their least.
+    """The deck of a point, without a search for lower load factors, and a path with torsion of uniform pressure, where
+    no column and no file shows what they find.
 
-    It is a further result (``mbla.solution.part``), changes no other value, and may take longer than the load factor.
+    These are further results (``mbla.solution.part``), change no other value, and may take longer than the load factor.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck
-    analysis = deck.analysis.model_copy(update={"search": 0.0})
+    analysis = deck.analysis.model_copy(update={"search": 0.0, "torsion": False})
     return replace(deck, content=deck.content.model_copy(update={"analysis": analysis}))
 
 

@@ -83,6 +83,13 @@ CASES = {
     "least a little lower": case(checks=BY_PATH | {"least_load_factor": 0.495}),
     "least far lower": case(checks=BY_PATH | {"least_load_factor": 0.45}),
     "least not verified": case(checks=BY_PATH, least=tower_mechanics(0.45)),
+    "torsion": case(checks=BY_PATH | {"torsion_load_factor": 0.42}, torsion=tower_mechanics(0.42), torsion_end="flat"),
+    "torsion, not followed to its end": case(
+        checks=BY_PATH | {"torsion_load_factor": 0.42}, torsion=tower_mechanics(0.42), torsion_end="stuck"
+    ),
+    "torsion not verified": case(checks=BY_PATH, torsion=tower_mechanics(0.42), torsion_end="flat"),
+    "torsion that does not carry the dead load": case(checks=BY_PATH, torsion_end="does not stand"),
+    "torsion of which nothing is known": case(checks=BY_PATH, torsion_end="budget"),
     "remark": case(remarks=(Message("livesley-confirms", "That is confirmed"),)),
     "self-stress": case(standing=BY_ITSELF),
     "self-stress, associative": case(of=ASSOCIATIVE, standing=BY_ITSELF),

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.resultants import convex_associative
-from mbla.solution.resultants import solve_convex as convex
 from mbla.solution.resultants.convex_associative import solve_convex_associative
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Standing, StandingResult, Status
-from mbla.solution.standing.claim import ONLY_BY_SELF_STRESS
+from mbla.solution.solution import Standing, Status
 from tests.line import BLOCK, line_of
 from tests.solution.convex_structures import DECKS
 from tests.solution.convex_structures import convex as convex_of
@@ -43,36 +41,23 @@ def test_a_program_without_an_answer_leaves_no_load_factor(sense: float, monkeyp
     assert ("whether the dead load alone is carried is not known" in result.reason) is (sense < 0)
 
 
-def test_what_locks_with_dilatancy_has_no_answer_without_a_state_of_the_law(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_locks_with_dilatancy_slides_without() -> None:
+    """A block in a groove: tan of the tilt μ/cos 30°, to which the path still rises."""
     line = line_of((DECKS / "groove.yaml").read_text(encoding="utf-8"), "parameters.mu=2", "expected={}")
-    nothing = SequenceResult(Status.APPROXIMATE, None, "did not come to rest", ())
-    monkeypatch.setattr(convex, "solve_by_alternation", lambda *arguments: nothing)
-    solution, _ = convex_of(line, "non_associative")
+    solution, checks = convex_of(line, "non_associative")
     assert solution.associative is None
-    assert solution.status is Status.NOT_VERIFIED
-    assert solution.mechanics is None
-    assert solution.reason == convex.LOCKED
-
-
-def test_what_stands_by_self_stress_alone_has_no_load_factor_without_dilatancy(monkeypatch: pytest.MonkeyPatch) -> None:
-    held = StandingResult(Standing.SELF_STRESS, 0, "only by forces locked in before")
-    monkeypatch.setattr(convex, "assess_dead_load", lambda *arguments: held)
-    for rule, status in (("associative", Status.SOLVED), ("non_associative", Status.NOT_VERIFIED)):
-        solution, _ = convex_of(line_of(BLOCK, "parameters.h=0.5"), rule)
-        assert solution.status is status
-        assert solution.standing is held
-        assert (solution.reason == ONLY_BY_SELF_STRESS) is (rule == "non_associative")
+    assert checks.verified, checks.failures
+    assert solution.mechanics is not None
+    assert solution.mechanics.load_factor == pytest.approx(2.0 / math.cos(math.pi / 6.0), rel=0.01)
 
 
 def test_a_bar_between_two_walls_that_locks_with_dilatancy_has_no_load_factor_without() -> None:
-    """Forces that carry its weight are known, as it locks: that it falls from the stress-free assembly is no doubt."""
     line = line_of((DECKS / "bar_between_walls.yaml").read_text(encoding="utf-8"))
     solution, _ = convex_of(line, "non_associative")
-    assert solution.associative is None
-    assert solution.mechanics is not None
+    assert (solution.associative, solution.mechanics) == (None, None)
     assert solution.standing is not None
     assert solution.standing.verdict is Standing.SELF_STRESS
-    assert (solution.status, solution.reason) == (Status.NOT_VERIFIED, ONLY_BY_SELF_STRESS)
+    assert solution.status is Status.NOT_VERIFIED
 
 
 @pytest.mark.parametrize("rule", ["associative", "non_associative"])

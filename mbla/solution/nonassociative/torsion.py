@@ -1,0 +1,49 @@
+"""The load at which a structure in space starts to move where torsion of its interfaces is that of uniform pressure.
+
+Contact points at the corners of an interface overstate its torsion: pressed alike they resist a twist at the greatest
+arm there is. A second path, with the torsion of uniform pressure (:mod:`mbla.solution.law.torsion_interfaces`), tells
+how much of the load factor hangs on that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.program.program import Program
+from mbla.program.resultants.twisting_interfaces import twisting_of
+from mbla.solution.associative.solve_associative import AssociativeResult
+from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.flow.path_of_part import path_of_part
+from mbla.solution.flow.path_record import Stop
+from mbla.solution.flow.settings import PathSettings
+from mbla.solution.flow.state_of_path import state_of_path
+from mbla.solution.law.interfaces import Interfaces
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.settings import SolverSettings
+
+
+@dataclass(frozen=True)
+class WithTorsion:
+    """Why the path of a part with torsion of uniform pressure ended, and its state; None where it has none."""
+
+    stop: Stop
+    state: LawState | None
+
+
+def solve_with_torsion(
+    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log, interfaces: Interfaces
+) -> WithTorsion | None:
+    """The state at the greatest load of that path; None where no interface of the program can twist.
+
+    interfaces : of the model that have a law of their own, torsion among them
+    """
+    if interfaces.twisting is None or twisting_of(program, interfaces.twisting) is None:
+        return None
+    asked = settings.analysis.path
+    wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, again=False)
+    found = path_of_part(program, associative, wanted, interfaces=interfaces)
+    state = state_of_path(program, found, settings, log, interfaces)
+    if state is None and found.lets_rest:  # what rests does not carry what is passed on to it
+        found = path_of_part(program, associative, wanted, interfaces=interfaces, whole=True)
+        state = state_of_path(program, found, settings, log, interfaces)
+    return WithTorsion(found.stop, state)
