@@ -74,9 +74,10 @@ def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contac
 
 def takes_stress_blocks(analysis: AnalysisSection) -> bool:
     """Whether flow rule, scheme and solver of an analysis go with conditions on interfaces."""
-    by_flow = analysis.flow_rule == "associative" or (
+    by_path = analysis.flow_rule == "dilatancy" or (
         analysis.flow_rule == "non_associative" and analysis.scheme == "auto"
     )
+    by_flow = by_path or analysis.flow_rule == "associative"
     return by_flow and analysis.solver in ("auto", "clarabel") and not analysis.force_ranges
 
 
@@ -90,7 +91,7 @@ def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection)
         f"joint law {names}: with this flow rule, scheme or solver compressive strength limits each contact point to "
         "its share of the area, which overstates an interface under eccentric load: with its corners alone it bears "
         "N (1 + 2 e/b) <= fc A, a stress block only N <= fc A (1 - 2 e/b), with eccentricity e and width b; "
-        "associative and non_associative flow crush as stress blocks do with scheme: auto and solver: auto or "
-        "clarabel; more points (contacts.points) bring the difference down"
+        "associative and non_associative flow, and that with dilatancy, crush as stress blocks do with scheme: auto "
+        "and solver: auto or clarabel; more points (contacts.points) bring the difference down"
     )
     return (Notice("warning", "eccentric-crushing-overstated", text),)

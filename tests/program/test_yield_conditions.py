@@ -116,10 +116,11 @@ def test_the_excess_of_points_that_also_bear_tension(tmp_path: Path, parts: int)
 
 
 def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
-    """By default, with either flow rule; not with schemes and solvers that take points alone."""
+    """By default, and with dilatancy; not with schemes and solvers that take points alone."""
     for ways, told in (
         ((), False),
         (("analysis.flow_rule=non_associative",), False),
+        (("analysis.flow_rule=dilatancy",), False),
         (("analysis.contact_model=convex",), False),
         (("analysis={flow_rule: non_associative, scheme: published}",), True),
         (("analysis.solver=mbla",), True),

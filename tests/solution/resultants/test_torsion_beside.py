@@ -121,3 +121,16 @@ def test_interfaces_that_crush_are_verified_with_what_they_had_crushed_before() 
     assert verify(line.model, line.contacts, line.load_case, solution).verified
     other = replace(solution, mechanics=replace(mechanics, crushed=-mechanics.crushed))
     assert not verify(line.model, line.contacts, line.load_case, other).verified
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("angle", [0.0, 30.0])
+def test_dilatancy_goes_with_stress_blocks(angle: float) -> None:
+    """A block that slides to where it crushes: with dilatancy as without, what bears it is the stress block."""
+    text = BLOCK.replace('friction: "=mu"', f"friction: 0.7, dilatancy: {angle}, compressive_strength: 2.e+5")
+    _, found = case_of(text, "analysis.flow_rule=dilatancy")
+    assert found.solution.stress_blocks
+    assert found.checks.verified
+    assert found.solution.mechanics is not None
+    depth = 2 * 2000 * 9.81 / 2e5
+    assert found.solution.mechanics.load_factor == pytest.approx(0.5 * (1 - depth), rel=1e-4)
