@@ -9,17 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.model.solids.ragged import next_item
-from mbla.program.resultants.conditions import M1, M2, Entries, N
 from mbla.program.resultants.torsion import TorsionLimits
 
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Sizes at given resultants, (n,), and their derivatives by all resultants, (n, 6 n_interfaces).
+    """Sizes at given resultants, (n,).
 
     total : V = μN + cA
     share : R, what acts as over the full area; both not less than zero
@@ -27,8 +25,6 @@ class FrictionLimit:
 
     total: FloatArray
     share: FloatArray
-    of_total: sp.csr_array
-    of_share: sp.csr_array
 
     @property
     def rest(self) -> FloatArray:
@@ -43,19 +39,9 @@ def friction_limit(limits: TorsionLimits, resultants: FloatArray) -> FrictionLim
     slopes = reducing_slopes(limits)
     owner = np.repeat(np.arange(n), np.diff(limits.start))
     off = (slopes * np.column_stack([-r[owner, 5], r[owner, 4]])).sum(axis=1)
-    # rows of the largest offset of each interface
-    order = np.lexsort((-off, owner))
-    active = slopes[order[limits.start[:-1]]]
-    share = total - limits.friction * off[order[limits.start[:-1]]]
-    columns, rows = 6 * limits.interfaces, np.arange(n)
-    of_total, of_share = Entries.none(), Entries.none()
-    of_total.add(rows, columns + N, np.where(total > 0, limits.friction, 0.0))
-    some = np.where(share > 0, limits.friction, 0.0)
-    of_share.add(rows, columns + N, some)
-    of_share.add(rows, columns + M1, -some * active[:, 1])
-    of_share.add(rows, columns + M2, some * active[:, 0])
-    shape = (n, 6 * len(resultants))
-    return FrictionLimit(np.maximum(total, 0.0), np.maximum(share, 0.0), of_total.matrix(shape), of_share.matrix(shape))
+    most = np.maximum.reduceat(off, limits.start[:-1]) if n else off
+    share = total - limits.friction * most
+    return FrictionLimit(np.maximum(total, 0.0), np.maximum(share, 0.0))
 
 
 def reducing_slopes(limits: TorsionLimits) -> FloatArray:
@@ -69,14 +55,6 @@ def reducing_slopes(limits: TorsionLimits) -> FloatArray:
 def curve_size(shear: FloatArray, twist: FloatArray, theta: FloatArray) -> FloatArray:
     """Size R' of the curve through (t, m), (n,); t = ``shear``, m = ``twist`` and R' are forces in one unit."""
     return np.asarray(0.5 * (theta * twist + np.sqrt((2.0 - theta) ** 2 * twist**2 + 4.0 * shear**2)))
-
-
-def curve_support(slip: FloatArray, twist: FloatArray, theta: FloatArray) -> FloatArray:
-    """Greatest power of forces on the curve of size 1 with slip ‖η‖ and twist |ρω|, (n,)."""
-    inner = 4.0 * twist**2 + (2.0 - theta) ** 2 * slip**2
-    root = np.sqrt(theta**2 * twist**2 + (1.0 - theta) * inner)
-    curved = inner / np.maximum(2.0 * (theta * twist + root), 1e-300)
-    return np.asarray(np.where(2.0 * twist <= theta * slip, slip, curved))
 
 
 def torsion_reserve(limits: TorsionLimits, resultants: FloatArray) -> FloatArray:

@@ -54,6 +54,15 @@ def rest_of(twisting: TwistingOfProgram, normal: FloatArray) -> Sizes:
     return Sizes(np.where(cut, (1.0 - LEAST) * total, size), slope)
 
 
+def rest_size(twisting: TwistingOfProgram, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """S and V − S alone, (m,) each."""
+    n = normal[twisting.points]
+    total = np.maximum(twisting.cohesion + (twisting.pressing * n).sum(axis=1), 1e-300)
+    off = np.matmul(twisting.offsets, n[:, :, None])[:, :, 0].max(axis=1)
+    size = np.minimum(np.sqrt(off**2 + (ROUNDED * total) ** 2), (1.0 - LEAST) * total)
+    return size, total - size
+
+
 def share_of(twisting: TwistingOfProgram, normal: FloatArray) -> Sizes:
     """R = V − S."""
     rest = rest_of(twisting, normal)
@@ -86,12 +95,12 @@ class Shear:
 
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (1, m)."""
-        size = rest_of(self.twisting, normal).size
+        size, _ = rest_size(self.twisting, normal)
         return np.asarray(size - (resultants**2).sum(axis=0) / size)[None]
 
     def gradients(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """∇g, (1, 3, m)."""
-        return np.asarray(-2.0 * resultants / rest_of(self.twisting, normal).size)[None]
+        return np.asarray(-2.0 * resultants / rest_size(self.twisting, normal)[0])[None]
 
     def derivatives(self, resultants: FloatArray, normal: FloatArray) -> Derivatives:
         """All of them."""
@@ -131,13 +140,13 @@ class Twist:
 
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (2, m)."""
-        one, other = self._forms(resultants, share_of(self.twisting, normal).size)
+        one, other = self._forms(resultants, rest_size(self.twisting, normal)[1])
         shear = (resultants[:2] ** 2).sum(axis=0)
         return np.where(other > 0.0, one - shear / np.where(other > 0.0, other, 1.0), np.minimum(one, other))
 
     def gradients(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """∇g, (2, 3, m)."""
-        _, other = self._forms(resultants, share_of(self.twisting, normal).size)
+        _, other = self._forms(resultants, rest_size(self.twisting, normal)[1])
         return self._gradients(resultants[:2, None] / other)
 
     def derivatives(self, resultants: FloatArray, normal: FloatArray) -> Derivatives:

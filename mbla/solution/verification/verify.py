@@ -2,7 +2,7 @@
 
 - ``verify_points``: residuals of forces and mechanism, bounds of the associative load factor, certificates;
 - ``verify_convex``: the first with conditions on the resultants of interfaces;
-- ``further_claims``: standing, lock, range, peak, the angle of a tilting table.
+- ``further_claims``: standing, lock, the least state, the angle of a tilting table.
 """
 
 from __future__ import annotations

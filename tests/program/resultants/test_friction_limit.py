@@ -13,25 +13,12 @@ from mbla.program.resultants.friction_curve import (
     safe_torsion,
 )
 from mbla.program.resultants.friction_limit import (
-    curve_support,
     friction_limit,
     torsion_reserve,
 )
 from mbla.program.resultants.torsion import TorsionLimits, torsion_limits
 from tests.program.resultants.polygons import SHAPES, points_inside, rectangle, regular
 from tests.program.resultants.test_shapes import shapes_of
-
-
-def test_support_is_the_greatest_power_over_the_curve() -> None:
-    rng = np.random.default_rng(5)
-    m = np.linspace(0, 1, 20001)
-    for theta in (0.0, 0.65, 1.0):
-        t = np.sqrt((1 - m) * (1 + (1 - theta) * m))
-        for slip, twist in rng.uniform(0, 1, (20, 2)):
-            most = (slip * t + twist * m).max()
-            found = curve_support(np.array([slip]), np.array([twist]), np.array([theta]))
-            assert found == pytest.approx(most, abs=1e-5)
-
 
 TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.25, 0.75))
 
@@ -59,19 +46,6 @@ def test_what_acts_over_the_whole_area_falls_to_the_corners_and_edges(cohesion: 
             assert size.share == pytest.approx((1 - t) * 0.5 * 2.0 + cohesion, abs=1e-12)
     beyond = friction_limit(limits, pressed_at(3.0 * corners[0]))
     assert beyond.share == pytest.approx(0.0)
-
-
-def test_sizes_change_with_the_resultants_as_their_derivatives_say() -> None:
-    limits, h = triangle(cohesion=0.1), 1e-6
-    draw = np.random.default_rng(4)
-    for _ in range(20):
-        r = np.append(draw.uniform(-1, 3), draw.normal(scale=0.2, size=5))[None]
-        exact = friction_limit(limits, r)
-        for j in range(6):
-            up, down = (friction_limit(limits, r + s * h * np.eye(6)[j]) for s in (1, -1))
-            for name, by in (("total", exact.of_total), ("share", exact.of_share)):
-                rise = (getattr(up, name) - getattr(down, name)) / (2 * h)
-                assert rise == pytest.approx(by.toarray()[:, j], abs=1e-6)
 
 
 def test_reserve_is_what_no_twist_needs() -> None:
