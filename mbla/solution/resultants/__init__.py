@@ -1,1 +1,1 @@
-"""Conditions on resultants of whole interfaces, torsion and crushing: associative, and beside the path of elastic joints."""
+"""Conditions on resultants of whole interfaces, torsion and crushing: associative, and beside elastic joints."""
