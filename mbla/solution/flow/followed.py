@@ -126,7 +126,7 @@ def is_too_rough(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
 
 def is_lost(path: ElasticPath) -> bool:
     """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
-    if path.stop in (Stop.STUCK, Stop.BROKE_DOWN, Stop.BUDGET):
+    if path.stop in (Stop.STUCK, Stop.BROKE_DOWN):
         return path.moving > HELD * path.load_factor
     return path.recentred > 0 and path.moving < FALLEN * path.load_factor
 
