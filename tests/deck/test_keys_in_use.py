@@ -19,7 +19,8 @@ from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges gap max_iterations reductions residual search standing time_limit tolerance",
+    "AnalysisSection": "force_ranges gap max_iterations reductions residual search standing time_limit tolerance "
+    "torsion",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PathOfJoints": "ratio",

@@ -113,13 +113,13 @@ class Stiffness(Places):
         """Factorise with C, (n_points, components, components).
 
         shift   : (n_rows,) of the diagonal
-        further : (n_rows, n_rows) added to K, within its pattern
+        further : (n_rows, n_rows) added to K; quickly where it lies within its pattern
 
         None where the matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
         if further is not None:
-            matrix.data[self._places_of(further)] -= further.data
+            matrix = self._less(matrix, further)
         finite = bool(np.isfinite(matrix.data).all())
         factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
@@ -143,17 +143,20 @@ class Stiffness(Places):
         matrix.data = entries
         return matrix
 
-    def _places_of(self, further: sp.csr_array) -> IntArray:
-        """Places of the entries of another matrix, (n_entries,)."""
+    def _less(self, matrix: sp.csc_array, further: sp.csr_array) -> sp.csc_array:
+        """The matrix less another one in the order of the program's rows."""
         n = len(self.order)
         place = np.empty(n, dtype=np.int64)
         place[self.order] = np.arange(n)
-        row, column = further.tocoo().coords
+        row, column = (place[each] for each in further.tocoo().coords)
         keys = np.repeat(np.arange(n), np.diff(self.pointers)) * n + self.indices
-        wanted = place[column] * n + place[row]
+        wanted = column * n + row
         found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        assert (keys[found] == wanted).all()
-        return found
+        if (keys[found] == wanted).all():
+            matrix.data[found] -= further.data
+            return matrix
+        # a point at the middle of an interface does not twist it, and its normal force bounds how it is twisted
+        return sp.csc_array(matrix - sp.csc_array((further.data, (row, column)), shape=matrix.shape))
 
     @cached_property
     def _pattern(self) -> sp.csc_array:

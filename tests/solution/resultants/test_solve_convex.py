@@ -211,7 +211,7 @@ def test_block_in_a_groove_slides_without_dilatancy() -> None:
     solution, checks = convex(line_of(text), "non_associative")
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(0.84 / np.cos(np.pi / 6), rel=5e-4)
-    assert checks.elastic_residual < 1e-5
+    assert checks.elastic_residual < 1e-4
 
 
 def test_result_without_dilatancy_is_below_the_associative_one_and_fits_the_law() -> None:
@@ -221,7 +221,7 @@ def test_result_without_dilatancy_is_below_the_associative_one_and_fits_the_law(
     assert checks.verified, checks.failures
     assert solution.mechanics is not None
     assert solution.associative is not None
-    assert checks.elastic_residual < 1e-5
+    assert checks.elastic_residual < 1e-4
     assert solution.mechanics.load_factor <= solution.associative.load_factor * (1 + 1e-7)
 
 
