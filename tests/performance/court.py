@@ -6,11 +6,11 @@
     python -m tests.performance.court run BEFORE decks walls --limit 600
     python -m tests.performance.court compare BEFORE AFTER  what differs, a table of counts and of cases
 
-Sets: ``decks`` (every deck by its own flow rule, associative and without dilatancy), ``walls`` (20 to 100 courses, in
-the plane and in space), ``corpora`` (random assemblies of tests/trust), ``experiments`` (dry-stone walls that were
-pushed). A run of a set goes on where the file ends, so that it may be stopped. Each deck runs in a process of its own
-on one thread; seconds are of the processor, for all that the solver stage does. Associative figures must agree to 1e-9,
-statuses must be the same; other figures are printed where they differ by more than 1e-6.
+Sets: ``decks`` (every deck by its own flow rule), ``rules`` (associative and without dilatancy), ``walls`` (20 to 100
+courses, in the plane and in space), ``corpora`` (random assemblies of tests/trust), ``experiments`` (dry-stone walls
+that were pushed). A run of a set goes on where the file ends, so that it may be stopped. Each deck runs in a process of
+its own on one thread; seconds are of the processor, for all that the solver stage does. Associative figures must agree
+to 1e-9, statuses must be the same; other figures are printed where they differ by more than 1e-6.
 """
 
 from __future__ import annotations
@@ -60,6 +60,7 @@ class Verdict:
     standing: str
     seconds: float
     reason: str
+    end: str
 
     @property
     def key(self) -> tuple[str, str, str]:
@@ -68,10 +69,14 @@ class Verdict:
 
 
 def decks() -> Iterator[Deck]:
-    """Every deck, by its own flow rule, with associative flow and without dilatancy."""
+    """Every deck, by its own flow rule."""
     for path in PATHS:
-        name = str(path.relative_to(DECKS).with_suffix(""))
-        yield name, path, ()
+        yield str(path.relative_to(DECKS).with_suffix("")), path, ()
+
+
+def rules() -> Iterator[Deck]:
+    """Every deck with associative flow and without dilatancy."""
+    for name, path, _ in decks():
         for rule in ("associative", "non_associative"):
             yield f"{name} {rule}", path, (f"analysis.flow_rule={rule}",)
 
@@ -126,7 +131,7 @@ def dry_wall(
     }
 
 
-SETS = {"decks": decks, "walls": walls, "corpora": corpora, "experiments": experiments}
+SETS = {"decks": decks, "rules": rules, "walls": walls, "corpora": corpora, "experiments": experiments}
 
 
 def run(label: str, sets: list[str], limit: int) -> None:
@@ -173,7 +178,7 @@ def judged(
     cases = found.get("cases", [])
     if not cases:
         nothing = float("nan")
-        return [Verdict(name, deck, "", f"exit {child.returncode}", nothing, nothing, nothing, "", nothing, "")]
+        return [Verdict(name, deck, "", f"exit {child.returncode}", nothing, nothing, nothing, "", nothing, "", "")]
     return [_verdict(name, deck, case) for case in cases]
 
 
@@ -194,6 +199,7 @@ def _verdict(name: str, deck: str, case: dict[str, Any]) -> Verdict:
         str(standing.get("verdict", "") if isinstance(standing, dict) else standing or ""),
         float(case["time"]["solver"]),
         str(case.get("reason") or ""),
+        str(case.get("path_end") or ""),
     )
 
 
@@ -217,6 +223,7 @@ def _row(row: dict[str, str]) -> Verdict:
         row["standing"],
         float(row["seconds"]),
         row["reason"],
+        row["end"],
     )
 
 

@@ -182,8 +182,8 @@ def _vectors(scene: Scene, solved: Solved, other: Solved, number: int, how: Tran
 
 
 def without_normality(scene: Scene) -> Scene:
-    """The scene under the exact law without dilatancy, with the range of load factors of its mechanism."""
-    return with_analysis(scene, flow_rule="non_associative", accuracy="standard", range=True, standing=True)
+    """The scene without dilatancy."""
+    return with_analysis(scene, flow_rule="non_associative", accuracy="standard", standing=True)
 
 
 def _judged_without_normality(scene: Scene, case: CaseResult, other: CaseResult, how: Transformation) -> Comparison:
