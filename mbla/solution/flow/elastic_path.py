@@ -19,8 +19,9 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.solution.flow.fall import Fall
 from mbla.solution.flow.gravity_step import Gravity
+from mbla.solution.flow.greatest_steps import GreatestSteps
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
-from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak, with_openings
+from mbla.solution.flow.peak_step import PeakStep, centred, with_openings
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, mean_live_load
 from mbla.solution.law.brittle import let_go, share_until_break, without
@@ -53,18 +54,6 @@ half: a dome on its drum snaps there, and no smoothing led on from where it was 
 NOT_LOW = Fall()
 """No step below the peak."""
 
-NEAR, MOST_NEAR = 1e-3, 8
-"""Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
-the decks four peaks could not, each had one that could among the eight greatest, within 0.05 % of it."""
-
-LEVEL = 1e-5
-"""Share of the peak by which a later step may lie below it and take its place: where the load stays joints that hold no
-longer creep, and the motion is that of the fall."""
-
-ONWARDS, ALIKE = 0.05, 1e-3
-"""Length of the short step after that of the peak, in units, and share of its load factor within which it stands for
-it."""
-
 AT_BREAK, NEARLY = 10, 0.99
 """Lengths tried for the step to where a tie breaks, and share of the way to there, or of a length between which and the
 next it breaks, that is near enough."""
@@ -90,10 +79,7 @@ class _Path:
     scale, unit : load factor and displacement that it is measured by
     h, kappa : length of the next step, in time, and smoothing κ
     force    : n₀
-    top      : step of the greatest load factor so far
-    near     : steps next below it, the greatest first
-    later    : the same of the steps after it that are smoothed half as much: early ones may be smoothed much
-    half     : the same over half of the path
+    peaks    : steps among which the greatest load factor is
     risen    : greatest load factor so far, and displacement at which it last rose by a thousandth
     least    : least load factor of the steps that count since then
     low      : steps in a row that do not rise below the peak
@@ -113,12 +99,9 @@ class _Path:
     h: float = field(init=False)
     kappa: float = field(init=False)
     force: float = field(init=False)
+    peaks: GreatestSteps = field(init=False)
     good: float = field(init=False)
     displacement: float = 0.0
-    top: PeakStep | None = None
-    near: list[PeakStep] = field(default_factory=list)
-    later: PeakStep | None = None
-    half: PeakStep | None = None
     risen: tuple[float, float] = (0.0, 0.0)
     least: float = 0.0
     low: Fall = NOT_LOW
@@ -134,6 +117,7 @@ class _Path:
         """At rest, moving as if all joints were stuck."""
         joints, live = self.joints, self.joints.program.live_load
         self.force = max(self.gravity.force, mean_live_load(joints.program, self.scale))
+        self.peaks = GreatestSteps(self.force, self.unit)
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
         at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())
@@ -154,11 +138,6 @@ class _Path:
         """Products of the law in the next step."""
         return self.force**2 / (self.kappa * self.h)
 
-    @property
-    def peak(self) -> float:
-        """The greatest load factor so far."""
-        return 0.0 if self.top is None else self.top.state.factor
-
     def advance(self) -> Stop | None:
         """One step; why the path ends after it, None where it goes on."""
         left = (self.settings.until - self.displacement) * self.unit
@@ -174,8 +153,8 @@ class _Path:
             return Stop.BROKE_DOWN
         direction, reach = found
         self.state, length = before.plus(direction, length_of(reach)), length_of(reach)
-        if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.half is None:
-            self.half = self.top
+        if self.displacement + length * self.h / self.unit > 0.5 * self.settings.until and self.peaks.half is None:
+            self.peaks.half = self.peaks.top
         self.displacement += length * self.h / self.unit
         gone = PeakStep(replace(step, length=length * self.h), sigma, self.state, self.displacement)
         breaking = np.zeros(0, dtype=np.int64)
@@ -198,41 +177,25 @@ class _Path:
 
         The peak may be where the first of them breaks.
         """
-        whole, spent = solved_peak(gone, self.force)
-        self.factorizations += spent
+        whole = self.peaks.solve(gone)
         share, breaking = self._share_until_break(whole)
         low, high, length = 0.0, whole.step.length, whole.step.length
         for _ in range(AT_BREAK if len(breaking) else 0):
             length = share * length if low < share * length < high else 0.5 * (low + high)
             there = replace(gone, step=replace(gone.step, length=length))
-            sharp, spent = solved_peak(there, self.force)
-            self.factorizations += spent
+            sharp = self.peaks.solve(there)
             if sharp.state is there.state:
                 break
             share = self._share_until_break(sharp)[0]
             low, high = (length, high) if share > 1.0 else (low, length)
             if NEARLY < share < 1.0 / NEARLY or low > NEARLY * high:
-                self.top = sharp if sharp.state.factor > self.peak else self.top
+                self.peaks.take(sharp)
                 break
         return breaking, whole
 
     def _share_until_break(self, gone: PeakStep) -> tuple[float, IntArray]:
         opened = gone.step.length * self.joints.velocities(gone.state.u)[0]
         return share_until_break(self.joints, self.memory, opened)
-
-    def _onwards(self, top: PeakStep) -> tuple[PeakStep, int]:
-        """The short step after that of the peak, solved, unless the load falls in it; factorisations spent.
-
-        What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
-        """
-        step, joints = top.step, top.step.joints
-        moved = step.length * joints.velocities(top.state.u)
-        motions = [step.length * motion for motion in joints.motions(top.state.u)]
-        memory = step.memory.after(joints, moved, top.state.normal, motions)
-        after = replace(top, step=replace(step, memory=memory, length=ONWARDS * self.unit))
-        after, spent = solved_peak(after, self.force)
-        level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
-        return (after if level else top), spent
 
     def _shorten(self, h: float) -> None:
         """A shorter step, as smooth as it was."""
@@ -251,22 +214,12 @@ class _Path:
         if float(np.abs(unbalanced).max(initial=0.0)) >= self.settings.counted:
             return False
         if gone is not None:
-            self._keep_near(gone)
-        if gone is not None and (self.top is None or state.factor > self.top.state.factor - LEVEL * self.peak):
-            self.top, self.later = gone, None
-        elif gone is not None and self.top is not None and gone.sigma <= 0.5 * self.top.sigma:
-            self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
+            self.peaks.keep(gone)
         self.in_balance, self.fallen = len(self.steps) + 1, max(self.fallen, state.factor)
         if state.factor > 1.001 * self.risen[0]:
             self.risen, self.least = (state.factor, self.displacement), state.factor
         self.least = min(self.least, state.factor)
         return True
-
-    def _keep_near(self, gone: PeakStep) -> None:
-        """Steps that may stand for the peak."""
-        greatest = gone.state.factor if self.top is None else max(self.top.state.factor, gone.state.factor)
-        near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - NEAR) * greatest]
-        self.near = sorted(near, key=lambda each: -each.state.factor)[:MOST_NEAR]
 
     def _smoothed_little(self, sigma: float) -> bool:
         """Whether smoothing takes less than a third of the live power at the associative load."""
@@ -310,10 +263,10 @@ class _Path:
         elif reach > 0.5:
             self.kappa = min(settings.most_smoothing, 2.0 * self.kappa)
         self.h = min(self.h, max(settings.longest * self.displacement, settings.first) * self.unit)
-        if self.blocked[0] >= 2 and self.displacement > SETTLED and self.peak > 0.0:
+        if self.blocked[0] >= 2 and self.displacement > SETTLED and self.peaks.load_factor > 0.0:
             half = [s.load_factor for s in self.steps if s.displacement <= 0.5 * self.displacement and s.counted]
             passed = self.displacement > max(0.5 * settings.until, PASSED * self.risen[1])
-            if passed or self.peak < 1.005 * max(half, default=0.0):
+            if passed or self.peaks.load_factor < 1.005 * max(half, default=0.0):
                 return Stop.FLAT
         if self.blocked[0] >= 2:
             self._recentre()
@@ -339,27 +292,9 @@ class _Path:
 
     def result(self, stop: Stop) -> ElasticPath:
         """The path, with the steps of its peaks solved."""
-        spent = self.factorizations + self.gravity.steps
-        peaks = [self.top, self.half if stop is Stop.FAR else None]
-        for place, peak in enumerate(peaks):
-            if peak is not None:
-                peaks[place], more = solved_peak(peak, self.force)
-                spent += more
-        top, half = peaks
-        for near in self.near:
-            if top is None or top.is_solved or near is self.top:
-                continue
-            other, more = solved_peak(near, self.force)
-            spent += more
-            top = min(top, other, key=lambda peak: peak.misfit)
-        if top is not None and self.later is not None:
-            rough = self.top is not None and top.state is self.top.state and not self._smoothed_little(top.sigma)
-            if rough or top.state.factor < self.later.state.factor:
-                later, more = solved_peak(self.later, self.force)
-                spent += more
-                top = later if rough else max(top, later, key=lambda peak: (peak.is_solved, peak.state.factor))
-        if top is not None and top.is_solved and not self.broken:
-            top, more = self._onwards(top)
-            spent += more
+        peaks = self.peaks
+        top = peaks.greatest(self._smoothed_little, onwards=not self.broken)
+        half = peaks.solve(peaks.half) if stop is Stop.FAR and peaks.half is not None else None
+        spent = self.factorizations + peaks.spent + self.gravity.steps
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
         return ElasticPath(*found)

@@ -1,0 +1,100 @@
+"""The steps of a path among which its greatest load factor is: kept on the way, solved at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from mbla.solution.flow.peak_step import PeakStep, solved_peak
+
+NEAR, MOST_NEAR = 1e-3, 8
+"""Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
+the decks four peaks could not, each had one that could among the eight greatest, within 0.05 % of it."""
+
+LEVEL = 1e-5
+"""Share of the peak by which a later step may lie below it and take its place: where the load stays joints that hold no
+longer creep, and the motion is that of the fall."""
+
+ONWARDS, ALIKE = 0.05, 1e-3
+"""Length of the short step after that of the peak, in units, and share of its load factor within which it stands for
+it."""
+
+
+@dataclass
+class GreatestSteps:
+    """Of a path that is on its way.
+
+    force : n₀
+    unit  : of displacement
+    top   : step of the greatest load factor so far
+    near  : steps next below it, the greatest first
+    later : the greatest of the steps after it that are smoothed half as much: early ones may be smoothed much
+    half  : the greatest over half of the path
+    spent : factorisations on solving them
+    """
+
+    force: float
+    unit: float
+    top: PeakStep | None = None
+    near: list[PeakStep] = field(default_factory=list)
+    later: PeakStep | None = None
+    half: PeakStep | None = None
+    spent: int = 0
+
+    @property
+    def load_factor(self) -> float:
+        """The greatest so far."""
+        return 0.0 if self.top is None else self.top.state.factor
+
+    def keep(self, gone: PeakStep) -> None:
+        """A step in balance, where it is one of them."""
+        factor = gone.state.factor
+        greatest = factor if self.top is None else max(self.top.state.factor, factor)
+        near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - NEAR) * greatest]
+        self.near = sorted(near, key=lambda each: -each.state.factor)[:MOST_NEAR]
+        if self.top is None or factor > self.top.state.factor - LEVEL * self.load_factor:
+            self.top, self.later = gone, None
+        elif gone.sigma <= 0.5 * self.top.sigma:
+            self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
+
+    def take(self, solved: PeakStep) -> None:
+        """A step that was solved on the way, where it is the greatest."""
+        self.top = solved if solved.state.factor > self.load_factor else self.top
+
+    def solve(self, step: PeakStep) -> PeakStep:
+        """A step solved, and what that took counted."""
+        solved, spent = solved_peak(step, self.force)
+        self.spent += spent
+        return solved
+
+    def greatest(self, smoothed_little: Callable[[float], bool], *, onwards: bool) -> PeakStep | None:
+        """The step of the greatest load factor, solved as far as it can be.
+
+        smoothed_little : whether products of a size smooth the law little
+        onwards         : followed by a short step, unless the load falls in it
+        """
+        if self.top is None:
+            return None
+        top = self.solve(self.top)
+        for near in self.near:
+            if not top.is_solved and near is not self.top:
+                top = min(top, self.solve(near), key=lambda peak: peak.misfit)
+        if self.later is not None:
+            rough = top.state is self.top.state and not smoothed_little(top.sigma)
+            if rough or top.state.factor < self.later.state.factor:
+                later = self.solve(self.later)
+                top = later if rough else max(top, later, key=lambda peak: (peak.is_solved, peak.state.factor))
+        return self._onwards(top) if onwards and top.is_solved else top
+
+    def _onwards(self, top: PeakStep) -> PeakStep:
+        """The short step after that of the peak, solved, unless the load falls in it.
+
+        What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
+        """
+        step, joints = top.step, top.step.joints
+        moved = step.length * joints.velocities(top.state.u)
+        motions = [step.length * motion for motion in joints.motions(top.state.u)]
+        memory = step.memory.after(joints, moved, top.state.normal, motions)
+        after = self.solve(replace(top, step=replace(step, memory=memory, length=ONWARDS * self.unit)))
+        level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
+        return after if level else top
