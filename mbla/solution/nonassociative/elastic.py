@@ -77,6 +77,8 @@ def solve_by_elastic_path(
         state = state_on(found)
     followed = {shown: found}
     status, reason = _claim(found, state, live)
+    if status in WITH_VALUE and state is not None and _at_limit(program, found, state, interfaces):
+        status, reason = Status.APPROXIMATE, AT_LIMIT.format(f"{state.load_factor * live:.2g}")
     if status is Status.UNBOUNDED and not _carries_the_live_load(program):
         status, reason = Status.NOT_VERIFIED, NOT_ALONE
     above = np.inf if associative.state is None else associative.state.load_factor
@@ -128,6 +130,20 @@ def _carries_the_live_load(program: Program) -> bool:
     return stress_free_state(alone).rest is not None
 
 
+def _at_limit(program: Program, found: PathOfPart, state: LawState, interfaces: Interfaces) -> bool:
+    """Whether a load factor is next to nothing beside what its state misses of the law, in shares of the dead load.
+
+    Without a path, what interfaces crush as the structure moves at once is not known.
+    """
+    if found.stop is Stop.AT_ONCE:
+        return interfaces is not NONE
+    return state.residual * program.dead_over_live > AT_MOST * abs(state.load_factor)
+
+
+AT_MOST = 0.02
+"""Share of the load factor: it was 1.5 where a block crushes at 1 + 1e-6 of its weight stress, a quarter off."""
+
+
 def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:
     """Load factors over displacements, of the model."""
     if found.path is None or found.rest is None:
@@ -175,6 +191,10 @@ HANGS = Message(
     "elastic-path-by-stiffness",
     "how stiff its joints are decides: it starts to move at {} where they have {} of their stiffness in shear, at {} "
     "with {}",
+)
+AT_LIMIT = Message(
+    "elastic-path-at-limit",
+    "it stands at its limit: its load factor, {}, is next to what its state misses of the law of elastic joints",
 )
 UNENDED_PATH = Message(
     "elastic-path-not-ended",
