@@ -131,13 +131,13 @@ def _carries_the_live_load(program: Program) -> bool:
 
 
 def _at_limit(program: Program, found: PathOfPart, state: LawState, interfaces: Interfaces) -> bool:
-    """Whether a load factor is next to nothing beside what its state misses of the law, in shares of the dead load.
+    """Whether a load factor is next to nothing beside what its state misses of the law of interfaces.
 
-    Without a path, what interfaces crush as the structure moves at once is not known.
+    In shares of the dead load. Without a path, what interfaces crush as the structure moves at once is not known.
     """
-    if found.stop is Stop.AT_ONCE:
-        return interfaces is not NONE
-    return state.residual * program.dead_over_live > AT_MOST * abs(state.load_factor)
+    if interfaces is NONE or program.settles:
+        return False
+    return found.stop is Stop.AT_ONCE or state.residual * program.dead_over_live > AT_MOST * abs(state.load_factor)
 
 
 AT_MOST = 0.02
