@@ -259,6 +259,7 @@ def test_a_killed_run_leaves_load_cases_and_steps_that_are_done(
     assert [name for name in names("wall.out") if "partial" in name] == []
 
 
+@pytest.mark.long
 def test_an_interrupted_pushover_leaves_its_steps(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -72,6 +72,7 @@ dome, a column, a stair with fixed blocks of its own, meshes from a file, half o
 SLOW = [f"tutorials/{name}.yaml" for name in ("wall", "measured_arch", "dome", "obj_wall", "half_of_a_front", "arch")]
 
 
+@pytest.mark.long
 @pytest.mark.every(3)
 @pytest.mark.parametrize("deck", [pytest.param(deck, marks=[pytest.mark.long] * (deck in SLOW)) for deck in STRUCTURES])
 def test_macro_blocks_have_the_load_factor_of_the_blocks(written: Written, deck: str) -> None:
@@ -191,6 +192,7 @@ def test_a_coarser_division_carries_more(written: Written) -> None:
     assert run.load_factor > 1.1 * before.load_factor
 
 
+@pytest.mark.long
 def test_the_parts_of_associative_flow_prove_the_factor_of_a_deck_without_normality(
     written: Written, door: Path
 ) -> None:

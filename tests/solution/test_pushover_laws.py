@@ -103,6 +103,7 @@ def test_glued_blocks_are_one() -> None:
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-5)
 
 
+@pytest.mark.long
 def test_the_thrust_of_an_arch_that_spreads_is_that_of_statics() -> None:
     """W x / z of a half as it lies, its hinges as far apart as the span has grown."""
     case = pushed_case(SPREADING)
@@ -196,6 +197,7 @@ WALLS = (
 """Two walls 20 mm apart."""
 
 
+@pytest.mark.long
 def test_blocks_that_meet_do_not_overlap() -> None:
     """A wall that rocks against its neighbour, and both as one from there on, or none where the neighbour is fixed."""
     push = "load_cases: {all: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005, control: {on: a}}}}\n"

@@ -97,6 +97,7 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.04, un
 )
 
 
+@pytest.mark.long
 def test_a_slack_tie_does_not_break_as_it_gets_as_long_again() -> None:
     """Under its tie a block slides by 0.8 m until that is as long as at first, and by 0.874 m until it breaks."""
     _, case = case_of(SLIDING)

@@ -29,6 +29,7 @@ def factor_of(flow: str, law: str = "", ties: str = "") -> float:
     return case.solution.mechanics.load_factor
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("flow", ["associative", "non_associative"])
 @pytest.mark.parametrize("acts", ["tension", "both"])
 def test_ties(flow: str, acts: str) -> None:

@@ -83,6 +83,7 @@ def test_one_in_a_list_is_that_one_alone() -> None:
     assert first == second == pytest.approx(WEIGHT / 3, rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_result_file_has_them_and_is_verified(tmp_path: Path) -> None:
     (path := tmp_path / "beam.yaml").write_text(
         BEAM.replace("LEFT", ", amount: 0.02").replace("RIGHT", ", amount: 0.04"), encoding="utf-8"

@@ -39,6 +39,7 @@ def ratios(found: Assessment) -> dict[str, float]:
     return {state: each.value for state, each in found.ratios.items()}
 
 
+@pytest.mark.long
 def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     run = mbla.run(FACADE, output=tmp_path)
     case = run.case("outwards")

@@ -43,6 +43,7 @@ def test_every_kind_of_deck_and_setting_is_answered_as_from_scratch(seed: int) -
     assert set(memory.found) >= {"structure", "contacts", "standing"}
 
 
+@pytest.mark.long
 def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     friction_and_direction: list[tuple[str, Settings]] = [
         (ARCH, {**SMALL_ARCH, "parameters.mu": mu, "load_cases.push_x.live.0.acceleration": direction})

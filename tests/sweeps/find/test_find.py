@@ -252,6 +252,7 @@ load_cases:
 stress-free assembly it stands only by self-stress."""
 
 
+@pytest.mark.long
 def test_what_stands_only_by_self_stress_lies_below_a_load_factor() -> None:
     """Closed form without dilatancy: sliding along the line of intersection, T = s (tan 20 N_a + tan 30 N_b)."""
     a = np.array([0.6830127019, -0.1830127019, 0.7071067812])

@@ -116,6 +116,7 @@ def test_files_that_the_deck_names_lie_beside_the_strengthened_one(path: Path) -
     assert verify_file(path.parent / "deck.out" / "deck_strengthened.h5")[1] == ()
 
 
+@pytest.mark.long
 def test_flow_without_dilatancy_decides_and_capacities_are_raised_for_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
