@@ -131,7 +131,7 @@ def check_convex(rows: Sequence[Row]) -> None:
     assert (turns >= -SAME * factors.max() ** 2).all()
 
 
-@pytest.mark.long
+@pytest.mark.trust
 def test_the_diagram_of_the_house_is_convex_and_has_the_figures_of_its_deck() -> None:
     rows = solve_some(prepared_sweep("house_directions"), lambda row: number(row, "direction") % 30 == 0)
     check_convex(rows)
