@@ -64,6 +64,7 @@ def test_a_block_slides_along_the_fold() -> None:
 MIRROR = np.diag([1.0, -1.0, 1.0])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("face", [RIDGE, SADDLE], ids=["a shorter diagonal", "equal diagonals"])
 def test_no_position_and_no_order_of_corners_or_blocks_decides(face: FloatArray) -> None:
     one = factor_of(deck(face, (1, 0.3)))

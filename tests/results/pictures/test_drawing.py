@@ -247,6 +247,7 @@ def test_pictures_in_space_show_hinge_gap_and_groups(tmp_path: Path) -> None:
     assert near(model, group_colours(tower_results().model.blocks.groups)["tower"], 0.2) > 20
 
 
+@pytest.mark.long
 @needs_opengl
 def test_figures_that_are_no_result_are_framed_in_red(tmp_path: Path) -> None:
     results = tower_results()
