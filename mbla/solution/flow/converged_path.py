@@ -66,10 +66,7 @@ class _Path:
         if there.misfit > ROUGH:
             self.length, self.halved = 0.5 * length, self.halved + 1
             return Stop.STUCK if self.length < SHORTEST else self._over()
-        h = there.step.length
-        moved = h * self.joints.velocities(there.state.u)
-        motions = [h * motion for motion in self.joints.motions(there.state.u)]
-        self.state, self.memory = there.state, self.memory.after(self.joints, moved, there.state.normal, motions)
+        self.state, self.memory = there.state, there.memory
         self.displacement += length
         if self.top is None or there.state.factor > self.top.state.factor:
             self.top = there

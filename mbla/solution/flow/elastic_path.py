@@ -160,9 +160,7 @@ class _Path:
         breaking = np.zeros(0, dtype=np.int64)
         if len(self._share_until_break(gone)[1]):
             breaking, gone = self._breaking(gone)
-        moved = gone.step.length * self.joints.velocities(gone.state.u)
-        motions = [gone.step.length * motion for motion in self.joints.motions(gone.state.u)]
-        self.memory = self.memory.after(self.joints, moved, gone.state.normal, motions)
+        self.memory = gone.memory
         counted = self._counts(None if len(breaking) else gone)
         opened, slide = self.memory.yielding(self.joints, self.state.normal)
         step_gone = PathStep(self.displacement, self.state.factor, counted, reach, opened, slide)

@@ -91,10 +91,7 @@ class GreatestSteps:
 
         What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
         """
-        step, joints = top.step, top.step.joints
-        moved = step.length * joints.velocities(top.state.u)
-        motions = [step.length * motion for motion in joints.motions(top.state.u)]
-        memory = step.memory.after(joints, moved, top.state.normal, motions)
-        after = self.solve(replace(top, step=replace(step, memory=memory, length=ONWARDS * self.unit)))
+        step = replace(top.step, memory=top.memory, length=ONWARDS * self.unit)
+        after = self.solve(replace(top, step=step))
         level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
         return after if level else top

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.solution.law.elastic_joints import ElasticJoints, StepState, within
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
 from mbla.solution.law.exact_law import misfit
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
@@ -40,6 +40,14 @@ class PeakStep:
     def is_solved(self) -> bool:
         """Whether the law holds."""
         return self.misfit <= (EXACT_OF_LAWS if self.step.joints.laws else EXACT)
+
+    @property
+    def memory(self) -> Memory:
+        """What the joints remember after it."""
+        step, state, joints = self.step, self.state, self.step.joints
+        moved = step.length * joints.velocities(state.u)
+        motions = [step.length * motion for motion in joints.motions(state.u)]
+        return step.memory.after(joints, moved, state.normal, motions)
 
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:

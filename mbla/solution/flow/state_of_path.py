@@ -6,6 +6,7 @@ what is passed on to it, and remembers these.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +23,22 @@ from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.law_state import LawState, StepHistory, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
+
+
+def path_with_state(
+    along: Callable[[bool], PathOfPart], state_on: Callable[[PathOfPart], LawState | None]
+) -> tuple[PathOfPart, LawState | None]:
+    """The path of what moves, or of the whole where what rests does not carry what is passed on to it; and its state.
+
+    along    : the path, of the whole if told so
+    state_on : its state
+    """
+    found = along(False)
+    state = state_on(found)
+    if state is None and found.lets_rest:
+        found = along(True)
+        state = state_on(found)
+    return found, state
 
 
 def state_of_path(

@@ -145,18 +145,23 @@ class Stiffness(Places):
 
     def _less(self, matrix: sp.csc_array, further: sp.csr_array) -> sp.csc_array:
         """The matrix less another one in the order of the program's rows."""
-        n = len(self.order)
-        place = np.empty(n, dtype=np.int64)
-        place[self.order] = np.arange(n)
+        place, keys = self._keys
         row, column = (place[each] for each in further.tocoo().coords)
-        keys = np.repeat(np.arange(n), np.diff(self.pointers)) * n + self.indices
-        wanted = column * n + row
+        wanted = column * len(place) + row
         found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
         if (keys[found] == wanted).all():
             matrix.data[found] -= further.data
             return matrix
         # a point at the middle of an interface does not twist it, and its normal force bounds how it is twisted
         return sp.csc_array(matrix - sp.csc_array((further.data, (row, column)), shape=matrix.shape))
+
+    @cached_property
+    def _keys(self) -> tuple[IntArray, IntArray]:
+        """Place of each row of the program in the order of elimination, and column n + row of every entry there."""
+        n = len(self.order)
+        place = np.empty(n, dtype=np.int64)
+        place[self.order] = np.arange(n)
+        return place, np.repeat(np.arange(n), np.diff(self.pointers)) * n + self.indices
 
     @cached_property
     def _pattern(self) -> sp.csc_array:

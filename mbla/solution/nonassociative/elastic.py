@@ -20,7 +20,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.path_record import RISES, UNENDED, PathStep, Stop
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.state_of_path import state_at_once, state_of_path
+from mbla.solution.flow.state_of_path import path_with_state, state_at_once, state_of_path
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.by_stiffness import (
     another_answer,
@@ -70,11 +70,8 @@ def solve_by_elastic_path(
             return state_at_once(program, associative.state, slope, settings, log)
         return state_of_path(program, path, settings, log, interfaces)
 
-    shown, found = asked.ratio, along(asked.ratio)
-    state = state_on(found)
-    if state is None and found.lets_rest:  # what rests does not carry what is passed on to it
-        found = along(asked.ratio, whole=True)
-        state = state_on(found)
+    shown = asked.ratio
+    found, state = path_with_state(lambda whole: along(asked.ratio, whole=whole), state_on)
     followed = {shown: found}
     status, reason = _claim(found, state, live)
     if status in WITH_VALUE and state is not None and _at_limit(program, found, state, interfaces):

@@ -16,7 +16,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_of_part import path_of_part
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.state_of_path import state_of_path
+from mbla.solution.flow.state_of_path import path_with_state, state_of_path
 from mbla.solution.law.interfaces import Interfaces
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
@@ -41,9 +41,8 @@ def solve_with_torsion(
         return None
     asked = settings.analysis.path
     wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, again=False)
-    found = path_of_part(program, associative, wanted, interfaces=interfaces)
-    state = state_of_path(program, found, settings, log, interfaces)
-    if state is None and found.lets_rest:  # what rests does not carry what is passed on to it
-        found = path_of_part(program, associative, wanted, interfaces=interfaces, whole=True)
-        state = state_of_path(program, found, settings, log, interfaces)
+    found, state = path_with_state(
+        lambda whole: path_of_part(program, associative, wanted, interfaces=interfaces, whole=whole),
+        lambda path: state_of_path(program, path, settings, log, interfaces),
+    )
     return WithTorsion(found.stop, state)
