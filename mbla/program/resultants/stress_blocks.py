@@ -20,7 +20,7 @@ Resultants are r = (N, Σ n x_1/ρ, Σ n x_2/ρ) about the centroid of the inter
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -60,6 +60,10 @@ class Pieces:
     def n_conditions(self) -> int:
         """Conditions of one piece."""
         return len(self.edges) + len(self.corners)
+
+    def only(self, chosen: IntArray) -> Pieces:
+        """Some of them."""
+        return replace(self, **{name: getattr(self, name)[..., chosen] for name in vars(self) if name != "factor"})
 
 
 @dataclass(frozen=True)

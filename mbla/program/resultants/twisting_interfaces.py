@@ -13,7 +13,7 @@ V, and how far the force point is off the middle, follow from the normal forces 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -73,6 +73,11 @@ class TwistingOfProgram:
     pressing: FloatArray
     offsets: FloatArray
 
+    def only(self, chosen: IntArray) -> TwistingOfProgram:
+        """What bounds some of the interfaces."""
+        bounds = ("thetas", "points", "cohesion", "pressing", "offsets")
+        return replace(self, **{name: getattr(self, name)[chosen] for name in bounds})
+
 
 def twisting_of(program: Program, interfaces: TwistingInterfaces) -> TwistingOfProgram | None:
     """Interfaces of a spatial program, reduced or not, with torsion; None where there are none."""
@@ -108,7 +113,7 @@ def twisting_of(program: Program, interfaces: TwistingInterfaces) -> TwistingOfP
     some = friction[:, None] * (np.arange(points.shape[1]) < counts[:, None])
     moment = np.stack([some * _taken(moment, points) for moment in moments])
     return TwistingOfProgram(
-        resultants=tidied(sp.csr_array(shear / unit)),
+        resultants=_with_zeros(tidied(sp.csr_array(shear / unit)), pressing),
         motions=sp.csr_array(_motions(limits.interfaces[chosen], limits.radii[chosen], len(place)) / unit),
         thetas=limits.thetas[chosen],
         points=points,
@@ -116,6 +121,20 @@ def twisting_of(program: Program, interfaces: TwistingInterfaces) -> TwistingOfP
         pressing=some * _taken(pressing, points) / unit,
         offsets=np.einsum("mkj,jmp->mkp", slopes, moment),
     )
+
+
+def _with_zeros(resultants: sp.csr_array, pressing: sp.csr_array) -> sp.csr_array:
+    """With a zero stored in each row of an interface at each of its points: one in the middle of an interface does not
+    twist it, but its normal force bounds how it is twisted.
+
+    pressing : (m, n_points)
+    """
+    own, each = resultants.tocoo(), pressing.tocoo()
+    owner, point = (np.repeat(values, 3) for values in each.coords)
+    rows = np.concatenate([own.coords[0], 3 * owner + np.tile(np.arange(3), each.nnz)])
+    columns = np.concatenate([own.coords[1], 3 * point + 1])
+    values = np.concatenate([own.data, np.zeros(3 * each.nnz)])
+    return sp.csr_array(sp.coo_array((values, (rows, columns)), shape=resultants.shape))
 
 
 def _motions(interfaces: IntArray, radii: FloatArray, n_interfaces: int) -> sp.csr_array:
@@ -127,9 +146,9 @@ def _motions(interfaces: IntArray, radii: FloatArray, n_interfaces: int) -> sp.c
 
 
 def _padded(pressing: sp.csr_array) -> tuple[IntArray, IntArray]:
-    """Points of each row, (m, p), filled up with any, and how many they are, (m,)."""
+    """Points of each row, (m, p), filled up with its first, and how many they are, (m,)."""
     counts = np.diff(pressing.indptr).astype(np.int64)
-    points = np.zeros((len(counts), int(counts.max())), dtype=np.int64)
+    points = np.repeat(pressing.indices[pressing.indptr[:-1], None], int(counts.max()), axis=1).astype(np.int64)
     points[np.arange(points.shape[1]) < counts[:, None]] = pressing.indices
     return points, counts
 

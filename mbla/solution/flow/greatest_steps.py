@@ -67,15 +67,18 @@ class GreatestSteps:
         self.spent += spent
         return solved
 
-    def greatest(self, smoothed_little: Callable[[float], bool], *, onwards: bool) -> PeakStep | None:
+    def greatest(self, smoothed_little: Callable[[float], bool], *, onwards: bool, late: bool) -> PeakStep | None:
         """The step of the greatest load factor, solved as far as it can be.
 
         smoothed_little : whether products of a size smooth the law little
         onwards         : followed by a short step, unless the load falls in it
+        late            : whether time is over, and only that step is solved
         """
         if self.top is None:
             return None
         top = self.solve(self.top)
+        if late:
+            return top
         for near in self.near:
             if not top.is_solved and near is not self.top:
                 top = min(top, self.solve(near), key=lambda peak: peak.misfit)

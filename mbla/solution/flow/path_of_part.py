@@ -31,11 +31,25 @@ from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
 from mbla.solution.solution import Status
 
-MOST_STEPS_OF_PART = 900
-"""Steps of a path that follows what moves alone: each costs less."""
+MOST_STEPS_OF_PART = 1200
+"""Steps of a path that follows what moves alone, each of which costs less: a wall of 60 courses takes 1,120."""
 
 NEGLIGIBLE = 1e-9
 """Load factor over the part's own unit that is none."""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much of a part is followed: what moves by associative flow and what is near it, or the whole.
+
+    besides : (n_rows,) rows that are followed as if they moved; None for no others
+    """
+
+    whole: bool = False
+    besides: BoolArray | None = None
+
+
+WHAT_MOVES = Extent()
 
 
 @dataclass(frozen=True)
@@ -109,21 +123,23 @@ def path_of_part(
     interfaces: Interfaces = NONE,
     gaps: FloatArray | None = None,
     *,
-    whole: bool = False,
+    extent: Extent = WHAT_MOVES,
 ) -> PathOfPart:
     """The path of a part, or of what moves in it by associative flow.
 
     dilatancy  : (n_points,) tangents of its angles; none unless given
     interfaces : of the model that have a law of their own
     gaps       : (n_points,) displacement by which each joint closes before it touches; none unless given
-    whole      : also where less moves
+    extent     : how much of it is followed
     """
     if program.n_points == 0:  # held by guides alone, or by nothing
         return PathOfPart(Stop.DOES_NOT_STAND if np.any(program.dead_load) else Stop.UNDECIDED)
     state = associative.state
     part = None
-    if state is not None and not whole:
-        part = moving_part(program, state.velocities, rings=3, few=1500, worthwhile=0.8)
+    if state is not None and not extent.whole:
+        v = state.velocities
+        moves = v if extent.besides is None else np.where(extent.besides, np.abs(v).max(initial=0.0), v)
+        part = moving_part(program, moves, rings=3, few=1500, worthwhile=0.8)
     known, before = None if state is None else state.load_factor, associative.stress_free
     same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from mbla.arrays import FloatArray
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
@@ -12,6 +14,9 @@ from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import Interfaces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
+
+LEFT = 0.01
+"""Share of the largest force that a block is left with, from which a block does not carry its loads."""
 
 
 def resting_forces(program: Program, interfaces: Interfaces, settings: SolverSettings, log: Log) -> FloatArray | None:
@@ -25,3 +30,19 @@ def resting_forces(program: Program, interfaces: Interfaces, settings: SolverSet
         return at_rest.state.forces if at_rest.carried else None
     carried = least_forces(program, settings, log)
     return None if isinstance(carried, ConeSolution) else carried
+
+
+def rows_not_carried(program: Program, interfaces: Interfaces) -> BoolArray | None:
+    """Rows of the blocks that elastic joints do not carry, of the program that this is a part of, (n_rows,).
+
+    None where they carry all, or where that was not decided.
+    """
+    assert program.reduction is not None
+    joints = ElasticJoints.of(program, shares_of(program), RATIOS[0], interfaces=interfaces.rows_of(program))
+    at_rest = gravity_step(joints)
+    if not at_rest.settled or at_rest.carried:
+        return None
+    of_block = np.abs(joints.unbalanced(at_rest.state)[: len(program.dead_load)])
+    of_block = of_block.reshape(-1, 3 if program.components == 2 else 6).max(axis=1)
+    left = np.repeat(of_block > LEFT * of_block.max(), len(program.dead_load) // len(of_block))
+    return np.asarray((abs(program.reduction.velocities) @ left) > 0.0)

@@ -16,29 +16,42 @@ from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.followed import AtRest
-from mbla.solution.flow.path_of_part import PathOfPart
+from mbla.solution.flow.path_of_part import WHAT_MOVES, Extent, PathOfPart
 from mbla.solution.flow.peak_step import PeakStep
-from mbla.solution.flow.resting_forces import resting_forces
+from mbla.solution.flow.resting_forces import resting_forces, rows_not_carried
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.law_state import LawState, StepHistory, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
+GROWN = 2
+"""Times that what is followed takes in what does not carry what is passed on to it, before it is the whole: of a wall
+of 60 courses one of 2,236 blocks that rest did not."""
+
 
 def path_with_state(
-    along: Callable[[bool], PathOfPart], state_on: Callable[[PathOfPart], LawState | None]
+    program: Program,
+    along: Callable[[Extent], PathOfPart],
+    state_on: Callable[[PathOfPart], LawState | None],
+    interfaces: Interfaces,
 ) -> tuple[PathOfPart, LawState | None]:
-    """The path of what moves, or of the whole where what rests does not carry what is passed on to it; and its state.
+    """The path of what moves, with what does not carry what is passed on to it, or of the whole; and its state.
 
-    along    : the path, of the whole if told so
+    along    : the path of more or less
     state_on : its state
     """
-    found = along(False)
-    state = state_on(found)
-    if state is None and found.lets_rest:
-        found = along(True)
+    extent = WHAT_MOVES
+    for grown in range(GROWN + 1):
+        found = along(extent)
         state = state_on(found)
-    return found, state
+        if state is not None or not found.lets_rest:
+            return found, state
+        left = _not_carried(program, found, interfaces) if grown < GROWN else None
+        if left is None:
+            break
+        extent = Extent(besides=left if extent.besides is None else left | extent.besides)
+    found = along(Extent(whole=True))
+    return found, state_on(found)
 
 
 def state_of_path(
@@ -52,18 +65,33 @@ def state_of_path(
     """
     if found.path is None or found.path.peak is None or found.rest is None:
         return None
-    peak, rest, n = found.path.peak, found.rest, program.n_points
-    factor = rest.begins + peak.state.factor
-    points = np.arange(n) if rest.points is None else rest.points
-    forces, history, velocities = _of_followed(program, peak, rest, points)
+    peak, factor = found.path.peak, found.rest.begins + found.path.peak.state.factor
+    points = _points(program, found.rest)
+    forces, history, velocities = _of_followed(program, peak, found.rest, points)
     motions, history = _of_interfaces(peak, history)
-    resting = np.setdiff1d(np.arange(n), points)
-    if len(resting):
-        carried = _at_rest(program, forces, factor, resting, settings, log, interfaces)
+    if len(points) < program.n_points:
+        resting = np.setdiff1d(np.arange(program.n_points), points)
+        carried = resting_forces(_what_rests(program, forces, factor, resting), interfaces, settings, log)
         if carried is None:
             return None
         forces[resting] = history.remembered[resting] = carried
     return LawState(forces, velocities, factor, peak.misfit, motions, history)
+
+
+def _not_carried(program: Program, found: PathOfPart, interfaces: Interfaces) -> BoolArray | None:
+    """Rows of the blocks at rest that do not carry what is passed on to them, (n_rows,); None where not known."""
+    if found.path is None or found.path.peak is None or found.rest is None:
+        return None
+    peak, factor = found.path.peak, found.rest.begins + found.path.peak.state.factor
+    points = _points(program, found.rest)
+    forces, _, _ = _of_followed(program, peak, found.rest, points)
+    resting = np.setdiff1d(np.arange(program.n_points), points)
+    return rows_not_carried(_what_rests(program, forces, factor, resting), interfaces)
+
+
+def _points(program: Program, rest: AtRest) -> IntArray:
+    """Those that were followed."""
+    return np.arange(program.n_points) if rest.points is None else rest.points
 
 
 def state_at_once(
@@ -119,16 +147,8 @@ def _of_interfaces(peak: PeakStep, history: StepHistory) -> tuple[FloatArray | N
     return motions, history
 
 
-def _at_rest(
-    program: Program,
-    forces: FloatArray,
-    factor: float,
-    resting: IntArray,
-    settings: SolverSettings,
-    log: Log,
-    interfaces: Interfaces,
-) -> FloatArray | None:
-    """Forces of the points that were not followed, (n, components), beside those of all, zero there; None without."""
+def _what_rests(program: Program, forces: FloatArray, factor: float, resting: IntArray) -> Program:
+    """Points that were not followed, under loads and what the forces of others, (n_points, components), do to them."""
     passed = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
     chosen = selection(resting, program.n_points, program.components)
     size = 3 if program.components == 2 else 6
@@ -136,5 +156,4 @@ def _at_rest(
     touched: BoolArray = np.asarray(sums.reshape(-1, size).any(axis=1), dtype=np.bool_)
     ways = selection(np.flatnonzero(touched), len(touched), size)
     loads = replace(program, dead_load=passed, live_load=np.zeros_like(passed))
-    rest = restricted(loads, ways, chosen, chosen_limits(program.limits, resting))
-    return resting_forces(rest, interfaces, settings, log)
+    return restricted(loads, ways, chosen, chosen_limits(program.limits, resting))

@@ -9,7 +9,7 @@ further; unloaded it recovers (deformation theory).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -46,6 +46,10 @@ class Crushing:
     def n_conditions(self) -> int:
         """Of all pieces."""
         return self.pieces.n_conditions * len(self.pieces.owner)
+
+    def only(self, chosen: IntArray) -> Crushing:
+        """Of some pieces."""
+        return replace(self, pieces=self.pieces.only(chosen), pressed=self.pressed[chosen])
 
     def start(self, normal: FloatArray) -> FloatArray:
         """In the middle of each piece, at most half of what it can carry."""

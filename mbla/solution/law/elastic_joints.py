@@ -30,6 +30,7 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.program import Program
 from mbla.program.stiffness_shares import brittle_of
+from mbla.solution.law.crossing import Crossing
 from mbla.solution.law.interface_law import InterfaceLaw, InterfaceState
 from mbla.solution.law.interface_rows import InterfaceRows, with_resultants, with_rows
 from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
@@ -131,23 +132,17 @@ class ElasticJoints:
         ends = np.cumsum([law.rows.shape[1] // self.program.components for law in self.laws])
         return tuple(np.split(values, ends[:-1], axis=1))
 
-    def crossing(self, law: int, by_normal: sp.csr_array, tangents: FloatArray) -> sp.csr_array:
-        """What resultants of a law that follow the normal forces add to A C Aᵀ, (n_rows, n_rows).
-
-        by_normal : (components m, n_points) of its resultants by the normal forces
-        tangents  : (n_points, components, components) C of the points
-        """
-        n, size = self.program.n_points, self.program.components
-        first = size * (n + sum(one.rows.shape[1] // size for one in self.laws[:law]))
-        acts = self._columns[:, first : first + by_normal.shape[0]]
-        moved = sp.csr_array(
-            (tangents[:, 0].ravel(), np.arange(size * n), size * np.arange(n + 1)), shape=(n, size * n)
-        )
-        return sp.csr_array(acts @ (by_normal @ (moved @ self.matrix.compatibility[: size * n])))
-
     @cached_property
-    def _columns(self) -> sp.csc_array:
-        return sp.csc_array(self.matrix.program.equilibrium_matrix)
+    def crossings(self) -> tuple[Crossing | None, ...]:
+        """Of each law whose bounds hang on normal forces, how it meets the blocks; None of others."""
+        columns, size = sp.csc_array(self.matrix.program.equilibrium_matrix), self.program.components
+        ends = size * self.program.n_points + np.cumsum([law.rows.shape[1] for law in self.laws])
+        return tuple(
+            None
+            if law.conditions.points is None
+            else Crossing.of(self.matrix, law.conditions.points, columns[:, end - law.rows.shape[1] : end])
+            for law, end in zip(self.laws, ends.tolist(), strict=True)
+        )
 
     def carried(self, normal: FloatArray, shear: FloatArray, resultants: Sequence[FloatArray] = ()) -> FloatArray:
         """A x, (n_rows,): what contact forces, and resultants of interfaces, do to the blocks and interfaces."""

@@ -17,7 +17,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.solution.law.elastic_joints import StepState
@@ -86,13 +85,11 @@ class Eliminated:
             return None
         shift = SHIFT * float(np.mean(tangents[:, 0, 0])) * joints.matrix.size + step.held
         further = [
-            joints.crossing(number, one.by_normal(n), tangents)
-            for number, one in enumerate(interfaces)
-            if one.crossed is not None
+            crossing.entries(one.by_normal, tangents)
+            for crossing, one in zip(joints.crossings, interfaces, strict=True)
+            if crossing is not None
         ]
-        solve = joints.matrix.factorized(
-            every_tangent, shift, fixed_load=not step.driven, further=_sum(further) if further else None
-        )
+        solve = joints.matrix.factorized(every_tangent, shift, fixed_load=not step.driven, further=further)
         if solve is None:
             return None
         return Eliminated(step, state, solve, tangents, cone, inverse, across, follows, lifts, over, interfaces)
@@ -147,14 +144,6 @@ class Eliminated:
         return tuple(
             one.change(one.resultants(drive, motion, normal), normal, products) for one, drive, motion, products in each
         )
-
-
-def _sum(matrices: list[sp.csr_array]) -> sp.csr_array:
-    """Sum of one matrix or more."""
-    total = matrices[0]
-    for matrix in matrices[1:]:
-        total = sp.csr_array(total + matrix)
-    return total
 
 
 def small_inverses(matrices: FloatArray) -> FloatArray:

@@ -77,6 +77,9 @@ class Conditions(Protocol):
     def n_conditions(self) -> int:
         """Of all interfaces."""
 
+    def only(self, chosen: IntArray) -> Conditions:
+        """Of some interfaces."""
+
     def start(self, normal: FloatArray) -> FloatArray:
         """Resultants well within the bounds, (c, m), for normal forces of the points, (n_points,)."""
 
@@ -157,28 +160,27 @@ class InterfaceLaw:
             return 0.0
         most = min(most, float(lines_to_boundary(state.multipliers, direction.multipliers).min(initial=np.inf)))
 
-        def within(length: float) -> bool:
-            """Whether it does there and, as conditions need not be concave in n, where a step to there ends."""
-            ends = (length,) if self.conditions.points is None else (length, SHARE * length)
-            return all(
-                bool(
-                    (
-                        self.conditions.values(state.resultants + end * direction.resultants, normal + end * change)
-                        > 0.0
-                    ).all()
-                )
-                for end in ends
-            )
+        # conditions need not be concave in n: those that a step to there ends beyond are seen as well
+        ends = (1.0,) if self.conditions.points is None else (1.0, SHARE)
 
-        if within(most):
-            return most
-        low, high = 0.0, most
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if within(middle) else (low, middle)
-            if high - low < CLOSE * high:
-                break
-        return low
+        def beyond(bounds: Conditions, which: slice | IntArray, length: float) -> IntArray:
+            """Those of some interfaces that are outside."""
+            own, turn = state.resultants[:, which], direction.resultants[:, which]
+            values = [bounds.values(own + end * length * turn, normal + end * length * change) for end in ends]
+            return np.flatnonzero(~(np.concatenate(values) > 0.0).all(axis=0))
+
+        which = beyond(self.conditions, slice(None), most)
+        while len(which):
+            bounds, low, high = self.conditions.only(which), 0.0, most
+            for _ in range(HALVINGS):
+                middle = 0.5 * (low + high)
+                low, high = (low, middle) if len(beyond(bounds, which, middle)) else (middle, high)
+                if high - low < CLOSE * high:
+                    break
+            most, which = low, beyond(self.conditions, slice(None), low)
+            if not most > 0.0:
+                return 0.0
+        return most
 
     def _flow(self, state: InterfaceState, normal: FloatArray) -> FloatArray:
         """Σ z ∇g, (c, m)."""
@@ -251,17 +253,11 @@ class EliminatedInterface:
             beyond += 0.5 * self.state.multipliers * np.einsum("kabm,am,bm->km", self.found.hessians, r, r)
         return np.asarray(beyond)
 
-    def by_normal(self, n_points: int) -> sp.csr_array:
-        """Derivatives −W⁻¹ X of the resultants by the normal forces of all points, (c m, n_points)."""
-        points = self.law.conditions.points
-        assert points is not None
+    @property
+    def by_normal(self) -> FloatArray:
+        """Derivatives −W⁻¹ X of the resultants by the normal forces of their points, (m, c, p)."""
         assert self.crossed is not None
-        m, size, _ = self.crossed.shape
-        by = -np.matmul(self.tangents, self.crossed)
-        row = np.broadcast_to((size * np.arange(m)[:, None] + np.arange(size))[:, :, None], by.shape)
-        column = np.broadcast_to(points[:, None, :], by.shape)
-        entries = (by.ravel(), (row.ravel(), column.ravel()))
-        return sp.csr_array(sp.coo_array(entries, shape=(size * m, n_points)))
+        return np.asarray(-np.matmul(self.tangents, self.crossed))
 
     def _at_points(self, values: FloatArray) -> FloatArray:
         points = self.law.conditions.points

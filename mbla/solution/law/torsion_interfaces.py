@@ -89,6 +89,10 @@ class Shear:
         """One an interface."""
         return len(self.twisting.thetas)
 
+    def only(self, chosen: IntArray) -> Shear:
+        """Of some interfaces."""
+        return Shear(self.twisting.only(chosen))
+
     def start(self, normal: FloatArray) -> FloatArray:
         """No force."""
         return np.zeros((3, len(self.twisting.thetas)))
@@ -133,6 +137,10 @@ class Twist:
     def n_conditions(self) -> int:
         """Two an interface."""
         return 2 * len(self.twisting.thetas)
+
+    def only(self, chosen: IntArray) -> Twist:
+        """Of some interfaces."""
+        return Twist(self.twisting.only(chosen))
 
     def start(self, normal: FloatArray) -> FloatArray:
         """No force."""

@@ -15,6 +15,7 @@ than a product of sparse matrices and a column ordering from scratch each time.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -44,6 +45,14 @@ class PointGroup:
     points: IntArray
     block: FloatArray
     place: IntArray
+
+
+@dataclass(frozen=True)
+class Entries:
+    """Values at places among the entries of the matrix, (n,) each; some may be the same."""
+
+    place: IntArray
+    values: FloatArray
 
 
 @dataclass(frozen=True)
@@ -108,18 +117,18 @@ class Stiffness(Places):
         shift: FloatArray,
         *,
         fixed_load: bool = False,
-        further: sp.csr_array | None = None,
+        further: Sequence[Entries] = (),
     ) -> BorderedFactors | None:
         """Factorise with C, (n_points, components, components).
 
         shift   : (n_rows,) of the diagonal
-        further : (n_rows, n_rows) added to K; quickly where it lies within its pattern
+        further : added to K
 
         None where the matrix is singular to working accuracy.
         """
         matrix = self._matrix(tangents, shift, fixed_load)
-        if further is not None:
-            matrix = self._less(matrix, further)
+        for entries in further:
+            matrix.data -= np.bincount(entries.place, entries.values, len(matrix.data))
         finite = bool(np.isfinite(matrix.data).all())
         factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
@@ -143,17 +152,14 @@ class Stiffness(Places):
         matrix.data = entries
         return matrix
 
-    def _less(self, matrix: sp.csc_array, further: sp.csr_array) -> sp.csc_array:
-        """The matrix less another one in the order of the program's rows."""
+    def places(self, rows: IntArray, columns: IntArray) -> IntArray:
+        """Places of entries among those of the matrix, (n,), by rows and columns of the program; all must be there."""
         place, keys = self._keys
-        row, column = (place[each] for each in further.tocoo().coords)
-        wanted = column * len(place) + row
+        wanted = place[columns] * len(place) + place[rows]
         found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        if (keys[found] == wanted).all():
-            matrix.data[found] -= further.data
-            return matrix
-        # a point at the middle of an interface does not twist it, and its normal force bounds how it is twisted
-        return sp.csc_array(matrix - sp.csc_array((further.data, (row, column)), shape=matrix.shape))
+        if not (keys[found] == wanted).all():
+            raise ValueError("an entry lies outside of the pattern of the joints")
+        return found
 
     @cached_property
     def _keys(self) -> tuple[IntArray, IntArray]:

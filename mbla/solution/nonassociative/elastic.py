@@ -17,7 +17,7 @@ from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
+from mbla.solution.flow.path_of_part import WHAT_MOVES, Extent, PathOfPart, path_of_part
 from mbla.solution.flow.path_record import RISES, UNENDED, PathStep, Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.state_of_path import path_with_state, state_at_once, state_of_path
@@ -53,7 +53,7 @@ def solve_by_elastic_path(
     asked, dilates = settings.analysis.path, slope if np.any(slope) else None
     wanted = PathSettings(until=asked.until, deadline=settings.deadline).by_steps(settings.steps)
 
-    def along(ratio: float, *, whole: bool = False) -> PathOfPart:
+    def along(ratio: float, extent: Extent = WHAT_MOVES) -> PathOfPart:
         started, number, count = time.perf_counter(), len(records) + 1, itertools.count(1)
 
         def watch(step: PathStep) -> None:
@@ -61,7 +61,7 @@ def solve_by_elastic_path(
             log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
 
         by = replace(wanted, ratio=ratio, watch=watch)
-        path = path_of_part(program, associative, by, dilates, interfaces, whole=whole)
+        path = path_of_part(program, associative, by, dilates, interfaces, extent=extent)
         records.append(_record(number, path, live, time.perf_counter() - started))
         return path
 
@@ -71,7 +71,7 @@ def solve_by_elastic_path(
         return state_of_path(program, path, settings, log, interfaces)
 
     shown = asked.ratio
-    found, state = path_with_state(lambda whole: along(asked.ratio, whole=whole), state_on)
+    found, state = path_with_state(program, lambda extent: along(asked.ratio, extent), state_on, interfaces)
     followed = {shown: found}
     status, reason = _claim(found, state, live)
     if status in WITH_VALUE and state is not None and _at_limit(program, found, state, interfaces):

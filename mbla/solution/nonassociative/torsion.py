@@ -42,7 +42,9 @@ def solve_with_torsion(
     asked = settings.analysis.path
     wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, again=False)
     found, state = path_with_state(
-        lambda whole: path_of_part(program, associative, wanted, interfaces=interfaces, whole=whole),
+        program,
+        lambda extent: path_of_part(program, associative, wanted, interfaces=interfaces, extent=extent),
         lambda path: state_of_path(program, path, settings, log, interfaces),
+        interfaces,
     )
     return WithTorsion(found.stop, state)
