@@ -5,6 +5,7 @@
     python -m tests.performance.court run BEFORE            all sets, into results/court/BEFORE.csv
     python -m tests.performance.court run BEFORE decks walls --limit 600
     python -m tests.performance.court compare BEFORE AFTER  what differs, a table of counts and of cases
+    python -m tests.performance.court table BEFORE AFTER    every load case of a deck without dilatancy, in Markdown
 
 Sets: ``decks`` (every deck by its own flow rule), ``rules`` (associative and without dilatancy), ``walls`` (20 to 100
 courses, in the plane and in space), ``corpora`` (random assemblies of tests/trust), ``experiments`` (dry-stone walls
@@ -18,6 +19,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import math
 import os
 import resource
 import subprocess
@@ -239,7 +241,9 @@ def compare(before: str, after: str) -> None:
         statuses = Counter(new[key].status for key in both)
         seconds = sum(new[key].seconds for key in both), sum(old[key].seconds for key in both)
         words = ", ".join(f"{count} {status}" for status, count in statuses.most_common())
-        say(f"{name}: {len(both)} load cases ({words}); solver stage {seconds[0]:.0f} s for {seconds[1]:.0f} s\n")
+        none = sum(math.isnan(new[key].least) and not math.isnan(old[key].least) for key in both)
+        say(f"{name}: {len(both)} load cases ({words}; {none} have no least any more); ")
+        say(f"solver stage {seconds[0]:.0f} s for {seconds[1]:.0f} s\n")
         for key in both:
             for line in _differences(old[key], new[key]):
                 say(f"  {key[1]} {key[2]}: {line}\n")
@@ -250,26 +254,62 @@ def _differences(old: Verdict, new: Verdict) -> Iterator[str]:
         yield f"{old.status} -> {new.status} ({new.reason[:100]})"
     for name, limit in (("load_factor", SAME), ("least", SAME), ("associative", SAME_BOUND)):
         one, other = getattr(old, name), getattr(new, name)
+        if name == "least" and math.isnan(other):
+            continue
         if (one != one) != (other != other) or abs(one - other) > limit * max(abs(one), abs(other)):
             yield f"{name} {one:.9g} -> {other:.9g}"
 
 
+def table(before: str, after: str) -> None:
+    """Load cases of decks without dilatancy: figures, the one before, time over that of associative flow, end."""
+    old = {verdict.key: verdict for verdict in read(COURT / f"{before}.csv")}
+    new = {verdict.key: verdict for verdict in read(COURT / f"{after}.csv")}
+    say, rule = sys.stdout.write, " non_associative"
+    say("| deck, load case | load factor | least found | associative | before | time | before | end |\n")
+    say("|---|---|---|---|---|---|---|---|\n")
+    for key, now in new.items():
+        if key[0] != "rules" or not key[1].endswith(rule):
+            continue
+        deck, was = key[1].removesuffix(rule), old.get(key)
+        normal = ("rules", f"{deck} associative", key[2])
+        cells = [
+            f"{deck} {key[2]}",
+            *(_told(value) for value in (now.load_factor, now.least, now.associative)),
+            "–" if was is None else _told(was.load_factor),
+            _over(now, new.get(normal)),
+            _over(was, old.get(normal)),
+            now.end if now.status == "solved" else f"{now.end}, {now.status}".removeprefix(", "),
+        ]
+        say(f"| {' | '.join(cells)} |\n")
+
+
+def _told(value: float) -> str:
+    return "–" if math.isnan(value) else f"{value:.6g}"
+
+
+def _over(verdict: Verdict | None, normal: Verdict | None) -> str:
+    """Time over that of associative flow."""
+    return "–" if verdict is None or normal is None else f"{verdict.seconds / normal.seconds:.2g}"
+
+
 def main() -> None:
-    """Run or compare."""
+    """Run, compare or tell."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     running = commands.add_parser("run")
     running.add_argument("label")
     running.add_argument("sets", nargs="*", choices=[[], *SETS])
     running.add_argument("--limit", type=int, default=LIMIT, metavar="SECONDS", help="of the processor for one deck")
-    comparing = commands.add_parser("compare")
-    comparing.add_argument("before")
-    comparing.add_argument("after")
+    telling = {"compare": compare, "table": table}
+    for name in telling:
+        command = commands.add_parser(name)
+        command.add_argument("before")
+        command.add_argument("after")
     options = parser.parse_args()
     if options.command == "run":
         run(options.label, options.sets, options.limit)
     else:
-        compare(options.before, options.after)
+        telling[options.command](options.before, options.after)
 
 
 if __name__ == "__main__":

@@ -71,6 +71,7 @@ CASES = {
     "another associative factor": case(associative=tower_mechanics(0.625)),
     "published": case(scheme="published"),
     "path that falls": case(checks=BY_PATH, path=PATH, path_end="falls", path_last=0.4),
+    "path below associative flow": case(associative=tower_mechanics(0.625), checks=BY_PATH, path_end="flat"),
     "path that stays": case(checks=BY_PATH, path=PATH[:2], path_end="flat", path_last=0.5),
     "path that ends far out": case(checks=BY_PATH, path=PATH[:2], path_end="far", path_gain=0.02, path_last=0.5),
     "path that still rises": case(
