@@ -23,6 +23,7 @@ CASES = {
     "forms": ("structure", "case"),
     "kernels": ("structure", "case"),
     "rigid_in_time": ("structure", "case", "ratio"),
+    "path": ("structure",),
     "path_settings": ("setting", "way"),
     "rivals": ("structure", "rival"),
     "pushover": ("structure", "steps"),
