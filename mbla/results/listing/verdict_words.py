@@ -116,7 +116,7 @@ def least_words(model: Model, case: CaseResult) -> str:
 
 BY_STIFFNESS = (
     "how stiff joints are in shear is not known: it moves such a figure by less than 0.5 % on walls and arches in "
-    "their plane, by up to 4 % in space and under an axle on a bridge (accuracy: reference follows two others)"
+    "their plane, by up to 5 % in space and under an axle on a bridge (accuracy: reference follows two others)"
 )
 AT_BOUND = 1e-3
 """share of the associative load factor within which stiffness was seen to decide nothing, on 120 load cases"""
