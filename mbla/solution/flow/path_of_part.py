@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import AssociativeResult
@@ -199,9 +200,17 @@ def _at_rest(
     joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: MovingPart | None
 ) -> AtRest:
     """Under the dead load."""
-    points = None if part is None else part.points
-    gravity = gravity_step(joints, mean_live_load(joints.program, scale), gaps if points is None else gaps[points])
-    return AtRest(joints, gravity, settings, points)
+    points, program = None if part is None else part.points, joints.program
+    gaps = gaps if points is None else gaps[points]
+    if program.settles or not np.any(program.dead_load):  # the live load counts
+        return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, points)
+    return AtRest(joints, _dead_load_alone(joints.without_live_load, gaps), settings, points)
+
+
+@shared("dead load at rest")
+def _dead_load_alone(joints: ElasticJoints, gaps: FloatArray) -> Gravity:
+    """The dead load that load cases have in common."""
+    return gravity_step(joints, gaps=gaps)
 
 
 def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> Stop | None:

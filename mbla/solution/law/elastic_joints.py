@@ -21,7 +21,7 @@ Units are those of the program. Arrays of components stand first: (components âˆ
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -87,6 +87,12 @@ class ElasticJoints:
         program = with_rows(program, interfaces)
         matrix = stiffness_of(with_resultants(program, interfaces))
         return ElasticJoints(program, matrix, slope, shares, ratio * shares, brittle, tuple(interfaces))
+
+    @property
+    def without_live_load(self) -> ElasticJoints:
+        """The same joints under the dead load alone, as any load case has them."""
+        matrix = replace(self.matrix, program=_without_live_load(self.matrix.program))
+        return replace(self, program=_without_live_load(self.program), matrix=matrix)
 
     @cached_property
     def friction(self) -> FloatArray:
@@ -154,6 +160,12 @@ class ElasticJoints:
         program = self.program
         carried = self.carried(state.normal, state.shear, [one.resultants for one in state.interfaces])
         return carried + program.dead_load + state.factor * program.live_load
+
+
+def _without_live_load(program: Program) -> Program:
+    scaling, before = replace(program.scaling, live=1.0), program.reduction
+    before = None if before is None else replace(before, full=_without_live_load(before.full))
+    return replace(program, live_load=np.zeros_like(program.live_load), scaling=scaling, reduction=before)
 
 
 @dataclass(frozen=True)
