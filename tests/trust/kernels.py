@@ -43,7 +43,7 @@ CLAIM = (
 Figures = Mapping[str, Any]
 """of a load case: its status, whether its flow is associative (``normal``), and its figures"""
 PROVED = "associative_load_factor"
-OWN = ("load_factor", "least_load_factor", "angle", "reaction")
+OWN = ("load_factor", "least_load_factor", "torsion_load_factor", "angle", "reaction")
 """figures by the deck's flow rule"""
 
 

@@ -15,7 +15,7 @@ from tests.trust.kernels import ALIKE, KERNELS, Compared, apart, compared, kerne
 
 
 def line(way: str, **figures: Any) -> dict[str, Any]:
-    rest = dict.fromkeys(("least_load_factor", "angle", "reaction"))
+    rest = dict.fromkeys(("least_load_factor", "torsion_load_factor", "angle", "reaction"))
     case = {"status": "solved", "normal": False, "associative_load_factor": 0.5, "load_factor": 0.4, **rest}
     return {"deck": "wall", "way": way, "cases": {"push": case | figures}}
 
