@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.solution.flow.fall import Fall
+from mbla.solution.flow.fall import ELASTIC, Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
@@ -27,9 +27,14 @@ ROUGH, SHORTEST = 100.0 * EXACT, 1e-3
 """Misfit above which a step is halved, and its length in units below which the path is stuck."""
 
 
-def follow_solved(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
-    """The path from the structure at rest, of joints without brittle ties."""
-    path = _Path(joints, gravity, measure, settings)
+def follow_solved(
+    joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings, *, needed: bool = True
+) -> ElasticPath:
+    """The path from the structure at rest, of joints without brittle ties.
+
+    needed : whether no other path has a state, so that it is followed however slowly
+    """
+    path = _Path(joints, gravity, measure, settings, needed=needed)
     stop = None
     while stop is None:
         stop = path.advance()
@@ -39,15 +44,19 @@ def follow_solved(joints: ElasticJoints, gravity: Gravity, measure: Measure, set
     return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
 
 
-MOST = 2400
-"""Factorisations: columns on a slope at the limit of standing take 1,400, a surveyed vault took 16,000 for nothing."""
+MOST, CRAWLS = 2400, 500
+"""Factorisations at most, and those after which a path that is not needed must be beyond the elastic displacement:
+columns on a slope at the limit of standing take 1,400, and are there after 200; a surveyed vault and a bridge were at
+0.7 and 0.5 after 600, and at less than 2 after 2,400."""
 
 
 class _Path:
     """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
 
-    def __init__(self, joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> None:
-        motion = measure.motion
+    def __init__(
+        self, joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings, *, needed: bool
+    ) -> None:
+        self.needed, motion = needed, measure.motion
         self.joints, self.measure, self.settings, self.memory = joints, measure, settings, gravity.memory
         self.force = max(gravity.force, measure.force_of(joints.program))
         normal = np.maximum(gravity.state.normal, PRESSED * self.force)
@@ -88,7 +97,8 @@ class _Path:
         """Whether time or factorisations are over."""
         if self.settings.late:
             return Stop.LATE
-        return Stop.BUDGET if self.factorizations > MOST else None
+        crawls = not self.needed and self.factorizations > CRAWLS and self.displacement < ELASTIC
+        return Stop.BUDGET if crawls or self.factorizations > MOST else None
 
     def _solved(self, length: float) -> PeakStep:
         """A step of a length in units."""

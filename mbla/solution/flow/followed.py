@@ -80,7 +80,7 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
         path = follow_solved(rest.joints, rest.gravity, measure, settings)
         paths.append(path)
     elif path.peak is not None and not path.peak.is_solved and not rest.joints.laws:
-        paths.append(follow_solved(rest.joints, rest.gravity, measure, settings))
+        paths.append(follow_solved(rest.joints, rest.gravity, measure, settings, needed=False))
         path = _better(*paths)
     elif settings.again and (is_lost(path) or (rest.twists and path.recentred)):
         paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
