@@ -14,6 +14,7 @@ from mbla.solution.flow.path_record import ElasticPath, Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, measure_of, pressed_points
 from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 
 LOW, ROUGH, SAME = 0.1, 0.02, 0.01
 """Share of the associative load factor below which every step is solved, share by which that of a peak may change
@@ -79,7 +80,7 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     if is_too_rough(path, rest, measure):
         path = follow_solved(rest.joints, rest.gravity, measure, settings)
         paths.append(path)
-    elif path.peak is not None and not path.peak.is_solved and not rest.joints.laws:
+    elif not rest.twists and _misses(path, APPROXIMATE_RESIDUAL if rest.joints.laws else 0.0):
         paths.append(follow_solved(rest.joints, rest.gravity, measure, settings, needed=False))
         path = _better(*paths)
     elif settings.again and (is_lost(path) or (rest.twists and path.recentred)):
@@ -88,8 +89,16 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     return Followed(path, path.stop, tuple(paths))
 
 
+def _misses(path: ElasticPath, most: float) -> bool:
+    """Whether the step of the peak could not be solved, and misses the law by more than a share."""
+    return path.peak is not None and not path.peak.is_solved and path.peak.misfit > most
+
+
 def _better(lost: ElasticPath, again: ElasticPath) -> ElasticPath:
-    """Of two paths the one that is an answer, if not lower; else the one with the greater load factor."""
+    """Of two paths the one that has a state at all; that is an answer, if not lower; with the greater load factor."""
+    with_state = [path for path in (lost, again) if path.peak is not None and not _misses(path, APPROXIMATE_RESIDUAL)]
+    if len(with_state) == 1:
+        return with_state[0]
     if again.stop.answers and again.load_factor >= (1.0 - SAME) * lost.load_factor:
         return again
     return again if again.load_factor > lost.load_factor else lost
