@@ -36,8 +36,8 @@ BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
 SETTLED = 16.0
-"""Displacement within which no path is flat: an arch at its least thickness, its joints as stiff in shear as across, has
-two thirds of its load factor from 1.3 to 9, and rises then; 25 for 16 changed one of 23 load cases, by 0.05 %."""
+"""Displacement within which no path is flat: an arch at its least thickness, its joints as stiff in shear as across,
+has two thirds of its load factor from 1.3 to 9, and rises then; 25 for 16 changed one of 23 load cases, by 0.05 %."""
 
 BACK, CLOSE_BY = 1.0005, 0.998
 """Load factor over the least since it last rose, and over the peak, from which a path is on its way back after a dip
