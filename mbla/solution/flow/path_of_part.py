@@ -32,8 +32,8 @@ from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
 from mbla.solution.solution import Status
 
-MOST_STEPS_OF_PART = 1200
-"""Steps of a path that follows what moves alone, each of which costs less: a wall of 60 courses takes 1,120."""
+MOST_STEPS_OF_PART = 2000
+"""Steps of a path that follows what moves alone, each of which costs less: a wall of 60 courses takes some 1,200."""
 
 NEGLIGIBLE = 1e-9
 """Load factor over the part's own unit that is none."""
