@@ -291,7 +291,7 @@ class _Path:
     def result(self, stop: Stop) -> ElasticPath:
         """The path, with the steps of its peaks solved."""
         peaks = self.peaks
-        top = peaks.greatest(self._smoothed_little, onwards=not self.broken, late=stop is Stop.LATE)
+        top = peaks.greatest(onwards=not self.broken, late=stop is Stop.LATE)
         half = peaks.solve(peaks.half) if stop is Stop.FAR and peaks.half is not None else None
         spent = self.factorizations + peaks.spent + self.gravity.steps
         found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from mbla.solution.flow.peak_step import PeakStep, solved_peak
@@ -67,10 +66,9 @@ class GreatestSteps:
         self.spent += spent
         return solved
 
-    def greatest(self, smoothed_little: Callable[[float], bool], *, onwards: bool, late: bool) -> PeakStep | None:
+    def greatest(self, *, onwards: bool, late: bool) -> PeakStep | None:
         """The step of the greatest load factor, solved as far as it can be.
 
-        smoothed_little : whether products of a size smooth the law little
         onwards         : followed by a short step, unless the load falls in it
         late            : whether time is over, and only that step is solved
         """
@@ -82,11 +80,8 @@ class GreatestSteps:
         for near in self.near:
             if not top.is_solved and near is not self.top:
                 top = min(top, self.solve(near), key=lambda peak: peak.misfit)
-        if self.later is not None:
-            rough = top.state is self.top.state and not smoothed_little(top.sigma)
-            if rough or top.state.factor < self.later.state.factor:
-                later = self.solve(self.later)
-                top = later if rough else max(top, later, key=lambda peak: (peak.is_solved, peak.state.factor))
+        if self.later is not None and (not top.is_solved or top.state.factor < self.later.state.factor):
+            top = max(top, self.solve(self.later), key=lambda peak: (peak.is_solved, peak.state.factor))
         return self._onwards(top) if onwards and top.is_solved else top
 
     def _onwards(self, top: PeakStep) -> PeakStep:
