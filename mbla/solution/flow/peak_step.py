@@ -57,7 +57,7 @@ def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     if joints.dilates:
         opening = opening - joints.dilatancy * state.speed
     opening[joints.crushable] += state.crushing
-    floor = OF_FLOOR * sigma / (state.normal + joints.program.limits.tension)
+    floor = OF_FLOOR * sigma / joints.margin(state.normal)
     flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
     interfaces = tuple(law.following(one, state.normal, motion) for law, one, motion in flows)
     return replace(state, opening=np.maximum(opening, floor), interfaces=interfaces)
@@ -70,7 +70,7 @@ def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float)
     speed = sigma * limit / (limit * limit - (shear * shear).sum(axis=0))
     return replace(
         state,
-        opening=sigma / (state.normal + joints.program.limits.tension),
+        opening=sigma / joints.margin(state.normal),
         shear=shear,
         slip=-(speed / limit) * shear,
         speed=speed,

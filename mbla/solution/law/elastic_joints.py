@@ -113,6 +113,11 @@ class ElasticJoints:
         """Limit of shear l at normal forces n, (n_points,)."""
         return np.maximum(self.friction * normal + self.program.limits.cohesion, LEAST_LIMIT)
 
+    def margin(self, normal: FloatArray) -> FloatArray:
+        """N = n + f_t, (n_points,), at least what rounding leaves of f_t."""
+        tension = self.program.limits.tension
+        return np.asarray(np.maximum(normal + tension, np.spacing(tension)))
+
     def room(self, normal: FloatArray) -> FloatArray:
         """f_c − n of the points that can crush, (n_crushable,)."""
         return np.asarray(self.program.limits.compression[self.crushable] - normal[self.crushable])

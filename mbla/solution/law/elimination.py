@@ -64,7 +64,7 @@ class Eliminated:
         inverse = small_inverses(h)
         across = _products(inverse, cone)
         follows = _applied(inverse, joints.friction * (state.slip - state.speed * over * state.shear))
-        stiff = step.normal_compliance + state.opening / (state.normal + joints.program.limits.tension)
+        stiff = step.normal_compliance + state.opening / joints.margin(state.normal)
         stiff[joints.crushable] += state.crushing / joints.room(state.normal)
         lifts, tangents = None, np.zeros((n, size, size))
         if joints.dilates:
@@ -97,7 +97,7 @@ class Eliminated:
     def direction(self, residual: Residual, wanted: Products) -> StepState:
         """Direction that changes the products as told and makes up for what else is missing."""
         step, state, joints = self.step, self.state, self.step.joints
-        margin, room = state.normal + joints.program.limits.tension, joints.room(state.normal)
+        margin, room = joints.margin(state.normal), joints.room(state.normal)
         alone = wanted.normal / margin - residual.normal
         alone[joints.crushable] -= wanted.crushing / room
         turned = wanted.turning - state.shear * (wanted.sliding * self.over) - _applied(self.cone, residual.shear)
