@@ -275,6 +275,7 @@ def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness(
     assert middle[-1] == pytest.approx(thick, abs=0.005)
 
 
+@pytest.mark.long
 def test_a_half_with_its_plane_of_symmetry_moves_as_the_whole() -> None:
     """A wall pushed out of its plane, by steps that follow on from symmetric ones."""
     head = (

@@ -98,6 +98,7 @@ load_cases: {c: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.006, unti
 """An arch in which a joint that was open closes within a step."""
 
 
+@pytest.mark.long
 def test_rows_that_depend_on_the_step_are_not_called_verified() -> None:
     model, case = case_of(DIP)
     remarks = {remark.identifier: str(remark) for remark in case.solution.remarks}

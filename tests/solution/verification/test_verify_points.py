@@ -69,7 +69,7 @@ def test_non_associative_flow_is_not_claimed_for_dilatant_velocities() -> None:
     assert "complementarity" in failures
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("tolerance", [1e-4, *(pytest.param(each, marks=pytest.mark.long) for each in (1e-6, 1e-8))])
 def test_bounds_hold_whatever_the_tolerance_of_the_solver(tolerance: float) -> None:
     line = line_of(WALL, "parameters.n=20", f"analysis.tolerance={tolerance}")
     checks = verify_points(line.model, line.contacts, line.load_case, solution_of(line))
