@@ -51,6 +51,11 @@ BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
 
+NEARBY = 1e-6
+"""Products over n₀² with which a way from a state nearby begins, on the central path of its forces; where interfaces
+have a law of their own, from the state itself: forces cut back within its bounds do not balance, and a bridge with
+torsion was undecided. From the state itself points lead a pushover in which a plank drops off its closed form."""
+
 CARRIED, STANDS = 1e-6, 2e-5
 """Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of
 a block, up to which what has interfaces with a law of their own stands."""
@@ -135,15 +140,18 @@ def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
 def _solved(step: JointStep, force: float, near: StepState | None = None) -> tuple[StepState, bool, int]:
     """The state of the step, whether it solves it, and factorisations.
 
-    near : a state that is near, with the least products; else all joints are pressed alike
+    near : a state that is near; else all joints are pressed alike
     """
     sigma, spent, blocked, fall = force**2, 0, 0, FALL
     least = LEAST * force**2
     state = near
     if state is None:
         state = _start(step.joints, force, sigma)
-    else:
+    elif step.joints.laws:
         sigma = least
+    else:
+        sigma = NEARBY * sigma
+        state = centred(step.joints, state, sigma, 0.95)
     while True:
         residual = residual_of(step, state)
         even = float(residual.products.normal.max(initial=0.0)) < EVEN * sigma
