@@ -26,7 +26,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tests.performance.recording import PROJECT, commit, record
+from tests.performance.recording import ONE_THREAD, PROJECT, commit, record
 from tests.performance.standard_set import FLOW_RULES, STANDARD_SET, Structure
 
 LIMIT = 3600
@@ -40,7 +40,7 @@ FIGURES = ("blocks", "points", "status", "load_factor", "clock", "processor", "p
 def measured(structure: Structure, flow_rule: str, checkout: Path, limit: int) -> dict[str, object]:
     """One run of a structure: what is recorded of it."""
     settings = [f"--set={value}" for value in structure.overrides]
-    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PYTHONPATH": str(checkout)}
+    environment = os.environ | ONE_THREAD | {"PYTHONPATH": str(checkout)}
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "mbla", "run", str(structure.deck), "--case", structure.load_case, *settings]
         started = time.perf_counter()

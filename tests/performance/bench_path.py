@@ -26,7 +26,7 @@ import h5py
 import numpy as np
 
 from tests.decks.folder import DECKS
-from tests.performance.recording import PROJECT, RESULTS, read_rows, record
+from tests.performance.recording import ONE_THREAD, PROJECT, RESULTS, read_rows, record
 
 LIMIT = 1200
 """seconds by the clock for one command"""
@@ -55,7 +55,7 @@ def runs() -> Iterator[Run]:
 
 def spent(run: Run, *settings: str) -> tuple[float, dict[str, float], int]:
     """Seconds of the processor of a command, those of its programs by kind, and its load cases."""
-    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    environment = os.environ | ONE_THREAD
     overrides = [f"--set={value}" for value in (*run.overrides, *settings)]
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "mbla", "run", str(run.deck), *overrides, "-q", "-o", folder]

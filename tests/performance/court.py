@@ -33,7 +33,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.decks.folder import DECKS, PATHS
-from tests.performance.recording import PROJECT, RESULTS
+from tests.performance.recording import ONE_THREAD, PROJECT, RESULTS
 from tests.trust.certificates.assemblies import assembly
 
 COURT = RESULTS / "court"
@@ -160,7 +160,7 @@ def judged(
     name: str, deck: str, content: Path | dict[str, object], overrides: tuple[str, ...], limit: int
 ) -> list[Verdict]:
     """The load cases of one deck, in a process of its own."""
-    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    environment = os.environ | ONE_THREAD
     with tempfile.TemporaryDirectory() as folder:
         path = content if isinstance(content, Path) else Path(folder) / "deck.yaml"
         if not isinstance(content, Path):

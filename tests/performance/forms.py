@@ -33,7 +33,7 @@ from mbla.errors import MblaError
 from mbla.model import build_model
 from mbla.model.model import select_cases
 from tests.decks.folder import DECKS
-from tests.performance.recording import PROJECT, RESULTS, Row, read_rows, record
+from tests.performance.recording import ONE_THREAD, PROJECT, RESULTS, Row, read_rows, record
 from tests.properties.restatements import rotation
 from tests.properties.rigid_motions import moved_scene, renumbered
 from tests.properties.scenes import Scene, Solved, solve_scene, with_analysis
@@ -163,7 +163,7 @@ def kernels_of(deck_name: str, case: str) -> list[Figure]:
     )
     found = []
     for kernel in KERNELS:
-        variables = {"OPENBLAS_CORETYPE": kernel, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        variables = {"OPENBLAS_CORETYPE": kernel, **ONE_THREAD}
         words = [sys.executable, "-c", code]
         child = subprocess.run(
             words, env=os.environ | variables, cwd=PROJECT, capture_output=True, text=True, check=True

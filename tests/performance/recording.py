@@ -17,6 +17,8 @@ RESULTS = Path(__file__).parent / "results"
 PROJECT = Path(__file__).parents[2]
 LIBRARIES = ("mbla", "numpy", "scipy", "clarabel", "shapely", "h5py", "meshio", "pyyaml", "pydantic")
 Row = dict[str, str]
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+"""of the environment of a process that is measured"""
 
 CASES = {
     "line": ("structure", "flow_rule"),
