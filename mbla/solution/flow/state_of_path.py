@@ -65,33 +65,25 @@ def state_of_path(
     """
     if found.path is None or found.path.peak is None or found.rest is None:
         return None
-    peak, factor = found.path.peak, found.rest.begins + found.path.peak.state.factor
-    points = _points(program, found.rest)
-    forces, history, velocities = _of_followed(program, peak, found.rest, points)
+    peak, rest = found.path.peak, found.rest
+    forces, history, velocities = _of_followed(program, peak, rest)
     motions, history = _of_interfaces(peak, history)
-    if len(points) < program.n_points:
-        resting = np.setdiff1d(np.arange(program.n_points), points)
-        carried = resting_forces(_what_rests(program, forces, factor, resting), interfaces, settings, log)
+    if found.lets_rest:
+        beside, resting = _what_rests(program, peak, rest, forces)
+        carried = resting_forces(beside, interfaces, settings, log)
         if carried is None:
             return None
         forces[resting] = history.remembered[resting] = carried
-    return LawState(forces, velocities, factor, peak.misfit, motions, history)
+    return LawState(forces, velocities, rest.begins + peak.state.factor, peak.misfit, motions, history)
 
 
 def _not_carried(program: Program, found: PathOfPart, interfaces: Interfaces) -> BoolArray | None:
     """Rows of the blocks at rest that do not carry what is passed on to them, (n_rows,); None where not known."""
     if found.path is None or found.path.peak is None or found.rest is None:
         return None
-    peak, factor = found.path.peak, found.rest.begins + found.path.peak.state.factor
-    points = _points(program, found.rest)
-    forces, _, _ = _of_followed(program, peak, found.rest, points)
-    resting = np.setdiff1d(np.arange(program.n_points), points)
-    return rows_not_carried(_what_rests(program, forces, factor, resting), interfaces)
-
-
-def _points(program: Program, rest: AtRest) -> IntArray:
-    """Those that were followed."""
-    return np.arange(program.n_points) if rest.points is None else rest.points
+    forces, _, _ = _of_followed(program, found.path.peak, found.rest)
+    beside, _ = _what_rests(program, found.path.peak, found.rest, forces)
+    return rows_not_carried(beside, interfaces)
 
 
 def state_at_once(
@@ -110,11 +102,10 @@ def state_at_once(
     return law_state(program, slope, forces, associative.velocities, 0.0)
 
 
-def _of_followed(
-    program: Program, peak: PeakStep, rest: AtRest, points: IntArray
-) -> tuple[FloatArray, StepHistory, FloatArray]:
+def _of_followed(program: Program, peak: PeakStep, rest: AtRest) -> tuple[FloatArray, StepHistory, FloatArray]:
     """Forces, history and velocities of all, those of what rests left at nothing and as stiff as the mean."""
     step, state, joints = peak.step, peak.state, peak.step.joints
+    points = np.arange(program.n_points) if rest.points is None else rest.points
     shape = program.n_points, program.components
     forces, remembered = np.zeros(shape), np.zeros(shape)
     forces[points] = state.forces
@@ -147,8 +138,13 @@ def _of_interfaces(peak: PeakStep, history: StepHistory) -> tuple[FloatArray | N
     return motions, history
 
 
-def _what_rests(program: Program, forces: FloatArray, factor: float, resting: IntArray) -> Program:
-    """Points that were not followed, under loads and what the forces of others, (n_points, components), do to them."""
+def _what_rests(program: Program, peak: PeakStep, rest: AtRest, forces: FloatArray) -> tuple[Program, IntArray]:
+    """Points that were not followed, under loads and what the forces of others, (n_points, components), do to them.
+
+    And their numbers in the program.
+    """
+    assert rest.points is not None
+    factor, resting = rest.begins + peak.state.factor, np.setdiff1d(np.arange(program.n_points), rest.points)
     passed = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
     chosen = selection(resting, program.n_points, program.components)
     size = 3 if program.components == 2 else 6
@@ -156,4 +152,4 @@ def _what_rests(program: Program, forces: FloatArray, factor: float, resting: In
     touched: BoolArray = np.asarray(sums.reshape(-1, size).any(axis=1), dtype=np.bool_)
     ways = selection(np.flatnonzero(touched), len(touched), size)
     loads = replace(program, dead_load=passed, live_load=np.zeros_like(passed))
-    return restricted(loads, ways, chosen, chosen_limits(program.limits, resting))
+    return restricted(loads, ways, chosen, chosen_limits(program.limits, resting)), resting
