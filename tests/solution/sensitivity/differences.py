@@ -82,9 +82,9 @@ class Differences:
     above: float
 
 
-def differences(text: str, slope: Slope, factor: float) -> Differences | None:
-    """None where a solution nearby is not solved."""
-    step, found = STEP * slope.value, {0: factor}
+def differences(text: str, slope: Slope, factor: float, relative: float = STEP) -> Differences | None:
+    """By steps ``relative`` to the value; None where a solution nearby is not solved."""
+    step, found = relative * slope.value, {0: factor}
     for row in (-2, -1, 1, 2):
         _, case = case_of(text, f"{slope.parameter}={slope.value + row * step!r}", "analysis.sensitivity=false")
         if case.status is not Status.SOLVED or case.solution.mechanics is None:

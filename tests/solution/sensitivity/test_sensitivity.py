@@ -13,7 +13,7 @@ from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import Status
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, WALL, case_of
-from tests.solution.sensitivity.differences import differences, random_text, tied_text
+from tests.solution.sensitivity.differences import STEP, differences, random_text, tied_text
 
 LAW, OF_GAP = 1e-5, 5.0
 """Share of the load factor over the parameter, or of the slope, that is exact; in space and where joints crush
@@ -150,12 +150,23 @@ def test_a_bar_that_takes_both(way: int) -> None:
     assert found.side is Side.BOTH
 
 
-@pytest.mark.every(3)
+def miss_of(text: str, slope: Slope, found: float, factor: float, step: float) -> float:
+    """By how much a slope lies outside of the differences to both sides; 0 where a solution nearby is not solved."""
+    sides = differences(text, slope, factor, step)
+    if sides is None:
+        return 0.0
+    least, most = sorted([sides.below, sides.above])
+    return max(0.0, least - found, found - most)
+
+
 @pytest.mark.parametrize(
     "seed", [pytest.param(seed, marks=pytest.mark.trust if seed % 8 else pytest.mark.long) for seed in range(64)]
 )
 def test_random_ties(seed: int) -> None:
-    """Slopes by the strength of each tie, summed up over its lines, lie between the differences to both sides."""
+    """Slopes by the strength of each tie, summed up over its lines, lie between the differences to both sides.
+
+    Where the load factor bends within the step, a tenth of the step tells.
+    """
     text = tied_text(seed)
     _, case = case_of(text)
     assert case.status is Status.SOLVED
@@ -164,10 +175,9 @@ def test_random_ties(seed: int) -> None:
     for number, value in enumerate(re.findall(r"s\d: ([\d.]+)", text)):
         own = [each for each in case.solution.sensitivity if each.parameter.startswith(f"tie t{number}[")]
         share = sum(each.elasticity for each in own)
-        found = differences(text, replace(own[0], parameter=f"parameters.s{number}", value=float(value)), factor)
-        if found is not None:
-            least, most = sorted(side * float(value) / factor for side in (found.below, found.above))
-            assert least - LAW <= share <= most + LAW
+        slope = replace(own[0], parameter=f"parameters.s{number}", value=float(value))
+        found, room = share * factor / float(value), LAW * factor / float(value)
+        assert any(miss_of(text, slope, found, factor, step) <= room for step in (STEP, STEP / 10))
 
 
 def test_without_dilatancy_they_are_of_the_associative_factor() -> None:
