@@ -16,12 +16,14 @@ A support that gives way later is held, f_L·u = 0, and λ is its reaction: from
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.solution.flow.peak_step import PeakStep, centred, solved_peak
+from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
+from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 from mbla.solution.nonassociative.imbalance import imbalance
@@ -38,10 +40,13 @@ BACK, HIGHEST, SLOWER = 1e4, 1e4, 0.3
 over n₀², and factor on them from there on: of a house with joints as stiff in shear as in compression four ways from
 stiffer joints and quicker falls were blocked, this was not."""
 
-HELD, WEAKER, SHARP = (1e-8, 1e-5), 1e-4, 1e-11
+HELD, WEAKER = (1e-8, 1e-5), 1e-4
 """ε over the mean stiffness of a joint, tried in turn until the step is solved: a plug that falls out of its hole was
-not with the weakest. Then factor on it, and misfit of the law, with which the step is solved once more: what
-stands is judged block by block, light ones too."""
+not with the weakest. Then factor on it."""
+
+FITS, SHARP = 1e-7, 1e-11
+"""Misfit of the law with which a state of points is taken where every block is carried by the forces of the law itself,
+a tenth of what a verification allows; and the one with which it is whatever is light in it."""
 
 FALL, LONG, WHOLE, LEAST = 0.1, 0.5, 0.9, 1e-8
 """Factor on the products after a step that goes more than a share of its way, that share, the same where interfaces
@@ -113,7 +118,9 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
             there, fits, more = _solved(lighter, force, state)
             settled, spent = fits and _stays(step, state, lighter, there), spent + more
         elif not _stays(step, state, weaker, close):
-            sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, SHARP)
+            least = WEAKER * share * force**2  # with larger products springs hold joints open that nothing has opened
+            enough = partial(_carries, least=least)
+            sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, enough)
             spent += more
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
@@ -126,6 +133,19 @@ def _stays(step: JointStep, state: StepState, weaker: JointStep, close: StepStat
     """Whether what springs carry stays as they get weaker: of what falls."""
     before, after = (float(np.abs(one.held * at.u).max(initial=0.0)) for one, at in ((step, state), (weaker, close)))
     return after > STAYS * before
+
+
+def _carries(found: PeakStep, least: float) -> bool:
+    """Whether a state is as near to the law as the verdict on it needs: its products are small, at most ``least``, and
+    the forces of the law itself carry every block. Those of the state rest on products, which may hold a light one.
+    """
+    step, state, joints = found.step, found.state, found.step.joints
+    if found.misfit > (EXACT if joints.laws else FITS) or found.sigma > least:
+        return False
+    if joints.laws or found.misfit <= SHARP:
+        return True
+    normal, shear = forces_by_law(step, state)
+    return _is_carried(joints, replace(state, normal=normal, shear=shear))
 
 
 def _is_carried(joints: ElasticJoints, state: StepState) -> bool:

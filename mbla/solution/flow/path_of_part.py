@@ -191,7 +191,7 @@ def _record(found: Followed, rest: AtRest) -> PathOfPart:
     spent = sum(path.factorizations - rest.gravity.steps for path in found.paths) + rest.gravity.steps
     path, peak = found.path, found.path.peak
     if rest.joints.laws and peak is not None:  # while it was followed less was enough
-        sharp, more = solved_peak(peak, rest.gravity.force, EXACT)
+        sharp, more = solved_peak(peak, rest.gravity.force, lambda found: found.misfit <= EXACT)
         path, spent = replace(path, peak=sharp), spent + more
     return PathOfPart(found.stop, path, rest, len(found.paths), spent)
 

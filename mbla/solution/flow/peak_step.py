@@ -7,6 +7,7 @@ motion and its history.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -94,18 +95,20 @@ BLOCKED, AGAIN = 0.05, (1e3, 10.0, 1e5)
 over those of the path, in turn."""
 
 
-def solved_peak(peak: PeakStep, force: float, sharp: float | None = None) -> tuple[PeakStep, int]:
+def solved_peak(
+    peak: PeakStep, force: float, enough: Callable[[PeakStep], bool] = lambda peak: peak.is_solved
+) -> tuple[PeakStep, int]:
     """The step of the peak from its history with ever smaller products, until the law holds; factorisations spent.
 
     The state with the least misfit that was met, which says how far it came.
 
-    force : n₀
-    sharp : misfit with which it is solved, that of a peak unless given
+    force  : n₀
+    enough : whether a state is taken, one that is solved unless given
     """
     step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
     best = replace(peak, misfit=misfit(step, peak.state, force))
-    while not (best.is_solved if sharp is None else best.misfit <= sharp) and spent < STEPS:
+    while not enough(best) and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
         if found is None:

@@ -12,8 +12,21 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.solution.law.elastic_joints import StepState, lengths, within
 from mbla.solution.law.joint_equations import JointStep
+
+
+def forces_by_law(step: JointStep, state: StepState) -> tuple[FloatArray, FloatArray]:
+    """Normal forces, (n_points,), and shear, (components − 1, n_points), that joints have for the motion of a state."""
+    joints, limits = step.joints, step.joints.program.limits
+    v = joints.velocities(state.u)
+    trial = step.memory.shear - v[1:] / step.shear_compliance
+    shear = within(trial, joints.limit(state.normal))
+    normal = step.memory.normal - v[0] / step.normal_compliance
+    if joints.dilates:
+        normal = normal + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
+    return np.clip(normal, -limits.tension, limits.compression), shear
 
 
 def misfit(step: JointStep, state: StepState, force: float) -> float:
@@ -23,14 +36,7 @@ def misfit(step: JointStep, state: StepState, force: float) -> float:
 
     force : n₀; where all joints open, none is larger
     """
-    joints, limits = step.joints, step.joints.program.limits
-    v = joints.velocities(state.u)
-    trial = step.memory.shear - v[1:] / step.shear_compliance
-    shear = within(trial, joints.limit(state.normal))
-    normal = step.memory.normal - v[0] / step.normal_compliance
-    if joints.dilates:
-        normal = normal + joints.normal * joints.dilatancy * lengths(trial - shear) / joints.shear
-    normal = np.clip(normal, -limits.tension, limits.compression)
+    joints, (normal, shear) = step.joints, forces_by_law(step, state)
     largest = max(float(np.abs(state.normal).max(initial=0.0)), float(np.abs(state.shear).max(initial=0.0)), force)
     off = [float(np.abs(one).max(initial=0.0)) for one in (normal - state.normal, shear - state.shear)]
     each = zip(joints.laws, state.interfaces, strict=True)
