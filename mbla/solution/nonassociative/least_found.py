@@ -2,9 +2,9 @@
 
 Without dilatancy a structure may come to rest in many states: that of the path of elastic joints is the one to which
 its loading leads from the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of
-convex programs (``alternation``) from the normal forces of the path come to an exact state, and with a tilt to lower
-ones, and the same from the associative forces, as long as their iterations are within ``analysis.search`` times those
-spent so far, or within some hundred.
+convex programs (``alternation``) from the normal forces of the path, or of associative flow, come to an exact state
+within some hundred iterations, or to none, and with a tilt to lower ones, as long as their iterations are within
+``analysis.search`` times those spent so far, or within some hundred.
 
 That is no proof: the least of all is a problem that nobody solves with certainty (Ferris and Tin-Loi 2001,
 doi:10.1016/S0020-7403(99)00111-3). Found are, of walls 1, 3 and 5 of theirs, 0.638982, 0.355817 and 0.207973, the least
@@ -64,7 +64,7 @@ def least_found(
         near = search.approach(normal)
         if search.least_residual > SOLVED_RESIDUAL:
             search.descend(near)
-        if search.least_residual <= SOLVED_RESIDUAL or search.late:
+        if search.least_residual <= SOLVED_RESIDUAL or search.over:
             break
     if search.answer is None or search.answer.residual > SOLVED_RESIDUAL:
         return None
