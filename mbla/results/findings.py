@@ -23,6 +23,7 @@ from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import NEAR_ZERO
 from mbla.solution.verification.case import PROVED_RESIDUAL
 from mbla.solution.verification.statics import bodies_of_points, load_scale, load_sizes
 
@@ -159,13 +160,13 @@ def magnitude_notices(model: Model, contacts: Contacts, case: CaseResult, *, dou
         notices += [Notice("warning", "magnitudes-far-apart", text, name)] if words else []
     rounding = rounding_of(model, case)
     if rounding > 0.0:
-        text = f"{name}: the load factor is zero to the accuracy of the forces, about {rounding:.1e}"
+        text = f"{name}: the load factor is zero to the accuracy of forces and joints, about {rounding:.1e}"
         notices.append(Notice("notice", "load-factor-rounding", text, name))
     return notices
 
 
 def rounding_of(model: Model, case: CaseResult) -> float:
-    """What the rounding of forces means for a load factor close to zero; 0 where it does not matter.
+    """What the rounding of forces, or elastic joints, mean for a load factor close to zero; 0 where it does not matter.
 
     Negligible relative to dead over live load, of the blocks that move where the others are heavier.
     """
@@ -178,6 +179,9 @@ def rounding_of(model: Model, case: CaseResult) -> float:
     own = load_sizes(dead, sizes)
     moved = float(own @ (np.linalg.norm(u[:, :3], axis=1) + sizes * np.linalg.norm(u[:, 3:], axis=1)))
     unit = min(moved, float(np.linalg.norm(own) / np.linalg.norm(load_sizes(live, sizes))))
+    by_path = not np.isnan(case.checks.elastic_residual)
+    if by_path and abs(mechanics.load_factor) < NEAR_ZERO * unit:
+        return NEAR_ZERO * unit
     return PROVED_RESIDUAL * unit if abs(mechanics.load_factor) < SMALL_FACTOR * unit else 0.0
 
 

@@ -33,3 +33,7 @@ BOUNDS_ROUNDING = 1e-9
 
 STILL = 1e-12
 """Velocity over the largest of the motion that is rounding: where no contact point moves more, no joint does."""
+
+NEAR_ZERO = 1e-5
+"""Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
+share of 2e-9, a residual of 1e-6 of a hundred thousandth is far within that, and elastic joints leave some 3e-6."""

@@ -66,7 +66,7 @@ def verdict(model: Model, case: CaseResult) -> str:
     moves = "follows its support" if case.load_case.settlement is not None else moves
     if presumes_standing(case):
         return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law at {known}"
-    if falls_while_moving(case):
+    if falls_while_moving(case) and mechanics.load_factor > rounding_of(model, case):
         return (
             f"{moves} at {known}; while it moves, {load_factor_words(model, case.load_case, case.solution.path_last)}"
         )

@@ -28,12 +28,12 @@ from mbla.solution.nonassociative.by_stiffness import (
     may_hang_on_stiffness,
     paths_beside,
 )
-from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, SequenceResult
+from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.locking import lasting_limits
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, IterationRecord, PathPoint, ProgramRecord, Status
 from mbla.solution.standing.standing import stress_free_state
-from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL
 
 
 def solve_by_elastic_path(

@@ -15,11 +15,7 @@ from mbla.program.static import PointMotion
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathByStiffness, PathPoint, ProgramRecord, Status
-from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL, STILL
-
-NEAR_ZERO = 1e-5
-"""Load factors below this share of dead over live load count as that share: what of them forces can tell from zero is a
-share of 2e-9, and a residual of 1e-6 of a hundred thousandth is far within that."""
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL, STILL
 
 AS_ASKED = Message(
     "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"

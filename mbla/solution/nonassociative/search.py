@@ -17,11 +17,11 @@ from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.imbalance import imbalance
-from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState
+from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
-from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
+from mbla.solution.thresholds import EXACT_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL
 
 MOST_PAIRS, PATIENCE, AT_REST, PROGRESS = 12, 4, 2, 0.7
 """Pairs of programs from one start at most; given up where so many in a row have not brought the residual to this share

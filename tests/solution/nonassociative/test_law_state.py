@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.solution.nonassociative.law_state import NEAR_ZERO, LawState, law_state, residual_with_closing
+from mbla.solution.nonassociative.law_state import LawState, law_state, residual_with_closing
+from mbla.solution.thresholds import NEAR_ZERO
 from tests.line import BLOCK, line_of
 
 LIGHT_BESIDE_HEAVY = """\
