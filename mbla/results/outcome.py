@@ -125,10 +125,18 @@ def by_path(case: CaseResult) -> bool:
     return not math.isnan(case.checks.elastic_residual)
 
 
+FALLEN = 0.05
+"""Share of the load factor by which less is carried at the end of a path that does not end as a fall, from which that
+is said: a tie has broken, or the load has not come back after a dip."""
+
+
 def falls_while_moving(case: CaseResult) -> bool:
     """Whether the load falls on the path once the structure moves."""
-    own = case.solution.mechanics
-    return case.solution.path_end == Stop.FALLS and own is not None and case.solution.path_last < own.load_factor
+    own, last = case.solution.mechanics, case.solution.path_last
+    if own is None or not by_path(case):
+        return False
+    size = abs(own.load_factor)
+    return last < own.load_factor - (0.0 if case.solution.path_end == Stop.FALLS else FALLEN * size)
 
 
 def rises_where_it_ends(case: CaseResult) -> bool:

@@ -19,11 +19,13 @@ from mbla.results.listing.answers import (
 from mbla.results.listing.text import MOST_ROWS, counted, entry, long_table, number, sentence, small, table
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
+    FALLEN,
     RESIDUALS,
     angle_bounds,
     angle_of,
     associative_of,
     best_iterate,
+    falls_while_moving,
     least_of,
     locked_in,
     result_of,
@@ -209,6 +211,10 @@ ENDS = {
 """why a path with an answer ended, with the load factor there and the displacement"""
 
 
+ROW_OFF = 1e-3
+"""share by which the row of the greatest load lies off the load factor, from which that is explained"""
+
+
 def path_lines(model: Model, case: CaseResult) -> list[str]:
     """Greatest load and end of the path, and a table of the steps that matter; nothing where no path was followed."""
     solution = case.solution
@@ -219,13 +225,14 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
     peak, own = path[top], result_of(case)
     reached = peak.load_factor if own is None else own.load_factor  # a step of the path, and that step as it was solved
     highest, ended = (load_factor_words(model, case.load_case, value) for value in (reached, solution.path_last))
-    says = (
-        f"Path of elastic joints, {counted(len(path), 'step')}: it rises to {highest} at a displacement of "
-        f"{peak.displacement:.3g}, over the elastic one of the structure at its associative load factor"
-    )
-    end = next((words for stop, words in ENDS.items() if stop == solution.path_end), "it was followed no further")
+    breaks = peak.load_factor < reached - FALLEN * abs(reached)
+    where = "within a step, in which a tie breaks" if breaks else f"at a displacement of {peak.displacement:.3g}"
+    says = f"Path of elastic joints, {counted(len(path), 'step')}: it rises to {highest} {where}"
+    says += " (displacements are over the elastic one of the structure at its associative load factor)"
+    stop = Stop.FALLS if falls_while_moving(case) else solution.path_end
+    end = next((words for ended_by, words in ENDS.items() if ended_by == stop), "it was followed no further")
     says += f"; {end.format(ended, path[-1].displacement)}."
-    if solution.path_end == Stop.FAR:
+    if stop == Stop.FAR:
         says += f" Of the load factor {100.0 * solution.path_gain:.2g} % were gained over its last half."
     shown = [path[row] for row in sorted({*evenly(len(path), MOST_ROWS - 1), top})]
     rows = [
@@ -238,6 +245,9 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
         ]
         for point in shown
     ]
+    if not breaks and abs(peak.load_factor - reached) > ROW_OFF * abs(reached):
+        says += f" Rows are of steps on the way, smoothed; step {peak.step} solved until the law of its joints holds, "
+        says += f"or one next to it, carries {highest}."
     head = ["step", "displacement", "load factor", "points open", "sliding"]
     rough = [] if all(point.balanced for point in shown) else sentence("*: on the way, not in balance")
     return ["", *sentence(says), *long_table(head, rows, len(path))[1:], *rough]

@@ -54,9 +54,9 @@ half: a dome on its drum snaps there, and no smoothing led on from where it was 
 NOT_LOW = Fall()
 """No step below the peak."""
 
-AT_BREAK, NEARLY = 10, 0.99
-"""Lengths tried for the step to where a tie breaks, and share of the way to there, or of a length between which and the
-next it breaks, that is near enough."""
+AT_BREAK, AIM, NEARLY = 12, 1.003, 0.99
+"""Lengths tried for the step to where a tie breaks; how much beyond it is aimed at, for there the tie has its strength;
+and share of the way to there, or of a length that does not break it over one that does, that is near enough."""
 
 
 def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
@@ -177,18 +177,29 @@ class _Path:
         """
         whole = self.peaks.solve(gone)
         share, breaking = self._share_until_break(whole)
-        low, high, length = 0.0, whole.step.length, whole.step.length
-        for _ in range(AT_BREAK if len(breaking) else 0):
-            length = share * length if low < share * length < high else 0.5 * (low + high)
+        if not len(breaking):
+            return breaking, whole
+        low, high = (0.0, 0.0), (whole.step.length, 1.0 / max(share, 1e-300))  # lengths, and how near they lead
+        before = None
+        for _ in range(AT_BREAK):
+            length = low[0] + (AIM - low[1]) / (high[1] - low[1]) * (high[0] - low[0])
             there = replace(gone, step=replace(gone.step, length=length))
             sharp = self.peaks.solve(there)
             if sharp.state is there.state:
                 break
-            share = self._share_until_break(sharp)[0]
-            low, high = (length, high) if share > 1.0 else (low, length)
-            if NEARLY < share < 1.0 / NEARLY or low > NEARLY * high:
-                self.peaks.take(sharp)
+            near = 1.0 / max(self._share_until_break(sharp)[0], 1e-300)
+            if near < 1.0:  # the other end counts half where the same one moves again
+                before, high = sharp, (high[0], 1.0 + 0.5 * (high[1] - 1.0)) if before is not None else high
+                low = (length, near)
+            else:
+                low = (low[0], 1.0 - 0.5 * (1.0 - low[1])) if before is None else low
+                high = (length, near)
+            if 1.0 <= near < 1.0 / NEARLY:
+                before = sharp
+            if 1.0 <= near < 1.0 / NEARLY or low[0] > NEARLY * high[0]:
                 break
+        if before is not None:
+            self.peaks.take(before)
         return breaking, whole
 
     def _share_until_break(self, gone: PeakStep) -> tuple[float, IntArray]:

@@ -89,6 +89,31 @@ def test_strips_that_break_one_after_the_other(capacities: tuple[float, float], 
     assert factor == pytest.approx((WEIGHT + expected) / WEIGHT, rel=1e-3)
 
 
+BRITTLE = (
+    HEAD
+    + """\
+parameters: {C: 4000}
+joints: {dry: {friction: 0.8}}
+blocks: [{box: {group: wall, material: stone, min: [0, 0, 0], max: [0.5, 2, 3]}}]
+supports: [{ground: {z: 0}}]
+ties: [{through: [[0, 1, 2.5], [-3, 1, 2.5]], on: [wall, ground], capacity: "=C", breaks_at: 0}]
+load_cases: {out: {live: [{acceleration: [1, 0, 0]}]}}
+"""
+)
+
+
+@pytest.mark.parametrize("capacity", [6e3, 18e3, 20e3])
+def test_a_wall_is_held_until_its_rod_breaks(capacity: float) -> None:
+    """On joints all closed: base slip u and turn θ under λ W at 1.5 m, a rod as stiff as a point at 2.5 m, four points
+    0.25 m off the middle, 0.4 times as stiff along the joint."""
+    rod, points = np.array([1.0, 2.5]), np.diag([4 * 0.4, 4 * 0.25**2])
+    u = np.linalg.solve(points + np.outer(rod, rod), [1.0, 1.5])
+    share = rod @ u  # of λ W
+    assert case_of(BRITTLE, "out", f"parameters.C={capacity}").load_factor() == pytest.approx(
+        capacity / (share * 3.0 * WEIGHT), rel=1e-3
+    )
+
+
 def test_a_tie_that_breaks_after_an_elongation_does_not_break_within_elastic_displacements() -> None:
     """They are nothing beside a length: rigid blocks have none."""
     text = LIFTED.replace("strip: [[0, 0.5, -0.5], [0, 0.5, 0.5]]", "through: [[0, 0.5, -0.5], [0, 0.5, 0.5]]")
