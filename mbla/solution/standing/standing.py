@@ -28,7 +28,7 @@ from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.settings import RATIOS
-from mbla.solution.law.elastic_joints import ElasticJoints, together, within
+from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.mechanics import lifted, motion_of
 from mbla.solution.nonassociative.law_state import LawState, StepHistory
 from mbla.solution.settings import SolverSettings
@@ -91,11 +91,9 @@ def _stress_free(program: Program) -> StressFree:
 
 
 def _at_rest(joints: ElasticJoints, gravity: Gravity) -> LawState:
-    """Without the shear that a joint without friction has had for its cone to have an inside."""
-    state, cohesion = gravity.state, joints.program.limits.cohesion
-    forces = together(state.normal, within(state.shear, np.maximum(joints.friction * state.normal + cohesion, 0.0)))
-    history = StepHistory(np.zeros_like(forces), joints.normal, joints.shear)
-    return LawState(forces, state.u, state.factor, 0.0, history=history)
+    state = gravity.state
+    history = StepHistory(np.zeros_like(state.forces), joints.normal, joints.shear)
+    return LawState(state.forces, state.u, state.factor, 0.0, history=history)
 
 
 def assess_dead_load(program: Program, carried: bool | None = True, known: StressFree | None = None) -> StandingResult:
