@@ -133,7 +133,7 @@ is said: a tie has broken, or the load has not come back after a dip."""
 def falls_while_moving(case: CaseResult) -> bool:
     """Whether the load falls on the path once the structure moves."""
     own, last = case.solution.mechanics, case.solution.path_last
-    if own is None or not by_path(case):
+    if own is None:
         return False
     size = abs(own.load_factor)
     return last < own.load_factor - (0.0 if case.solution.path_end == Stop.FALLS else FALLEN * size)

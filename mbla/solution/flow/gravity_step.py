@@ -144,6 +144,9 @@ def _carries(found: PeakStep, least: float) -> bool:
         return False
     if joints.laws or found.misfit <= SHARP:
         return True
+    limits = joints.program.limits
+    if np.any((limits.friction <= 0.0) & (limits.cohesion <= 0.0)):  # they have a little for their cone
+        return False
     normal, shear = forces_by_law(step, state)
     return _is_carried(joints, replace(state, normal=normal, shear=shear))
 
