@@ -182,12 +182,12 @@ NO_STATE = "the path of elastic joints came to no state in balance"
 MISSED = Message("elastic-law-missed", "the step of the greatest load fits the law of elastic joints to {:.2g} only")
 NOT_SEEN = Message(
     "elastic-path-not-seen",
-    "it stands at least to {}, where the path of elastic joints could not be followed further ({})",
+    "it stands at least to a load factor of {}, where the path of elastic joints could not be followed further ({})",
 )
 HANGS = Message(
     "elastic-path-by-stiffness",
-    "how stiff its joints are decides: it starts to move at {} where they have {} of their stiffness in shear, at {} "
-    "with {}",
+    "how stiff its joints are decides: it starts to move at a load factor of {} where they have {} of their stiffness "
+    "in shear, at {} with {}",
 )
 AT_LIMIT = Message(
     "elastic-path-at-limit",
@@ -195,8 +195,8 @@ AT_LIMIT = Message(
 )
 UNENDED_PATH = Message(
     "elastic-path-not-ended",
-    "it stands at least to {}: of it {:.2g} % were gained over the last half of the path of elastic joints, which ends "
-    "before the load does",
+    "it stands at least to a load factor of {}: of it {:.2g} % were gained over the last half of the path of elastic "
+    "joints, which ends before the load does",
 )
 RISING = Message(
     "elastic-path-rises",

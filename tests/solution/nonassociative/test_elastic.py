@@ -339,7 +339,7 @@ def path_that(stop: Stop, residual: float) -> tuple[Status, str]:
         (Stop.FALLS, 1e-7, Status.SOLVED, ""),
         (Stop.FLAT, 1e-3, Status.APPROXIMATE, "fits the law of elastic joints to 0.001 only"),
         (Stop.FAR, 1e-1, Status.NOT_VERIFIED, "fits the law of elastic joints to 0.1 only"),
-        (Stop.STUCK, 1e-7, Status.APPROXIMATE, "it stands at least to 0.5, where the path of elastic joints could"),
+        (Stop.STUCK, 1e-7, Status.APPROXIMATE, "it stands at least to a load factor of 0.5, where the path"),
         (Stop.UNBOUNDED, 1e-7, Status.UNBOUNDED, "nothing gives way"),
         (Stop.DOES_NOT_STAND, 1e-7, Status.NOT_VERIFIED, "does not carry its dead load"),
     ],
