@@ -5,6 +5,7 @@ The fall of a structure without equilibrium is described in the same words.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -26,6 +27,8 @@ from mbla.results.results import CaseResult
 
 MOST_PARTS = 4
 """parts that have a sentence; the tables hold more, the result files all"""
+DIGITS = 4
+"""of the size of a part in which places of its axis are given, and below which its centroid is at rest"""
 FAR_AXIS = 5.0
 """distance of its axis over the size of a part from which it is said to move rather than to turn"""
 LIFTS = (
@@ -107,7 +110,7 @@ def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, fai
 def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     """``Part 1 (12 blocks of wall, x 2.2 .. 3.2 m, 20.8 % of the weight) turns about +y ..``."""
     motion = motion_words(model, part)
-    if part.turns and part.velocity.any() and not _is_far(model, part):
+    if part.turns and not _is_far(model, part) and not _is_at_rest(part, _size_of(model, part)):
         motion += f", its centroid moving along {_way(part)}"
     if len(part.blocks) == len(model.free):
         return f"Everything that is free ({counted(len(part.blocks), 'block')}) {motion}."
@@ -126,13 +129,23 @@ def motion_words(model: Model, part: PartMotion) -> str:
         return f"moves along {direction_words(part.direction)}"
     if _is_far(model, part):
         return f"moves along {_way(part)}, turning slightly about {direction_words(part.direction)}"
-    return f"turns about {direction_words(part.direction)} at {point_words(model, part.axis_point)}"
+    place = np.round(part.axis_point, DIGITS - math.floor(math.log10(_size_of(model, part)))) + 0.0
+    return f"turns about {direction_words(part.direction)} at {point_words(model, place)}"
 
 
 def _is_far(model: Model, part: PartMotion) -> bool:
     """Whether the axis lies several sizes of the part away."""
+    return bool(np.linalg.norm(part.axis_point - part.centroid) > FAR_AXIS * _size_of(model, part))
+
+
+def _size_of(model: Model, part: PartMotion) -> float:
     low, high = extents_of(model, part.blocks)
-    return bool(np.linalg.norm(part.axis_point - part.centroid) > FAR_AXIS * np.linalg.norm(high - low))
+    return float(np.linalg.norm(high - low))
+
+
+def _is_at_rest(part: PartMotion, size: float) -> bool:
+    """Whether the centroid of a part that turns moves by rounding only."""
+    return float(np.linalg.norm(part.velocity)) < 10.0**-DIGITS * size * float(np.linalg.norm(part.rotation))
 
 
 def _way(part: PartMotion) -> str:

@@ -119,8 +119,9 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
             settled, spent = fits and _stays(step, state, lighter, there), spent + more
         elif not _stays(step, state, weaker, close):
             least = WEAKER * share * force**2  # with larger products springs hold joints open that nothing has opened
-            enough = partial(_carries, least=least)
-            sharp, more = solved_peak(PeakStep(weaker, LEAST * force**2, close, 0.0), force, enough)
+            wanted, good = EXACT if joints.laws else SHARP, partial(_carries, least=least)
+            start = PeakStep(weaker, LEAST * force**2, close, 0.0)
+            sharp, more = solved_peak(start, force, lambda found: found.misfit <= wanted, good)
             spent += more
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
@@ -140,12 +141,7 @@ def _carries(found: PeakStep, least: float) -> bool:
     the forces of the law itself carry every block. Those of the state rest on products, which may hold a light one.
     """
     step, state, joints = found.step, found.state, found.step.joints
-    if found.misfit > (EXACT if joints.laws else FITS) or found.sigma > least:
-        return False
-    if joints.laws or found.misfit <= SHARP:
-        return True
-    limits = joints.program.limits
-    if np.any((limits.friction <= 0.0) & (limits.cohesion <= 0.0)):  # they have a little for their cone
+    if joints.laws or found.misfit > FITS or found.sigma > least:
         return False
     normal, shear = forces_by_law(step, state)
     return _is_carried(joints, replace(state, normal=normal, shear=shear))

@@ -96,7 +96,10 @@ over those of the path, in turn."""
 
 
 def solved_peak(
-    peak: PeakStep, force: float, enough: Callable[[PeakStep], bool] = lambda peak: peak.is_solved
+    peak: PeakStep,
+    force: float,
+    enough: Callable[[PeakStep], bool] = lambda peak: peak.is_solved,
+    good: Callable[[PeakStep], bool] = lambda peak: False,
 ) -> tuple[PeakStep, int]:
     """The step of the peak from its history with ever smaller products, until the law holds; factorisations spent.
 
@@ -104,6 +107,7 @@ def solved_peak(
 
     force  : n₀
     enough : whether a state is taken, one that is solved unless given
+    good   : whether one is taken where the way to such a state is blocked; else it begins anew
     """
     step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
@@ -120,7 +124,7 @@ def solved_peak(
         if found[1] > 0.5:
             sigma = max((FALL if found[1] < WHOLE else QUICK) * sigma, LEAST * force**2)
         blocked = blocked + 1 if found[1] < BLOCKED else 0
-        if blocked >= 2 and not again:
+        if blocked >= 2 and (not again or good(best)):
             break
         if blocked >= 2:
             sigma, blocked = again.pop(0) * peak.sigma, 0
