@@ -133,9 +133,6 @@ def _of_figures(case: CaseResult) -> list[Notice]:
 FAR_APART = 1e6
 """Ratio of loads, or of strength and loads, from which it is reported as the cause."""
 
-SMALL_FACTOR = 1e-5
-"""Load factor, over dead over live load, below which the rounding of forces is more than a ten thousandth of it."""
-
 LINE = 1e-9
 """Width of an interface over its length below which it is a line, and its length is what counts."""
 
@@ -179,10 +176,9 @@ def rounding_of(model: Model, case: CaseResult) -> float:
     own = load_sizes(dead, sizes)
     moved = float(own @ (np.linalg.norm(u[:, :3], axis=1) + sizes * np.linalg.norm(u[:, 3:], axis=1)))
     unit = min(moved, float(np.linalg.norm(own) / np.linalg.norm(load_sizes(live, sizes))))
-    by_path = not np.isnan(case.checks.elastic_residual)
-    if by_path and abs(mechanics.load_factor) < NEAR_ZERO * unit:
-        return NEAR_ZERO * unit
-    return PROVED_RESIDUAL * unit if abs(mechanics.load_factor) < SMALL_FACTOR * unit else 0.0
+    if abs(mechanics.load_factor) >= NEAR_ZERO * unit:
+        return 0.0
+    return (NEAR_ZERO if case.by_path else PROVED_RESIDUAL) * unit
 
 
 def _loads(own: FloatArray) -> list[str]:

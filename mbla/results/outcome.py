@@ -120,11 +120,6 @@ def least_known(case: CaseResult) -> float:
     return math.nan if own is None else float(np.fmin(own.load_factor, least_of(case)))
 
 
-def by_path(case: CaseResult) -> bool:
-    """Whether the state shown is one of the path of elastic joints."""
-    return not math.isnan(case.checks.elastic_residual)
-
-
 FALLEN = 0.05
 """Share of the load factor by which less is carried at the end of a path that does not end as a fall, from which that
 is said: a tie has broken, or the load has not come back after a dip."""
@@ -135,8 +130,8 @@ def falls_while_moving(case: CaseResult) -> bool:
     own, last = case.solution.mechanics, case.solution.path_last
     if own is None:
         return False
-    size = abs(own.load_factor)
-    return last < own.load_factor - (0.0 if case.solution.path_end == Stop.FALLS else FALLEN * size)
+    room = 0.0 if case.solution.path_end == Stop.FALLS else FALLEN * abs(own.load_factor)
+    return last < own.load_factor - room
 
 
 def rises_where_it_ends(case: CaseResult) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
@@ -42,6 +43,11 @@ class CaseResult:
     solution: Solution
     checks: Checks
     status: Status
+
+    @property
+    def by_path(self) -> bool:
+        """Whether the state shown is one of the path of elastic joints."""
+        return not math.isnan(self.checks.elastic_residual)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ import math
 
 from mbla.model.model import LoadCase, Model
 from mbla.results.listing.verdict_words import LEAST_OFF, load_factor_words
-from mbla.results.outcome import by_path
 from mbla.results.results import PathAgain, Results
 
 NOT_CHECKED = (
@@ -17,7 +16,7 @@ NOT_CHECKED = (
 def history_words(results: Results) -> tuple[str, ...]:
     """Sentences on the paths that a verification followed anew, or that it did not."""
     if results.paths_again is None:
-        return (NOT_CHECKED,) if any(by_path(case) for case in results.cases) else ()
+        return (NOT_CHECKED,) if any(case.by_path for case in results.cases) else ()
     followed = {path.case for path in results.paths_again}
     words = [
         f"{path.case}: {path_words(results.model, case.load_case, path)}"

@@ -13,7 +13,6 @@ from mbla.results.outcome import (
     angle_at,
     associative_of,
     best_iterate,
-    by_path,
     falls_while_moving,
     law_residual,
     least_of,
@@ -62,7 +61,7 @@ def verdict(model: Model, case: CaseResult) -> str:
     if case.load_case.objective is not None:
         figure = f"{number(answer_value(case.load_case, mechanics.load_factor))} {model.units.force}"
         return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
-    moves = "starts to move" if by_path(case) else "collapses"
+    moves = "starts to move" if case.by_path else "collapses"
     moves = "follows its support" if case.load_case.settlement is not None else moves
     if presumes_standing(case):
         return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law at {known}"
@@ -130,7 +129,7 @@ def stiffness_words(model: Model, case: CaseResult) -> str:
     By kind where no such path was followed, unless the load factor is that of associative flow, an upper limit to all.
     """
     own, rows = result_of(case), case.solution.path_by_stiffness
-    if own is None or not by_path(case):
+    if own is None or not case.by_path:
         return ""
     if not rows:
         above = associative_of(case)
@@ -227,7 +226,7 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
         of = "the kinematic bound of " if wide else ""
         limit = load_factor_words(model, case.load_case, value)
         above = f"; {of}the associative load factor, {limit}, is an upper limit to all"
-    if by_path(case):
+    if case.by_path:
         return f"The load factor is the greatest on the path of elastic joints from the stress-free assembly{above}."
     return f"Without normality other load factors may fit the joint law as well{above}."
 

@@ -20,7 +20,7 @@ from mbla.deck import Deck
 from mbla.model import Model
 from mbla.program.build import build_program
 from mbla.results.listing.history_words import path_words
-from mbla.results.outcome import apart, by_path, ratio_of, result_of
+from mbla.results.outcome import apart, ratio_of, result_of
 from mbla.results.results import CaseResult, PathAgain
 from mbla.results.verification.asked import ANSWERS, SAME_ROW, Found
 from mbla.solution.flow.path_record import UNENDED, Stop
@@ -44,7 +44,7 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
     case  : with checks and status recomputed
     """
     own = result_of(case)
-    if own is None or not by_path(case):
+    if own is None or not case.by_path:
         return ()
 
     def beside(ratio: float, of: float, in_file: float, allowed: float) -> PathAgain:
