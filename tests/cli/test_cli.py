@@ -118,6 +118,8 @@ def test_expected_figures_are_compared(deck: Path, capsys: pytest.CaptureFixture
     assert code == 4
     (notice,) = [notice for notice in record["notices"] if notice["identifier"] == "not-as-expected"]
     assert "expected 0.51" in notice["message"]
+    assert main(["verify", str(deck.parent / "block.out" / "block.h5")]) == 4
+    assert "expected 0.51" in capsys.readouterr().out
 
 
 def test_one_bad_deck_does_not_stop_the_next(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,6 +13,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
+from mbla.results.exit_status import FAULTS
 from mbla.results.findings import remarks_of_run
 from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
@@ -168,7 +169,7 @@ def verification_lines(results: Results, disagreements: Sequence[str]) -> list[s
     if not results.complete and results.without_result:
         lines += sentence(f"load cases of the deck without a result: {', '.join(results.without_result)}")
     lines += [line for text in disagreements for line in sentence(f"differs: {text}")]
-    of_file = [notice.message for notice in results.notices if notice.identifier == "run-stopped"]
+    of_file = [notice.message for notice in results.notices if notice.identifier in ("run-stopped", *FAULTS)]
     lines += [line for text in of_file for line in sentence(text)]
     if not disagreements and not results.unconfirmed:
         lines += sentence("all else in the file agrees with what was recomputed")
