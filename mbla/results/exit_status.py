@@ -14,7 +14,10 @@ from mbla.results.series import position_of, series_of
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
 
-FAULTS = ("not-as-expected", "isolated-blocks")
+UNEXPECTED = "not-as-expected"
+"""identifier of notices that a run has only where it was asked to compare with what its deck expects"""
+
+FAULTS = (UNEXPECTED, "isolated-blocks")
 """Warnings of an entire run that count as not verified."""
 
 

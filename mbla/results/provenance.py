@@ -233,9 +233,9 @@ def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
 
 def as_expected(results: Results, deck: Deck) -> Results:
     """Results with a warning for every figure that is not what the deck expects."""
-    from mbla.results.exit_status import differences, exit_code
+    from mbla.results.exit_status import UNEXPECTED, differences, exit_code
 
-    found = [Notice("warning", "not-as-expected", text) for text in differences(results.cases, deck.content.expected)]
+    found = [Notice("warning", UNEXPECTED, text) for text in differences(results.cases, deck.content.expected)]
     notices = (*results.notices, *found)
     return replace(results, notices=notices, exit_code=exit_code(results.cases, notices))
 

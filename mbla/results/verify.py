@@ -28,7 +28,7 @@ from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces, takes_stress_blocks
-from mbla.results.exit_status import exit_code
+from mbla.results.exit_status import UNEXPECTED, exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
@@ -188,9 +188,6 @@ def _unproved(results: Results, case: CaseResult) -> list[str]:
 
 SAME, SAME_OF_LARGEST = 1e-9, 1e-12
 """Differences of entries, relative to them and to the largest of their kind, that are rounding of another machine."""
-
-UNEXPECTED = "not-as-expected"
-"""identifier of notices that a run has only where it was asked to compare with what its deck expects"""
 
 
 def rebuilt(results: Results) -> tuple[Deck | None, tuple[str, ...]]:
