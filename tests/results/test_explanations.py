@@ -15,7 +15,7 @@ from mbla.cli import EXIT_STATUS, main
 from mbla.deck.sections.analysis import APPLIES
 from mbla.errors import DeckError, FileError, LimitError, MblaError, SolverError, UsageError
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.exit_status import EXIT_CODES
+from mbla.results.exit_status import EXIT_CODES, UNEXPECTED
 from mbla.results.explanations import explanations, find_explanations, sections
 from mbla.results.findings import REMARKS_THAT_WARN, WITHOUT_REASON
 from mbla.results.listing.figures import residual_rows
@@ -28,6 +28,7 @@ WRITTEN_BY = {"Notice": 1, "warn": 0, "note": 0, "_drop": 2, "take_welded": 1, "
 """Functions that take an identifier, and which argument it is."""
 COMPUTED = {
     "f'{key}-not-applied'": {"inset-not-applied", "rounding-not-applied"},
+    "UNEXPECTED": {UNEXPECTED},
     "identifier": set(),  # passed on; the caller has it
     "*row": set(),  # read back from a file
     "own": set(),  # positions of a travelling load, no identifier
