@@ -40,7 +40,7 @@ larger one have other normals. Facets in contact as built hinge on each other up
 
 REACH = 0.05
 """Gap or overlap, over block size, beyond which facets are not in contact: a step moves blocks by less
-(:data:`LARGEST_MOTION` of :mod:`mbla.solution.pushover.steps`), and what overlaps more are the far sides of blocks
+(:data:`MOVED` of :mod:`mbla.solution.pushover.way`), and what overlaps more are the far sides of blocks
 whose near ones touch."""
 
 NARROW = 1e-6
@@ -73,9 +73,10 @@ class MovedSearch:
         corners = shapely.get_coordinates(self.facets.polygons, return_index=True)
         self._corners, self._facet_of_corner = corners
         self._first = np.flatnonzero(np.diff(self._facet_of_corner, prepend=-1))
+        self._corners_of_facets = shapely.extract_unique_points(self.facets.polygons)
         self._edges = self._joined = np.zeros(0, dtype=np.int64)
         self._reach = max(REACH, 2.0 * section.depth_allowed)
-        overlays, parts = self._near(model, self.facets)
+        overlays, parts = self._near(model, self.facets, 0.0)
         least, greatest = _extreme_gaps(overlays, parts)
         touches = (greatest <= section.tolerance) & (least >= -section.depth_allowed)
         apart = (~touches & (least < section.tolerance)) | (widths(parts) < section.tolerance)
@@ -85,11 +86,14 @@ class MovedSearch:
         middles = gap_at(overlays, np.arange(len(parts)), areas_and_centroids(needed_corners(parts, NARROW))[1])
         self._built = (middles * overlays.sizes)[joined][first]
 
-    def at(self, pose: Pose, fallen: BoolArray | None = None) -> MovedContacts:
-        """Contacts of the model with its blocks there, but those of debris, (n_blocks,)."""
+    def at(self, pose: Pose, fallen: BoolArray | None = None, opened: float = 0.0) -> MovedContacts:
+        """Contacts of the model with its blocks there, but those of debris, (n_blocks,).
+
+        opened : gap over the size of blocks, that joints which dilate have at most and touch all the same
+        """
         model = moved_model(self.model, pose)
         facets = self._facets(pose)
-        overlays, parts = self._near(model, facets)
+        overlays, parts = self._near(model, facets, opened)
         if fallen is not None and fallen.any():
             loose = np.append(fallen, np.zeros(len(model.grounds), dtype=bool))
             stands = np.asarray(~np.any(loose[overlays.bodies], axis=1))
@@ -129,12 +133,28 @@ class MovedSearch:
         overlap = max(-float((gaps / size[of_point]).min(initial=0.0)), 0.0)
         return MovedContacts(contacts, gaps, overlays.facets, overlap)
 
-    def _near(self, model: Model, facets: Facets) -> tuple[Overlays, Polygons]:
+    def to_corners(self, found: MovedContacts, pose: Pose) -> FloatArray:
+        """Distance of contact points from corners of the facets of both bodies, (n_points, 2) m; inf of grounds."""
+        contacts, blocks, built = found.contacts, self.model.blocks, self.facets
+        distances = np.full((len(contacts.points), 2), np.inf)
+        facets = found.faces[contacts.interface_of_point]
+        for side in (0, 1):
+            row = np.flatnonzero((facets[:, side] >= 0) & (facets[:, side] < len(built)))
+            facet = facets[row, side]
+            block = built.blocks[facet]
+            arms = contacts.points[row] - (blocks.centroids + pose.shift)[block]
+            places = np.einsum("nji,nj->ni", pose.rotation[block], arms) + blocks.centroids[block]
+            flat = np.einsum("nai,ni->na", built.frames[facet, 1:], places - built.origins[facet])
+            distances[row, side] = shapely.distance(self._corners_of_facets[facet], shapely.points(flat))
+        return distances
+
+    def _near(self, model: Model, facets: Facets, opened: float) -> tuple[Overlays, Polygons]:
         """Common surfaces within reach."""
-        overlays, shapes = self._between(model, facets)
+        overlays, shapes = self._between(model, facets, opened)
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
-        near = (widths(parts) > NARROW) & (np.abs(_extreme_gaps(overlays, parts)[0]) < self._reach)
+        least = _extreme_gaps(overlays, parts)[0]
+        near = (widths(parts) > NARROW) & (least > -self._reach) & (least < self._reach + opened)
         near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
             self._pair(overlays.bodies, overlays.facets), self._edges
         )
@@ -173,10 +193,10 @@ class MovedSearch:
             upper=np.maximum.reduceat(corners, self._first),
         )
 
-    def _between(self, model: Model, facets: Facets) -> tuple[Overlays, Polygons]:
+    def _between(self, model: Model, facets: Facets, opened: float) -> tuple[Overlays, Polygons]:
         """Facets that face each other within reach, and what they share, along the normal of the contact."""
         sizes = model.blocks.sizes[facets.blocks]
-        margin = (REACH / 2 * sizes)[:, None]
+        margin = ((REACH + opened) / 2 * sizes)[:, None]
         a, b = meeting_boxes(facets.lower - margin, facets.upper + margin, facets.lower - margin, facets.upper + margin)
         other = facets.blocks[a] < facets.blocks[b]
         a, b = a[other], b[other]
@@ -203,7 +223,7 @@ class MovedSearch:
             every = np.arange(len(facets))
             bodies = np.full((len(facets), 1), len(model.blocks) + index)
             pairs = np.column_stack([np.full(len(facets), -1), every])
-            chosen = (reach < REACH * sizes) & self._face_each_other(bodies, pairs, normals, facets.normals)
+            chosen = (reach < (REACH + opened) * sizes) & self._face_each_other(bodies, pairs, normals, facets.normals)
             if ground.blocks is not None:
                 chosen &= np.isin(facets.blocks, ground.blocks)
             rows = np.flatnonzero(chosen)

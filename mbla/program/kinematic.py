@@ -126,9 +126,7 @@ def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = 
 
 
 def _rhs(program: Program, limits: YieldLimits, rows: PointRows, weight: FloatArray, live_power: float) -> FloatArray:
-    """``KinematicForm.rhs_for``; gaps of the program are weights too."""
-    if program.gaps is not None:
-        weight = weight + program.gaps
+    """``KinematicForm.rhs_for``."""
     dry, width = weight[rows.dry] / limits.friction[rows.dry], program.components
     shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
     shear[: len(dry), : 1 if width == 3 else width] = dry[:, None]

@@ -84,9 +84,6 @@ class Program:
     halved             : the reduction is to one half of a structure with a plane of symmetry
     allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
                          None where no block is guided
-    gaps               : (n_points,) by how much each point may close before it touches, over the live work of the step
-                         of a finite displacement (:mod:`mbla.solution.pushover.steps`): v_N + gap is in the place of
-                         v_N; None where all touch
     settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
                          structure stands
     areas              : of the program of the full model: (n_points,) by which contact points share stiffness
@@ -108,19 +105,12 @@ class Program:
     halved: bool = False
     allowed: sp.csr_array | None = None
     settles: bool = False
-    gaps: FloatArray | None = None
     areas: FloatArray | None = None
     brittle: BoolArray | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
-        """Aᵀu, (n_points, components), from (n_rows,); openings from where a point touches on."""
-        return self.from_touch((self.equilibrium_matrix.T @ velocities).reshape(-1, self.components))
-
-    def from_touch(self, velocities: FloatArray) -> FloatArray:
-        """Velocities of contact points, (n_points, components), with openings from where a point touches on."""
-        if self.gaps is None:
-            return np.asarray(velocities)
-        return np.column_stack([velocities[:, 0] + self.gaps, velocities[:, 1:]])
+        """Aᵀu, (n_points, components), from (n_rows,)."""
+        return np.asarray((self.equilibrium_matrix.T @ velocities).reshape(-1, self.components))
 
     def without_live_load(self) -> Program:
         """The part of it that does not depend on the live load, down to the program of the full model."""

@@ -40,7 +40,7 @@ def shares_of(program: Program) -> FloatArray:
     A point of a reduced program is as stiff as those that it stands for: with forces x = P y their compliances add up,
     1/k_y = Σ P² / k_x. Points of light blocks, whose forces have units of their own, are as stiff as others in these.
     """
-    shares = _through(program)
+    shares = stiffness_through(program)
     return np.asarray(shares / shares.mean()) if len(shares) else shares
 
 
@@ -54,12 +54,13 @@ def brittle_of(program: Program) -> BoolArray:
     return np.asarray(abs(_normal(program, reduction)).T @ above.astype(np.float64) > 0.0)
 
 
-def _through(program: Program) -> FloatArray:
+def stiffness_through(program: Program) -> FloatArray:
+    """Stiffness of a program's points over the mean of those of the full model, (n_points,)."""
     reduction = program.reduction
     if reduction is None:
         assert program.areas is not None  # of the full model
         return shares_in_units(program.areas, program.scaling.units)
-    above = _through(reduction.full)
+    above = stiffness_through(reduction.full)
     compliance = np.asarray(_normal(program, reduction).power(2).T @ (1.0 / above))
     return np.asarray(np.where(compliance > 0.0, 1.0 / np.maximum(compliance, 1e-300), above.mean()))
 

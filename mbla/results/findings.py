@@ -72,7 +72,6 @@ FOUND_AGAIN = frozenset(
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
-        "pushover-steps-shorter",
         "sensitivity-not-done",
         "tilt-between-not-proved",
     }

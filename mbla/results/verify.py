@@ -118,7 +118,7 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
     solution = with_derived(model, contacts, load_case, solution)
     pushes = load_case.pushover is not None and solution.pushed is not None
     if deck is not None and pushes and solution.mechanics is not None:
-        solution = begun_by(model, contacts, solution)
+        solution = begun_by(solution)
         solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)

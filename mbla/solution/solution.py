@@ -10,7 +10,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.record import PushedRows
 from mbla.solution.sensitivity.slopes import Slope
 
 
@@ -44,7 +45,7 @@ class ContactMode(IntEnum):
 class IterationRecord:
     """One iteration of one cone program; a line of the .sta file.
 
-    program : number of the cone program in the sequence, from 1 (the associative one)
+    program : number of the cone program in the sequence, from 1 (the associative one); of a pushover the row to come
     """
 
     program: int
@@ -288,7 +289,7 @@ class Solution:
     curve_end: CurveEnd = CurveEnd.NONE
     curve_end_error: float = math.nan
     curve_last_error: float = math.nan
-    pushed: PushedSteps | None = field(default=None, compare=False)
+    pushed: PushedRows | None = field(default=None, compare=False)
     sensitivity: tuple[Slope, ...] = ()
     geometric_safety: GeometricSafety | None = field(default=None, compare=False)
     size: ModelSize | None = None

@@ -28,7 +28,8 @@ CASES = {
     "path": ("structure",),
     "path_settings": ("setting", "way"),
     "rivals": ("structure", "rival"),
-    "pushover": ("structure", "steps"),
+    "pushover": ("structure",),
+    "pushover_random": ("structure",),
     "sweep": ("sweep", "way", "points"),
 }
 """columns that tell the cases of a benchmark apart"""

@@ -21,7 +21,8 @@ from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.results.results import CaseResult, DeckRecord, Results
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import (
     Checks,
@@ -308,15 +309,25 @@ def full_solution(solution: Solution) -> Solution:
         curve_end=CurveEnd.STEPS_DONE,
         curve_end_error=1e-3,
         curve_last_error=1e-2,
-        pushed=PushedSteps(
-            work=np.array([0.0, 0.01]),
-            scale=np.array([np.inf, 0.02]),
+        pushed=PushedRows(
             load_factors=np.array([0.5, 0.4]),
-            mechanisms=np.stack([mechanics.mechanism, 0.5 * mechanics.mechanism]),
+            shifts=np.stack([np.zeros((3, 3)), np.arange(9.0).reshape(3, 3) / 100.0]),
+            turns=np.stack([np.zeros((3, 3)), np.arange(9.0).reshape(3, 3) / 50.0]),
             fallen=np.array([[False, False, False], [False, False, True]]),
-            point_start=np.array([0, 8, 12]),
-            forces=np.arange(36.0).reshape(12, 3),
+            energies=np.array([[0.0, 0.0, 0.0, 0.0], [0.9, 0.1, 0.2, 0.8]]),
             errors=np.array([0.0, 1e-4]),
+            point_start=np.array([0, 0, 2]),
+            points=RowPoints(
+                bodies=np.array([[0, 1], [-1, -1]]),
+                host=np.array([True, False]),
+                arms=np.arange(12.0).reshape(2, 2, 3),
+                frames=np.arange(18.0).reshape(2, 3, 3),
+                laws=np.array([0, 1]),
+                areas=np.array([[0.1, 0.2], [0.0, 0.3]]),
+                history=np.arange(6.0).reshape(2, 3),
+                forces=np.arange(6.0, 12.0).reshape(2, 3),
+            ),
+            stiffness=np.array([1e9, 4e8]),
         ),
         geometric_safety=GeometricSafety(
             sizes=np.array([0.4, 0.3999]),

@@ -51,9 +51,3 @@ def test_rows_behind_an_end_are_too_many() -> None:
     case = pushed_case()
     assert "goes on after step 4" in end_failure(case, (*FALLING, *FALLING[:1]), CurveEnd.FALLS)
     assert "goes on after step 2" in end_failure(pushed_case("0.2"), FALLING, CurveEnd.NOTHING_LEFT)
-
-
-def test_a_load_factor_that_falls_to_nothing_at_once_ends_a_step_before() -> None:
-    case = pushed_case()
-    assert "at once" in end_failure(case, rows(1.0, 0.9, -0.1), CurveEnd.NOTHING_LEFT)
-    assert end_failure(case, rows(1.0, 0.9), CurveEnd.FALLS) == ""

@@ -40,12 +40,12 @@ class TieHistory:
     @staticmethod
     def at_rest(ties: Ties) -> TieHistory:
         """As built."""
-        lengths = _lengths(ties)
+        lengths = tie_lengths(ties)
         return TieHistory(lengths, lengths, np.zeros(len(ties)))
 
     def after(self, blocks: Blocks, ties: Ties, motion: FloatArray, there: Ties) -> TieHistory:
         """After a step from where blocks and ties are by a motion, (n_blocks, 6) about centroids, to ties ``there``."""
-        lengths, longer = _lengths(there), elongations(blocks, ties, motion)
+        lengths, longer = tie_lengths(there), elongations(blocks, ties, motion)
         pulled, pushed = _senses(ties)
         by = np.where(pulled, longer, np.where(pushed, -longer, np.abs(longer)))
         return TieHistory(
@@ -56,7 +56,7 @@ class TieHistory:
 
     def slack(self, ties: Ties) -> FloatArray:
         """Of ties where they are, (n,) m."""
-        lengths = _lengths(ties)
+        lengths = tie_lengths(ties)
         pulled, pushed = _senses(ties)
         slack = np.where(pulled, self.longest - lengths, np.where(pushed, lengths - self.shortest, 0.0))
         return np.where(ties.of_fill, 0.0, np.maximum(slack, 0.0))
@@ -101,8 +101,8 @@ def elongations(blocks: Blocks, ties: Ties, motion: FloatArray) -> FloatArray:
     return np.asarray(np.bincount(ties.tie_of_point[on], shares, len(ties)), dtype=np.float64)
 
 
-def _lengths(ties: Ties) -> FloatArray:
-    """Of lines; of strips the opening along them."""
+def tie_lengths(ties: Ties) -> FloatArray:
+    """Of lines; of strips the opening along them; (n,) m."""
     first, last = ties.start[:-1], ties.start[1:] - 1
     opening = ((ties.places[last] - ties.places[first]) * ties.pulls[first]).sum(axis=1)
     return np.where(ties.lengths_known, ties.lengths, opening)

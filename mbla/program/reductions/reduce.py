@@ -63,7 +63,7 @@ def reduce_program(
     """
     if program.guided and program.reduction is not None:
         # guides come last, on what the other reductions leave; they have the same points
-        program = replace(program.reduction.full, gaps=program.gaps)
+        program = program.reduction.full
     scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
     scenes = split_into_parts(scene) if switches.on else [scene]
     steps += _steps_of_parts(scene, scenes, switches)
@@ -74,6 +74,15 @@ def reduce_program(
     ]
     size = _model_size(scenes, [mirror for _, mirror in smaller], parts, program.n_points)
     return Reduced(tuple(parts), size, contacts.interface_of_point, tuple(steps))
+
+
+def reduced_whole(scene: Scene, switches: ReductionSwitches, given: Mirrors) -> Program:
+    """The program of a structure that moves on: parts that cannot interact now may meet later.
+
+    given : planes about which the deck says to mirror it
+    """
+    program, _ = _reduced_part(scene, switches, False, given)
+    return _guided(scene, program)
 
 
 def _with_fewer_points(

@@ -36,11 +36,6 @@ def restricted(
     velocities : S, (n_rows, n_new_rows); forces : P, (components n_points, new components times new points)
     limits     : of the new points
     """
-    gaps = program.gaps
-    if gaps is not None:
-        every = np.zeros((len(gaps), program.components))
-        every[:, 0] = gaps
-        gaps = np.asarray(forces.T @ every.ravel()).reshape(-1, components or program.components)[:, 0]
     return Program(
         equilibrium_matrix=_in_unknowns(program.equilibrium_matrix, velocities, forces),
         dead_load=np.asarray(velocities.T @ program.dead_load),
@@ -51,7 +46,6 @@ def restricted(
         scaling=program.scaling,
         components=components or program.components,
         settles=program.settles,
-        gaps=gaps,
         reduction=Reduction(program, sp.csr_array(velocities), sp.csr_array(forces)),
     )
 

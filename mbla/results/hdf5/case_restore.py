@@ -15,7 +15,8 @@ from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import (
     Checks,
@@ -68,19 +69,33 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
     """Rows of a pushover and what they follow from; nothing where there is none."""
     if "curve/step" not in get:
         return {}
-    steps = PushedSteps(
-        work=get["pushed/work"],
-        scale=get["pushed/scale"],
-        load_factors=get["curve/load_factor"],
-        mechanisms=get["pushed/mechanism"],
-        fallen=get["pushed/fallen"],
-        point_start=get["pushed/point_start"],
+    points = RowPoints(
+        bodies=get["pushed/bodies"],
+        host=get["pushed/host"],
+        arms=get["pushed/arms"],
+        frames=get["pushed/frames"],
+        laws=get["pushed/law"],
+        areas=get["pushed/areas"],
+        history=get["pushed/at_zero"],
         forces=get["pushed/contact_forces"],
-        errors=get["curve/error"],
     )
-    if not len(steps) or not len(steps.load_factors) == len(steps) == len(steps.point_start) - 1:
-        raise ValueError("steps of a pushover")
-    return {"curve": _records(CurveRow, get, "curve"), "pushed": steps}
+    rows = PushedRows(
+        load_factors=get["curve/load_factor"],
+        shifts=get["pushed/shift"],
+        turns=get["pushed/rotation"],
+        fallen=get["pushed/fallen"],
+        energies=np.column_stack([get[f"curve/{name}"] for name in ("live_work", "friction", "tie_work", "potential")]),
+        errors=get["curve/error"],
+        point_start=get["pushed/point_start"],
+        points=points,
+        stiffness=get["pushed/stiffness"],
+    )
+    start = rows.point_start
+    if not len(rows) or len(start) != len(rows) + 1 or start[0] != 0 or start[-1] != len(points.forces):
+        raise ValueError("rows of a pushover")
+    if (np.diff(start) < 0).any() or start[1] != 0:
+        raise ValueError("points of a pushover")
+    return {"curve": _records(CurveRow, get, "curve"), "pushed": rows}
 
 
 def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:

@@ -22,7 +22,8 @@ from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
-from mbla.solution.pushover.pushed import CurveRow, PushedSteps
+from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.record import PushedRows
 from mbla.solution.sensitivity.slopes import Slope
 from mbla.solution.solution import (
     Checks,
@@ -266,18 +267,23 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     return content | _collapse(model, contacts, case) | _further(solution)
 
 
-def _pushed(steps: PushedSteps) -> Content:
-    """Poses, mechanisms and forces of a pushover."""
-    poses = list(steps.poses)
+def _pushed(rows: PushedRows) -> Content:
+    """Poses, contact points, forces and history of a pushover."""
+    points = rows.points
     return {
-        "shift": np.stack([pose.shift for pose in poses]),
-        "rotation": np.stack([pose.rotation_vectors for pose in poses]),
-        "fallen": steps.fallen,
-        "work": steps.work,
-        "scale": steps.scale,
-        "mechanism": steps.mechanisms,
-        "point_start": steps.point_start,
-        "contact_forces": steps.forces,
+        "shift": rows.shifts,
+        "rotation": rows.turns,
+        "fallen": rows.fallen,
+        "stiffness": rows.stiffness,
+        "point_start": rows.point_start,
+        "bodies": points.bodies,
+        "host": points.host,
+        "arms": points.arms,
+        "frames": points.frames,
+        "law": points.laws,
+        "areas": points.areas,
+        "at_zero": points.history,
+        "contact_forces": points.forces,
     }
 
 

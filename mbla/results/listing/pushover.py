@@ -13,7 +13,7 @@ from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.followed import STEP_DEPENDENCE, step_dependence
-from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NOTABLE_MISS = 0.02
@@ -38,7 +38,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
             f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
         )
         ultimate = ultimate_displacement(case, sure=False)
-        if last.load_factor <= 0.0:
+        if case.solution.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
             says += (

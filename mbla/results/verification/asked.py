@@ -131,7 +131,7 @@ def _pushover(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
     solution, load_case = case.solution, case.load_case
     if load_case.pushover is None:
         return
-    against = why_not_pushed(model, solution, case.status is Status.SOLVED)
+    against = why_not_pushed(model, case.load_case, solution, case.status is Status.SOLVED)
     if solution.pushed is None:
         found.differences += [] if against else [lacks("pushover")]
     elif against:

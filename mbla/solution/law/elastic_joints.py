@@ -270,7 +270,7 @@ def lengths(vectors: FloatArray) -> FloatArray:
     return np.asarray(np.abs(vectors[0]) if len(vectors) == 1 else np.sqrt((vectors * vectors).sum(axis=0)))
 
 
-def within(vectors: FloatArray, limit: FloatArray, share: float = 1.0) -> FloatArray:
+def within(vectors: FloatArray, limit: FloatArray, share: FloatArray | float = 1.0) -> FloatArray:
     """Vectors, (components, n), cut to a share of a limit, (n,), where they are longer."""
     size, most = lengths(vectors), share * limit
     return np.asarray(vectors * np.divide(most, size, out=np.ones_like(size), where=size > most))

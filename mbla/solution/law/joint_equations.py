@@ -66,6 +66,11 @@ class Products:
         of_laws = tuple(a + b for a, b in zip(self.interfaces, other.interfaces, strict=True))
         return Products(**sums, interfaces=of_laws)
 
+    def mean(self, joints: ElasticJoints) -> float:
+        """Of all products."""
+        total = self.normal.sum() + self.sliding.sum() + self.crushing.sum() + sum(one.sum() for one in self.interfaces)
+        return float(total) / (joints.n_products + len(self.crushing))
+
     def towards(self, sigma: float, joints: ElasticJoints) -> Products:
         """Changes that bring them all to σ."""
         return Products(

@@ -64,6 +64,49 @@ def _direction_of(
     return direction, reach
 
 
+CENTRED, LEAST_AIM, SHORT, HALF = 3, 1e-3, 0.1, 0.5
+"""Power of the share of the mean product that a direction towards none leaves, with which the next is aimed at; its
+least; reach of such a direction from which it is aimed so, else at a share of the mean."""
+
+
+def aimed_direction(step: JointStep, state: StepState, residual: Residual) -> tuple[StepState, float] | None:
+    """Direction towards products that the state aims at itself (Mehrotra 1992); how much of it stays within the law."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        linear = Eliminated.at(step, state)
+        if linear is None:
+            return None
+        joints = step.joints
+        wanted = residual.products.towards(0.0, joints)
+        direction = linear.direction(residual, wanted)
+        if not np.isfinite(direction.u).all():
+            return None
+        reach = min(1.0, reach_of(joints, state, direction))
+        mean = residual.products.mean(joints)
+        ahead = products_of(joints, state.plus(direction, reach)).mean(joints)
+        aim = float(np.clip((max(ahead, 0.0) / mean) ** CENTRED, LEAST_AIM, 1.0)) if reach > SHORT else HALF
+        sigma = aim * mean
+        wanted = residual.products.towards(sigma, joints).plus(_second_order(linear, direction, reach))
+        direction = linear.direction(residual, wanted)
+        reach = min(1.0, reach_of(joints, state, direction))
+        if reach < 0.3:
+            plain = residual.products.towards(max(sigma, HALF * mean), joints)
+            trial = linear.direction(residual, plain)
+            longer = min(1.0, reach_of(joints, state, trial))
+            if longer > reach:
+                direction, reach, wanted = trial, longer, plain
+        for _ in range(CORRECTIONS):
+            if reach > LONG:
+                break
+            there = state.plus(direction, min(1.0, reach + BEYOND))
+            wanted = wanted.plus(_outlying(joints, products_of(joints, there), sigma))
+            trial = linear.direction(residual, wanted)
+            longer = min(1.0, reach_of(joints, state, trial))
+            if longer < reach + GAIN:
+                break
+            direction, reach = trial, longer
+        return direction, reach
+
+
 def length_of(reach: float) -> float:
     """How far a step goes whose direction stays within the law up to ``reach``."""
     return reach if reach >= 1.0 else SHARE * reach

@@ -1,91 +1,52 @@
-"""The capacity curve of a load case: made by steps, and found again from their forces and mechanisms alone.
+"""The capacity curve of a load case: made by the way of its elastic joints, and found again from its rows alone.
 
-Poses follow from the mechanisms, contacts from the poses, and with these every row is judged as a load case at rest is
-(:mod:`mbla.solution.verification.residuals`): v_N + g/D̄ takes the place of v_N with the gaps g and the live work D̄ for
-which it was solved. No matrix of the program stage is used for it and no solver called.
-
-Where it ends, and how much it depends on the size of its steps: :mod:`mbla.solution.pushover.followed`.
+Every row is judged as what it is, a pose at which joints with their law and their history balance the loads
+(:mod:`mbla.solution.verification.pushed_rows`). Row 0 is the structure as it starts to move, whose state is that of the
+load factor. How much the curve depends on the size of its steps: :mod:`mbla.solution.pushover.followed`.
 """
 
 from __future__ import annotations
 
+import itertools
+import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from mbla.arrays import FloatArray, starts
+from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
-from mbla.contacts.moved import MovedSearch
-from mbla.contacts.tied import tied
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, turns_and_slides
-from mbla.model.ties.moved import TieHistory
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.glued import with_tie_contacts
 from mbla.solution.pushover.control import MOVES, Control
-from mbla.solution.pushover.followed import (
-    STEP_DEPENDENCE,
-    StepErrors,
-    followed,
-    greatest_value,
-    step_dependence,
-    step_errors,
-)
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow, PushedSteps
-from mbla.solution.pushover.step_program import StepProgram, moved_solids, ties_left
-from mbla.solution.pushover.steps import LARGEST_MOTION, LARGEST_TURN, OFF, Pushover, Step, history_after, work_of
+from mbla.solution.pushover.followed import STEP_DEPENDENCE, StepErrors, step_dependence, step_errors
+from mbla.solution.pushover.place import Row
+from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.record import RecordedRow, RowPoints, recorded
+from mbla.solution.pushover.structure import PushedStructure
+from mbla.solution.pushover.way import Way
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import Mechanics, Solution
+from mbla.solution.solution import IterationRecord, Mechanics, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.verification.case import Case, InterfaceTerms
-from mbla.solution.verification.residuals import residuals_of
+from mbla.solution.verification.pushed_rows import row_residuals
+from mbla.solution.verification.verify import residual_of
 
 BY_ITSELF_SHARE, NOTABLE_DROP = 3.0, 0.02
-"""Energy that the dead load loses in a step over its live work from which blocks drop in it, and over the greatest live
-work of the curve from which that is said."""
+"""Energy that the dead load loses between two rows over the live work from which blocks drop there, and over the
+greatest live work of the curve from which that is said."""
 
-SHORTER_THAN_ASKED = 0.9
-"""Median step over the one asked for from which steps are said to be shorter."""
-
-WHOLE = 1.0 - 1e-6
-"""Share of the live work of a whole step that counts as all of it."""
+AT_REST = 1e-9
+"""Speed of the control point over the greatest with which it does not move."""
 
 ALIKE = 0.9
-"""Cosine between the motions of two steps below which they are two mechanisms."""
+"""Cosine between the motions to two rows below which they are two mechanisms."""
 
 
-@dataclass(frozen=True)
-class MovedCase(Case):
-    """A step: contact points come into touch at the end of it, where their gaps are used up.
-
-    gaps     : (n_points,) m over the live work for which it was solved
-    greatest : load factor to which what is left unexplained of the power is relative, besides that of the step
-    """
-
-    gaps: FloatArray
-    greatest: float
-
-    def balance(self, live_power: float, dead_power: float, frictional: float, mechanism: FloatArray) -> float:
-        """The greatest load factor of the curve: power that blocks lose as they drop excuses nothing."""
-        return max(abs(live_power), self.greatest, self.scale.least_factor(mechanism))
-
-    def velocities(self, mechanism: FloatArray) -> FloatArray:
-        """Velocities at the contact points, opening from where they touch, (n_points, 3)."""
-        v = super().velocities(mechanism)
-        v[:, 0] += self.gaps
-        return v
-
-    def interface_terms(self, mechanics: Mechanics) -> InterfaceTerms:
-        """The work that normal forces do while gaps close."""
-        return InterfaceTerms(dissipated=float(mechanics.contact_forces[:, 0] @ self.gaps))
-
-
-def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
+def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
     crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
     against = {
@@ -94,6 +55,7 @@ def why_not_pushed(model: Model, solution: Solution, solved: bool) -> str:
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
         "contact_model: convex": solution.conditions_on_interfaces,
+        "the control point does not move as the structure starts to": _rests(model, case, solution),
     }
     return ", ".join(words for words, holds in against.items() if holds)
 
@@ -130,20 +92,24 @@ def pushed(
     """The solution of a load case with its capacity curve, or with a remark that says why there is none.
 
     model : as it may move under the load case
-    tell  : told how to make the solution with the steps that are done by then
+    tell  : told how to make the solution with the rows that are done by then
     """
-    against = why_not_pushed(model, solution, solved)
-    if against or solution.mechanics is None or case.pushover is None:
+    against = why_not_pushed(model, case, solution, solved)
+    asked, first = case.pushover, solution.mechanics
+    if against or first is None or asked is None:
         return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
-    search, (first, built) = MovedSearch(model, contacts, section), _as_built(model, contacts, start_of(solution))
+    first = start_of(solution)
+    structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
-    push = Pushover(model, built.contacts, search, case, control, StepProgram(settings, log), case.pushover.step)
-    done: list[Step] = []
+    watch = _watched(log)
+    way = Way(structure, control, first, asked.step, asked.until, asked.steps, settings.deadline, watch=watch)
+    done = [_row_0(model, first)]
 
-    def with_curve(steps: list[Step], errors: StepErrors, end: CurveEnd) -> Solution:
+    def with_curve(rows: list[RecordedRow], errors: StepErrors, end: CurveEnd) -> Solution:
+        record = recorded(rows, way.stiffness).with_errors(errors.rows)
         found = replace(
             solution,
-            pushed=_record(steps, errors.rows),
+            pushed=record,
             curve_end=end,
             curve_end_error=errors.displacement,
             curve_last_error=errors.load_factor,
@@ -151,25 +117,83 @@ def pushed(
         found = replace(found, curve=curve_of(model, contacts, section, case, found))
         return replace(found, remarks=(*solution.remarks, *pushover_remarks(model, contacts, case, found)))
 
-    tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED) if done else solution)
-    steps, end = followed(push, first, done)
-    return with_curve(steps, step_errors(push, first, steps, end), end)
+    tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED))
+    end = _followed(way, done)
+    errors = StepErrors.unknown(len(done))
+    if asked.error and end is not CurveEnd.LATE:
+        longer = [_row_0(model, first)]
+        other = _followed(replace(way, step=2.0 * asked.step, most=2.0), longer)
+        errors = step_errors(_figures(model, control, done), end, _figures(model, control, longer), other)
+    return with_curve(done, errors, end)
+
+
+def _watched(log: Log) -> Callable[[int, float, bool], None]:
+    """Tells the log of steps; those that are not made have a step of 0."""
+    started, count = time.perf_counter(), itertools.count(1)
+
+    def watch(row: int, factor: float, made: bool) -> None:
+        seconds = time.perf_counter() - started
+        log(IterationRecord(row, next(count), factor, np.nan, np.nan, np.nan, float(made), seconds))
+
+    return watch
+
+
+def _row_0(model: Model, first: Mechanics) -> RecordedRow:
+    none = np.zeros(len(model.blocks), dtype=np.bool_)
+    return RecordedRow(first.load_factor, Pose.at_rest(len(none)), none, (0.0, 0.0, 0.0, 0.0), RowPoints.none())
+
+
+def _followed(way: Way, rows: list[RecordedRow]) -> CurveEnd:
+    """Why the curve ends; ``rows`` gets each row as soon as it is done."""
+    for found in way.rows():
+        if isinstance(found, CurveEnd):
+            return found
+        rows.append(_recorded(found))
+    raise AssertionError("a way says how it ends")
+
+
+def _figures(model: Model, control: Control, rows: Sequence[RecordedRow]) -> list[tuple[float, float]]:
+    return [(control.displacement(model, row.pose), row.load_factor) for row in rows]
+
+
+def _recorded(row: Row) -> RecordedRow:
+    joints, points = row.joints, row.joints.touching.points
+    contacts, n_ties, structure = joints.touching.contacts, len(joints.ties), joints.structure
+    at_zero = row.history.values.copy()
+    at_zero[1:] += joints.shear_stiffness * row.history.slips
+    laws = list(structure.model.joints)
+    of_contact = np.array([laws.index(name) for name in contacts.joint_names], dtype=np.int64)
+    assert joints.full.areas is not None  # of the program of all points
+    always = np.zeros((len(row.forces), 3))  # N is what the force of a tie differs from it
+    if n_ties and joints.contacts.ties is not None:
+        always[-n_ties:, 0] = joints.contacts.ties.offsets
+    found = RowPoints(
+        bodies=_with_ties(points.bodies, n_ties, -1),
+        host=_with_ties(points.host, n_ties, False),
+        arms=_with_ties(points.arms.transpose(1, 0, 2), n_ties, 0.0),
+        frames=_with_ties(points.frames, n_ties, 0.0),
+        laws=np.append(of_contact[contacts.joints][contacts.interface_of_point], joints.ties),
+        areas=np.column_stack([np.append(contacts.point_areas, np.zeros(n_ties)), joints.full.areas]),
+        history=joints.forces(at_zero) + always,
+        forces=row.forces + always,
+    )
+    fallen = joints.fallen[structure.solids.label]
+    energy = row.energy
+    energies = (energy.live, energy.friction, energy.ties, energy.potential)
+    return RecordedRow(row.load_factor, structure.blocks_at(row.pose), fallen, energies, found)
+
+
+def _with_ties(values: np.ndarray, n_ties: int, of_tie: float) -> np.ndarray:
+    return np.concatenate([values, np.full((n_ties, *values.shape[1:]), of_tie, dtype=values.dtype)])
 
 
 def _step_remarks(case: LoadCase, solution: Solution) -> Iterator[Message]:
-    """Remarks where the curve depends on its step, and where steps are shorter than asked for."""
-    assert case.pushover is not None  # else there is no curve
-    asked = case.pushover
+    """The remark where the curve depends on its step."""
     curve, share, end = solution.curve, step_dependence(case, solution), solution.curve_end_error
     if share > STEP_DEPENDENCE:
         words = f"with steps of twice the size figures of the pushover change by up to {share:.2g} of the greatest"
         words += f", and its end by {end:.2g} from {curve[-1].displacement:.3g}" if np.isfinite(end) else ""
         yield Message("pushover-depends-on-step", words)
-    made = np.abs(np.diff([row.displacement for row in curve]))
-    if len(made) and (middle := float(np.median(made))) < SHORTER_THAN_ASKED * asked.step:
-        words = f"steps of the pushover are {middle:.3g} long in the middle, not {asked.step:.6g} as asked: a "
-        words += f"block moves by at most {LARGEST_MOTION:g} of its size and turns by {LARGEST_TURN:g} rad in one"
-        yield Message("pushover-steps-shorter", words)
 
 
 def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution: Solution) -> tuple[Message, ...]:
@@ -179,9 +203,8 @@ def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution:
     """
     curve, remarks = solution.curve, list[Message]()
     assert solution.mechanics is not None  # else there is no curve
-    first, _ = _as_built(model, contacts, start_of(solution))
-    speed = Control.of(model, case, first.mechanism).speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
-    if not speed > MOVES * float(np.linalg.norm(first.mechanism[:, :3], axis=1).max()):
+    first = start_of(solution)
+    if not _speed(model, Control.of(model, case, first.mechanism), first) > MOVES * _greatest_speed(first):
         words = "the control point of the pushover does not go the way in which its displacement counts at first"
         remarks.append(Message("control-point-at-rest", words))
     if fall := dropped(curve):
@@ -197,106 +220,86 @@ def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution:
     return (*remarks, *_step_remarks(case, solution))
 
 
-def _record(steps: list[Step], errors: FloatArray) -> PushedSteps:
-    return PushedSteps(
-        work=np.array([step.led for step in steps]),
-        scale=np.array([step.scale for step in steps]),
-        load_factors=np.array([step.load_factor for step in steps]),
-        mechanisms=np.stack([step.mechanism for step in steps]),
-        fallen=np.stack([step.fallen for step in steps]),
-        point_start=starts(np.array([len(step.forces) for step in steps])),
-        forces=np.vstack([step.forces for step in steps]),
-        errors=errors,
-    )
-
-
-def _as_built(model: Model, contacts: Contacts, first: Mechanics) -> tuple[Mechanics, Solids]:
-    """Limit analysis and its solids with ties among the contacts, which need no prestress here."""
-    ties = replace(model.ties, prestress=np.zeros(len(model.ties)))
-    solids = tied(solids_of(replace(model, ties=ties), contacts))
-    return with_tie_contacts(first, solids), solids
-
-
-def begun_by(model: Model, contacts: Contacts, solution: Solution) -> Solution:
-    """The solution with the forces and the mechanism of limit analysis for step 0 of its pushover, as they must be."""
-    steps = solution.pushed
-    if steps is None or solution.mechanics is None:
+def begun_by(solution: Solution) -> Solution:
+    """The solution with the load factor at which it starts to move in row 0 of its pushover, as it must be."""
+    rows = solution.pushed
+    if rows is None or solution.mechanics is None:
         return solution
-    first, _ = _as_built(model, contacts, start_of(solution))
-    if int(steps.point_start[1]) != len(first.contact_forces):
-        return solution
-    factors, mechanisms, forces = steps.load_factors.copy(), steps.mechanisms.copy(), steps.forces.copy()
-    factors[0], mechanisms[0], forces[: len(first.contact_forces)] = (
-        first.load_factor,
-        first.mechanism,
-        first.contact_forces,
-    )
-    return replace(solution, pushed=replace(steps, load_factors=factors, mechanisms=mechanisms, forces=forces))
+    factors, shifts = rows.load_factors.copy(), rows.shifts.copy()
+    turns, fallen = rows.turns.copy(), rows.fallen.copy()
+    factors[0], shifts[0], turns[0], fallen[0] = start_of(solution).load_factor, 0.0, 0.0, False
+    return replace(solution, pushed=replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen))
 
 
 def curve_of(
     model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, solution: Solution
 ) -> tuple[CurveRow, ...]:
-    """Rows of the curve from forces and mechanisms of its steps; those of step 0 are the ones of limit analysis.
+    """Rows of the curve from poses, points, forces and history on record; row 0 is that of the load factor.
 
     model : as it may move under the load case
-
-    A step whose forces are not those of the contact points of its pose has residuals of nan. Gaps close over no less
-    than a whole step, from there or from the pose before, whatever that is said to be for which it was solved.
     """
-    steps = solution.pushed
-    assert solution.mechanics is not None  # else there is no curve
-    assert steps is not None
-    assert case.pushover is not None
-    first, built = _as_built(model, contacts, start_of(solution))
-    search, control = MovedSearch(model, contacts, section), Control.of(model, case, first.mechanism)
-    rows: list[CurveRow] = []
-    greatest = greatest_value(case, steps.load_factors)
-    work, before = np.zeros(4), np.zeros(4)
-    history, last, whole = TieHistory.at_rest(model.ties), Pose.at_rest(len(model.blocks)), np.inf
-    for number, pose in enumerate(steps.poses):
-        mechanics, fallen = _mechanics_of(steps, number) if number else first, steps.fallen[number]
+    rows = solution.pushed
+    assert rows is not None  # else there is no curve
+    control = Control.of(model, case, start_of(solution).mechanism)
+    found = row_residuals(model, contacts, section, case, solution.flow_rule, rows)
+    poses, factors, start = list(rows.poses), rows.load_factors, "mechanics"
+    if solution.least is not None and start_of(solution) is solution.least:
+        start = "least"
+    begins = residual_of(model, contacts, case, solution, start)
+    curve = list[CurveRow]()
+    motions = [np.zeros((len(model.blocks), 6))]
+    for number, pose in enumerate(poses):
         if number:
-            whole = min(work_of(model, control, case.pushover.step, last, steps.mechanisms[number - 1]), whole)
-            own = work_of(model, control, case.pushover.step, pose, mechanics.mechanism)
-            least = min(whole, own / (1.0 + OFF))
-            scale = steps.scale[number] if steps.scale[number] >= WHOLE * least else whole
-            history = history_after(model, history, last, steps.work[number] * steps.mechanisms[number - 1], pose)
-            ties = ties_left(model, pose, fallen, history)
-            solids, loads, found = moved_solids(model, search.at(pose, fallen), case, pose, fallen, *ties)
-            gaps, whole = found.gaps / scale, scale
-        else:
-            solids, gaps = built, np.zeros(len(first.contact_forces))
-            loads = solids.load_case(case)
-        last = pose
-        overlap = 0.0 if number == 0 else abs(float(found.gaps.min(initial=0.0)))
-        step = MovedCase(solids.model, solids.contacts, loads, gaps, greatest)
-        residual, powers = np.nan, np.zeros(4)
-        if len(gaps) == len(mechanics.contact_forces):
-            of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
-            dilatancy = step.limits.dilatancy_by(solution.flow_rule)
-            residual, powers = residuals_of(step, of_solids, dilatancy).largest, _powers(step, of_solids)
-        changed = number > 0 and _alike(model, steps.mechanisms[number - 1], mechanics.mechanism) < ALIKE
-        work = work + 0.5 * (before + (before if changed else powers)) * steps.work[number]
-        row = CurveRow(
-            step=number,
-            displacement=control.displacement(model, pose),
-            load_factor=mechanics.load_factor,
-            reaction=np.nan if case.settlement is None else case.settlement.reaction(mechanics.load_factor),
-            error=float(steps.errors[number]),
-            residual=residual,
-            overlap=overlap,
-            live_work=float(work[0]),
-            friction=float(work[1]),
-            tie_work=float(work[2]),
-            potential=float(work[3]),
-            new_mechanism=changed,
-            debris=int(fallen.sum()),
-            broken=0 if number == 0 else int((~model.ties.of_fill).sum() - (~solids.model.ties.of_fill).sum()),
+            motions.append(_motion(poses[number - 1], pose))
+        broken = int((~model.ties.of_fill).sum()) - _ties_left(model, rows.points_of(number)) if number else 0
+        curve.append(
+            CurveRow(
+                step=number,
+                displacement=control.displacement(model, pose),
+                load_factor=float(factors[number]),
+                reaction=np.nan if case.settlement is None else case.settlement.reaction(float(factors[number])),
+                error=float(rows.errors[number]),
+                residual=found[number].largest if number else begins,
+                overlap=found[number].overlap if number else 0.0,
+                live_work=float(rows.energies[number, 0]),
+                friction=float(rows.energies[number, 1]),
+                tie_work=float(rows.energies[number, 2]),
+                potential=float(rows.energies[number, 3]),
+                new_mechanism=number > 1 and _alike(model, motions[number - 1], motions[number]) < ALIKE,
+                debris=int(rows.fallen[number].sum()),
+                broken=broken,
+            )
         )
-        rows.append(row)
-        before = powers
-    return tuple(rows)
+    return tuple(curve)
+
+
+def _rests(model: Model, case: LoadCase, solution: Solution) -> bool:
+    """Whether the control point does not move at first."""
+    if solution.mechanics is None:
+        return False
+    first = start_of(solution)
+    return not abs(_speed(model, Control.of(model, case, first.mechanism), first)) > AT_REST * _greatest_speed(first)
+
+
+def _speed(model: Model, control: Control, first: Mechanics) -> float:
+    """Of the control point as the structure starts to move."""
+    return control.speed(model, Pose.at_rest(len(model.blocks)), first.mechanism)
+
+
+def _greatest_speed(first: Mechanics) -> float:
+    return float(np.linalg.norm(first.mechanism[:, :3], axis=1).max())
+
+
+def _motion(before: Pose, pose: Pose) -> FloatArray:
+    """Displacements and rotation vectors of blocks from one pose to another, (n_blocks, 6)."""
+    by = Pose(pose.shift - before.shift, pose.rotation @ before.rotation.transpose(0, 2, 1))
+    return np.hstack([by.shift, by.rotation_vectors])
+
+
+def _ties_left(model: Model, points: RowPoints) -> int:
+    """Ties, but for those of fill, that a row has."""
+    own = points.laws[points.bodies[:, 0] < 0]
+    return int((~model.ties.of_fill[own]).sum())
 
 
 def dropped(curve: Sequence[CurveRow]) -> tuple[float, float] | None:
@@ -313,22 +316,6 @@ def dropped(curve: Sequence[CurveRow]) -> tuple[float, float] | None:
     ]
     lost = sum(energy for _, energy in falls)
     return (falls[0][0], lost / size) if lost > NOTABLE_DROP * size else None
-
-
-def _mechanics_of(steps: PushedSteps, number: int) -> Mechanics:
-    own = slice(int(steps.point_start[number]), int(steps.point_start[number + 1]))
-    forces, none = steps.forces[own], np.zeros(0)
-    return Mechanics(float(steps.load_factors[number]), forces, none, steps.mechanisms[number], none.astype(np.int64))
-
-
-def _powers(step: MovedCase, mechanics: Mechanics) -> FloatArray:
-    """Power of the live load, of friction, of ties and against the dead load, (4,)."""
-    v, limits = Case.velocities(step, mechanics.mechanism), step.limits
-    strength = limits.friction * mechanics.contact_forces[:, 0] + limits.cohesion
-    dead, live = step.powers(mechanics.mechanism)
-    tied = step.contacts.tie_points
-    friction, of_ties = float(strength @ np.hypot(v[:, 1], v[:, 2])), -mechanics.contact_forces[tied, 0] @ v[tied, 0]
-    return np.array([mechanics.load_factor * live, friction, float(of_ties), -dead])
 
 
 def _alike(model: Model, one: FloatArray, other: FloatArray) -> float:

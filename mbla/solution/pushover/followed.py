@@ -1,38 +1,26 @@
-"""Steps of a pushover up to where they end, and how much that depends on their size.
+"""How much the curve of a pushover depends on the size of its steps.
 
-The curve ends where the load factor is nothing, where the structure falls on without the live load, at the displacement
-asked for, or where no forces or no motion are found. The error of a load factor, of first order in the step, is its
-difference from the curve of steps twice as long; so is that of the displacement at the end, where which blocks drop
-first may depend on the step.
+What steps of twice the size change of a load factor is its error: only what friction remembers depends on them. So is
+the change of the displacement at the end, where which blocks drop first may depend on the step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
 from mbla.solution.pushover.pushed import CurveEnd
-from mbla.solution.pushover.steps import Pushover, Step
-from mbla.solution.solution import Mechanics, Solution
-
-BY_ITSELF, MOST_DROPPING = 100.0, 50
-"""Power of the dead load over that of the live load in a mechanism by which a structure goes on whatever the live load,
-and steps that it may do so until its blocks come to rest on others: the curve goes on from there, or ends where the
-fall began."""
-
-BLOCKED, MOST_SHORT = 100.0, 10
-"""Load factor over that of the structure as built from which something blocks its way, and steps on end that can only
-be made shorter than asked for."""
-
-SUDDEN = 0.2
-"""Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there."""
+from mbla.solution.solution import Solution
 
 STEP_DEPENDENCE = 0.02
 """Change with steps of twice the size, over the greatest value, from which figures of a pushover are approximate."""
+
+SAME_PLACE = 1e-6
+"""Difference of displacements over the whole, up to which rows of two curves are at the same place."""
 
 COME_TO_AN_END = frozenset(
     {CurveEnd.NOTHING_LEFT, CurveEnd.FALLS, CurveEnd.NOT_CARRIED, CurveEnd.REACHED, CurveEnd.BLOCKED}
@@ -44,7 +32,7 @@ COME_TO_AN_END = frozenset(
 class StepErrors:
     """Differences from steps of twice the size, nan where these are not known.
 
-    rows         : (n_steps,) of the load factors
+    rows         : (n_rows,) of the load factors
     displacement : m, at the end of the curve
     load_factor  : there
     """
@@ -54,74 +42,24 @@ class StepErrors:
     load_factor: float = np.nan
 
     @staticmethod
-    def unknown(n_steps: int) -> StepErrors:
+    def unknown(n_rows: int) -> StepErrors:
         """Of none."""
-        return StepErrors(np.full(n_steps, np.nan))
+        return StepErrors(np.full(n_rows, np.nan))
 
 
-def followed(push: Pushover, first: Mechanics, steps: list[Step]) -> tuple[list[Step], CurveEnd]:
-    """Steps up to the end of the curve, and why it ends.
-
-    steps : none yet, gets each as soon as it is done
-    """
-    asked, settles = push.case.pushover, push.case.settlement is not None
-    assert asked is not None  # else nothing is pushed
-    dropping = 0
-    for step in push.steps(first):
-        if step.load_factor > BLOCKED * abs(first.load_factor) and not settles:
-            return steps, CurveEnd.BLOCKED
-        steps.append(step)
-        if step.load_factor <= 0.0 and not settles:
-            greatest = max(each.load_factor for each in steps)
-            if len(steps) > 1 and steps[-2].load_factor > SUDDEN * greatest:
-                return steps[:-1], CurveEnd.FALLS
-            return steps, CurveEnd.NOTHING_LEFT
-        if step.displacement >= asked.until * (1.0 - 1e-9):
-            return steps, CurveEnd.REACHED
-        if len(steps) > asked.steps:
-            return steps, CurveEnd.STEPS_DONE
-        if push.short > MOST_SHORT:
-            break
-        by_itself = float(np.vdot(push.case.dead_load, step.mechanism)) > BY_ITSELF * abs(step.load_factor)
-        dropping = dropping + 1 if by_itself and not settles else 0
-        if dropping > MOST_DROPPING:
-            break
-    if push.late:
-        return steps, CurveEnd.LATE
-    if dropping:
-        return steps[: len(steps) - dropping + 1], CurveEnd.FALLS
-    if push.short > MOST_SHORT:
-        return steps, CurveEnd.BLOCKED
-    if push.deep:
-        return steps, CurveEnd.DEEP
-    return steps, CurveEnd.NOT_CARRIED if settles else CurveEnd.FALLS if push.falls else CurveEnd.STUCK
-
-
-def step_errors(push: Pushover, first: Mechanics, steps: Sequence[Step], end: CurveEnd) -> StepErrors:
-    """From the curve of steps of twice the size, where the deck does not leave it out and time is left."""
-    unknown = StepErrors.unknown(len(steps))
-    assert push.case.pushover is not None  # else nothing is pushed
-    if not push.case.pushover.error or end is CurveEnd.LATE:
-        return unknown
-    twice = replace(push, step=2.0 * push.step, most=2.0, falls=False, deep=False, short=0)
-    longer, other = followed(twice, first, [])
-    moved, factors = (np.array([getattr(each, name) for each in longer]) for name in ("displacement", "load_factor"))
-    own = np.array([each.displacement for each in steps])
-    rows = np.abs(np.interp(own, moved, factors, right=np.nan) - [each.load_factor for each in steps])
+def step_errors(
+    curve: Sequence[tuple[float, float]], end: CurveEnd, longer: Sequence[tuple[float, float]], other: CurveEnd
+) -> StepErrors:
+    """From two curves, displacement and load factor of each row, and why they end; the second by longer steps."""
+    own, their = np.array(curve).reshape(-1, 2), np.array(longer).reshape(-1, 2)
+    near = np.abs(own[:, None, 0] - their[None, :, 0])
+    same = near.argmin(axis=1)
+    at = near[np.arange(len(own)), same] <= SAME_PLACE * float(np.ptp(own[:, 0]))
+    rows = np.where(at, np.abs(their[same, 1] - own[:, 1]), np.nan)
+    rows[0] = np.nan
     if not COME_TO_AN_END.issuperset((end, other)):
-        return replace(unknown, rows=rows)
-    (here, factor), (there, another) = _end_of(steps, end), _end_of(longer, other)
-    return StepErrors(rows, abs(here - there), abs(factor - another))
-
-
-def _end_of(steps: Sequence[Step], end: CurveEnd) -> tuple[float, float]:
-    """Displacement, m, and load factor at the end of a curve, on the line between two steps where nothing is left."""
-    last = steps[-1]
-    if end is not CurveEnd.NOTHING_LEFT or len(steps) < 2:
-        return last.displacement, last.load_factor
-    before = steps[-2]
-    share = before.load_factor / (before.load_factor - last.load_factor)
-    return before.displacement + share * (last.displacement - before.displacement), 0.0
+        return StepErrors(rows)
+    return StepErrors(rows, abs(float(own[-1, 0] - their[-1, 0])), abs(float(own[-1, 1] - their[-1, 1])))
 
 
 def greatest_value(case: LoadCase, load_factors: FloatArray) -> float:

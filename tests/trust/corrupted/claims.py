@@ -21,7 +21,8 @@ from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import CaseResult, Results
 from mbla.results.verify import rebuilt, recomputed
 from mbla.run import run
-from mbla.solution.pushover.pushed import CurveEnd, PushedSteps
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import Mechanics, Solution
 from tests.decks.folder import PATHS
 from tests.line import HEAD
@@ -157,12 +158,13 @@ def _rows_cut_off(results: Results, generator: random.Random) -> Results | None:
     return _of_case(results, generator, cut)
 
 
-def first_of(steps: PushedSteps, rows: int) -> PushedSteps:
+def first_of(every: PushedRows, rows: int) -> PushedRows:
     """The first rows of a pushover."""
-    names = ("work", "scale", "load_factors", "mechanisms", "fallen", "errors")
-    kept = {name: getattr(steps, name)[:rows] for name in names}
-    start = steps.point_start[: rows + 1]
-    return replace(steps, **kept, point_start=start, forces=steps.forces[: int(start[-1])])
+    names = ("load_factors", "shifts", "turns", "fallen", "energies", "errors")
+    kept = {name: getattr(every, name)[:rows] for name in names}
+    start = every.point_start[: rows + 1]
+    points = RowPoints(**{name: values[: int(start[-1])] for name, values in vars(every.points).items()})
+    return replace(every, **kept, point_start=start, points=points)
 
 
 def _another_end(results: Results, generator: random.Random) -> Results | None:

@@ -1,0 +1,351 @@
+"""Elastic joints of a structure at any pose: one pattern from one search for contacts to the next.
+
+A and the loads are those of the pose; the ways of the reductions, u = S q and x = P y, stay. Every entry of SᵀA P is a
+fixed sum of entries of A, so that a new pose costs the geometry of its points and one product.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.carried import Placed, Touching
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.tied import tied
+from mbla.model.model import Model
+from mbla.model.pose import Pose
+from mbla.model.ties.ties import Ties
+from mbla.program.assemble import assemble
+from mbla.program.program import Program
+from mbla.program.reductions.reduce import reduced_whole
+from mbla.program.reductions.scene import scene_of
+from mbla.program.reductions.steps import ReductionSwitches
+from mbla.program.stiffness_shares import stiffness_through
+from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.linear_algebra.stiffness import Stiffness
+from mbla.solution.pushover.nearness import Nearness
+from mbla.solution.pushover.structure import PushedStructure
+from mbla.solution.pushover.ties_at_pose import TiesAtPose
+
+
+@dataclass(frozen=True)
+class JointsAt:
+    """Joints at a pose.
+
+    placed  : contact points of the surfaces
+    joints  : with A and loads of the pose
+    offsets : (components, n_points) displacements of the program: gap, positive where open, and slip
+    ties    : there
+    loads   : dead and live, (n_solids, 6) each, about the centroids
+    """
+
+    pose: Pose
+    placed: Placed
+    joints: ElasticJoints
+    offsets: FloatArray
+    ties: Ties
+    loads: tuple[FloatArray, FloatArray]
+
+
+@dataclass(frozen=True)
+class History:
+    """What joints remember, (components, n_points) in forces of the program.
+
+    values : normal force that a joint would have at offset 0, shear after the last step
+    slips  : (components − 1, n_points) offsets along the joint after the last step
+    """
+
+    values: FloatArray
+    slips: FloatArray
+
+
+@dataclass(frozen=True)
+class MovedJoints:
+    """Joints of what touches at a pose, wherever it moves from there.
+
+    structure : what is pushed
+    fallen    : (n_solids,) debris
+    touching  : contacts of the surfaces
+    model     : of the solids there, debris fixed
+    contacts  : with ties
+    ties      : rows of the ties of the model that are left, (n_ties,)
+    full      : the program of all points
+    reduced   : that of what is solved
+    shares    : (n_points,) of the stiffness, mean 1
+    found_at  : pose where the contacts were found
+    length    : h, with which h k_N is the stiffness in units of the program
+    ratio     : k_T over k_N
+    """
+
+    structure: PushedStructure
+    fallen: BoolArray
+    touching: Touching
+    model: Model
+    contacts: Contacts
+    ties: IntArray
+    full: Program
+    reduced: Program
+    areas: FloatArray
+    shares: FloatArray
+    length: float
+    ratio: float
+    found_at: Pose
+
+    @staticmethod
+    def at_pose(
+        structure: PushedStructure,
+        pose: Pose,
+        fallen: BoolArray,
+        broken: BoolArray,
+        ratio: float,
+        before: tuple[MovedJoints, History] | None = None,
+    ) -> MovedJoints:
+        """Contacts found there.
+
+        broken : (n_ties,) ties of the model that carry nothing any more
+        before : whose points stay where nothing has slid
+        """
+        old = None if before is None else before[0]
+        opened = (
+            0.0 if before is None else float((before[0].opened(before[1]) / before[0].touching.sizes).max(initial=0.0))
+        )
+        touching = structure.touching(pose, fallen, None if old is None else old.touching, opened)
+        solids = structure.solids_at(pose, touching.contacts)
+        there = structure.ties_at(pose)
+        rows = np.flatnonzero(~broken)
+        left = replace(there, prestress=np.zeros(len(there))).take(rows)
+        model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
+        solids = tied(replace(solids, model=model))
+        dead, live = structure.loads_at(pose, fallen)
+        loads = replace(structure.case, dead_load=dead, live_load=live)
+        full = assemble(solids.model, solids.contacts, loads, own=False)
+        if full.guided and full.reduction is not None:
+            full = full.reduction.full  # guides come last
+        areas = structure.areas_of(touching)
+        if old is not None:
+            kept = touching.before >= 0
+            areas[kept] = old.areas[touching.before[kept]]
+        own = rows[:0] if solids.contacts.ties is None else rows[solids.contacts.ties.rows]
+        mean = float(areas.mean()) if len(areas) else float(structure.areas.mean())
+        full = replace(full, areas=np.append(areas, np.full(len(own), mean)))
+        reduced = reduced_whole(scene_of(solids.model, solids.contacts, full), SWITCHES, solids.model.mirrors)
+        assert full.areas is not None  # just given
+        stiffness = structure.stiffness * float(full.areas.mean()) * stiffness_through(reduced)
+        scaled = stiffness * full.scaling.live / full.scaling.force**2
+        length = float(scaled.mean())
+        return MovedJoints(
+            structure, fallen, touching, solids.model, solids.contacts, own, full, reduced, areas, scaled / length,
+            length, ratio, pose
+        )  # fmt: skip
+
+    @cached_property
+    def nearness(self) -> Nearness:
+        """Which solids are near each other, and near the ground."""
+        return Nearness(self.model.blocks, self.structure.model.grounds)
+
+    @cached_property
+    def _of_ties(self) -> TiesAtPose:
+        return TiesAtPose.of(self.structure, self.contacts, self.ties, self.row_of_solid)
+
+    @cached_property
+    def is_tie(self) -> BoolArray:
+        """Which points of the program are ties, (n_points,)."""
+        own = np.repeat(self.contacts.tie_points.astype(np.float64), 3)
+        found = abs(self.ways[1]).T @ own
+        return np.asarray(found.reshape(-1, self.components)[:, 0] > 0.0)
+
+    @property
+    def shear_stiffness(self) -> FloatArray:
+        """k_T of the points of the program, (n_points,)."""
+        return self.ratio * self.length * self.shares
+
+    @property
+    def components(self) -> int:
+        """Of a force at a contact point."""
+        return self.reduced.components
+
+    @property
+    def n_points(self) -> int:
+        """Of the program that is solved."""
+        return self.reduced.n_points
+
+    def there(self, pose: Pose) -> JointsAt:
+        """The joints at a pose."""
+        placed, ties = self.touching.points.at(pose), self._of_ties.at(pose)
+        centres = self.structure.solids.model.blocks.centroids + pose.shift
+        data = self._map @ np.concatenate([self._entries(placed, centres), self._of_ties.entries(ties, centres)])
+        matrix = self._matrix(data)
+        dead, live = self.structure.loads_at(pose, self.fallen)
+        every = dead + self._of_ties.fitted(ties, centres), live
+        loads = [each[self.full.free].ravel() for each in every]
+        row, scaling = self.full.scaling.row, self.full.scaling
+        ways = self.ways[0].T
+        program = replace(
+            self.reduced,
+            equilibrium_matrix=sp.csr_array(matrix.compatibility.T),
+            dead_load=np.asarray(ways @ (row * loads[0])),
+            live_load=np.asarray(ways @ (row * loads[1] * scaling.live)),
+        )
+        joints = replace(self._joints, program=program, matrix=replace(matrix, program=program))
+        offsets = np.vstack([placed.offsets, self._of_ties.offsets(ties)])
+        moved = self.ways[1].T @ (offsets.ravel() * (scaling.force / scaling.live))
+        return JointsAt(pose, placed, joints, moved.reshape(-1, self.components).T, ties, every)
+
+    def after(self, pose: Pose, u: FloatArray) -> Pose:
+        """The pose after displacements of the program, (n_rows,)."""
+        return pose.after(self.twists(u))
+
+    def twists(self, u: FloatArray) -> FloatArray:
+        """Of all solids, (n_solids, 6), from displacements of the program."""
+        return self.reduced.mechanism(u)
+
+    def displacements(self, twists: FloatArray) -> FloatArray:
+        """The way back, (n_rows,)."""
+        return self.reduced.velocities(twists)
+
+    def forces(self, values: FloatArray) -> FloatArray:
+        """Of all points, (n_points of the full program, 3) N, from those of the program, (components, n_points)."""
+        return (self.ways[1] @ values.T.ravel()).reshape(-1, 3) * self.full.scaling.force
+
+    def opened(self, history: History) -> FloatArray:
+        """How far joints that touch have opened by their slip, (n_points of the surfaces,) m."""
+        free = self.forces(history.values)[: len(self.areas), 0]
+        return np.asarray(free / (self.structure.stiffness * self.areas))
+
+    def values(self, forces: FloatArray) -> FloatArray:
+        """The way back, (components, n_points)."""
+        scaled = forces.ravel() / self.full.scaling.force
+        ways = self.ways[1]
+        values = (ways.T @ scaled) / np.maximum(np.asarray(ways.power(2).sum(axis=0)).ravel(), 1e-300)
+        return np.asarray(values.reshape(-1, self.components).T)
+
+    @cached_property
+    def ways(self) -> tuple[sp.csr_array, sp.csr_array]:
+        """U = S q and x = P y through all reductions."""
+        program = self.reduced
+        rows, columns = len(self.full.dead_load), 3 * self.full.n_points
+        ways: tuple[sp.csr_array, sp.csr_array] = (
+            sp.eye_array(rows, format="csr"),
+            sp.eye_array(columns, format="csr"),
+        )
+        chain = []
+        while program.reduction is not None:
+            chain.append(program.reduction)
+            program = program.reduction.full
+        for one in reversed(chain):
+            ways = (sp.csr_array(ways[0] @ one.velocities), sp.csr_array(ways[1] @ one.forces))
+        return ways
+
+    @cached_property
+    def row_of_solid(self) -> IntArray:
+        """Number among the free solids, (n_solids + grounds + 1,); −1 of the others."""
+        number = np.full(len(self.model.blocks) + len(self.model.grounds) + 1, -1)
+        number[self.full.free] = np.arange(len(self.full.free))
+        return number
+
+    @cached_property
+    def _sides(self) -> list[tuple[IntArray, float, IntArray]]:
+        """Points of the surfaces with a free body on each side: their numbers, sign and bodies."""
+        bodies, number = self.touching.points.bodies, self.row_of_solid
+        found = []
+        for side, sign in ((0, -1.0), (1, 1.0)):
+            on = np.flatnonzero(number[bodies[:, side]] >= 0)
+            found.append((on, sign, np.asarray(bodies[on, side])))
+        return found
+
+    def _entries(self, placed: Placed, centres: FloatArray) -> FloatArray:
+        """Of A of the surfaces, six rows of each of three components of each point, side by side."""
+        values = []
+        for on, sign, body in self._sides:
+            force = sign * placed.frames[on]
+            arm = (placed.points[on] - centres[body])[:, None, :]
+            values.append(np.concatenate([force, _crossed(arm, force)], axis=2).ravel())
+        return np.concatenate(values)
+
+    @cached_property
+    def _places(self) -> tuple[IntArray, IntArray]:
+        """Rows and columns of the full A of all entries, in their order."""
+        rows, columns = [], []
+        for on, _, body in self._sides:
+            shape = (len(on), 3, 6)
+            rows.append(np.broadcast_to((6 * self.row_of_solid[body])[:, None, None] + np.arange(6), shape).ravel())
+            columns.append(np.broadcast_to((3 * on[:, None] + np.arange(3))[:, :, None], shape).ravel())
+        if self.contacts.ties is not None:
+            places, bodies = self._of_ties.places, self._of_ties.bodies
+            tie = self._of_ties.built.tie_of_point[places]
+            rows.append((6 * self.row_of_solid[bodies][:, None] + np.arange(6)).ravel())
+            columns.append(np.repeat(3 * (len(self.touching.points.bodies) + tie), 6))
+        return np.concatenate(rows), np.concatenate(columns)
+
+    @cached_property
+    def _pattern(self) -> tuple[sp.csr_array, IntArray, sp.csr_array]:
+        """Rows and columns of Aᵀ of the program that is solved, by rows, and its entries from those of the full A."""
+        row, column = self._places
+        velocities, forces = self.ways
+        of_row, of_column = np.diff(velocities.indptr)[row], np.diff(forces.indptr)[column]
+        entry = np.repeat(np.arange(len(row)), of_row * of_column)
+        within = np.arange(len(entry)) - np.repeat(
+            np.cumsum(of_row * of_column) - of_row * of_column, of_row * of_column
+        )
+        first = velocities.indptr[row[entry]] + within // of_column[entry]
+        second = forces.indptr[column[entry]] + within % of_column[entry]
+        value = velocities.data[first] * forces.data[second]
+        value = value * self.full.scaling.row[row[entry]] * self.full.scaling.force
+        n = len(self.reduced.dead_load)
+        keys = forces.indices[second].astype(np.int64) * n + velocities.indices[first]
+        every, place = np.unique(keys, return_inverse=True)
+        summing = sp.csr_array(sp.coo_array((value, (place.ravel(), entry)), shape=(len(every), len(row))))
+        shape = (self.components * self.n_points, n)
+        numbered = sp.coo_array((np.arange(1.0, len(every) + 1.0), (every // n, every % n)), shape=shape)
+        return sp.csr_array(numbered), every, summing
+
+    @property
+    def _map(self) -> sp.csr_array:
+        return self._pattern[2]
+
+    @cached_property
+    def _joints(self) -> ElasticJoints:
+        """Joints of the numbered pattern."""
+        numbered = self._pattern[0]
+        program = replace(self.reduced, equilibrium_matrix=sp.csr_array(numbered.T))
+        joints = ElasticJoints.of(
+            program, self.shares, self.ratio, program.limits.dilatancy_by(self.structure.flow_rule)
+        )
+        return joints
+
+    def _matrix(self, data: FloatArray) -> Stiffness:
+        """Pattern of K with A of a pose: its entries where those of the numbered pattern are."""
+        pattern = self._joints.matrix
+        values = np.concatenate([[0.0], data])
+        groups = tuple(
+            replace(group, block=values[numbers]) for group, numbers in zip(pattern.groups, self._numbers, strict=True)
+        )
+        compatibility = sp.csr_array(
+            (data, pattern.compatibility.indices, pattern.compatibility.indptr), shape=pattern.compatibility.shape
+        )
+        return replace(pattern, groups=groups, compatibility=compatibility, size=self.size)
+
+    @cached_property
+    def _numbers(self) -> list[IntArray]:
+        return [group.block.astype(np.int64) for group in self._joints.matrix.groups]
+
+    @cached_property
+    def size(self) -> FloatArray:
+        """(n_rows,) diagonal of A Aᵀ at the pose where contacts were found."""
+        matrix = self.reduced.equilibrium_matrix
+        return np.asarray(matrix.multiply(matrix).sum(axis=1))
+
+
+SWITCHES = ReductionSwitches(on=True, mirror=True, points=False)
+"""Planes, and halves about planes that the deck gives."""
+
+
+def _crossed(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Cross products along the last axis; numpy's takes five times as long."""
+    a, b = first, second
+    parts = [a[..., i] * b[..., j] - a[..., j] * b[..., i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    return np.stack(parts, axis=-1)

@@ -1,0 +1,334 @@
+"""One step of a structure that moves, at the pose where it ends, for a given live work.
+
+Unknown are the displacements of the solids and the load factor. Gaps, frames, A and loads are those of the end of the
+step, so that a load factor has no error of the length of its step::
+
+    n = n₀ − k_N g,     t = t₀ − k_T (w_T − w₀),  cut to the limit of shear l(n)
+    A x + f_D + λ f_L = 0,     Σ f_L·du = s
+
+The pose is expected to be where the step before leads on to, velocities turned with their solids. From there a step of
+elastic joints (:mod:`mbla.solution.law.joint_step`) makes up for what changes in contacts. *Smoothed*, its products
+stay at σ: most steps take one direction from the state before. *Solved*, the law holds as it is: Newton's method
+with the exact derivative, or ever smaller products where that comes to nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.model.pose import paths_of
+from mbla.solution.law.elastic_joints import Memory, StepState, lengths, within
+from mbla.solution.law.joint_equations import JointStep, products_of, residual_of
+from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
+from mbla.solution.pushover.geometric_stiffness import geometric
+from mbla.solution.pushover.law_at_pose import law
+from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
+from mbla.solution.pushover.step_states import gone_on, on_central_path
+from mbla.solution.thresholds import SOLVED_RESIDUAL
+
+BALANCED, WORKS = 1e-6, 1e-6
+"""Unbalanced force, in mean loads of a block, and deviation of the live work, relative, with which a step is solved."""
+
+NEWTON, WORSE = 8, 10.0
+"""Directions of Newton's method, which is given up where it leaves as many times as much as before."""
+
+REGULAR, HELD = 1e-11, 1e-9
+"""Springs over the stiffness of a row: that what nothing holds has a place, and what holds blocks at rest."""
+
+FIRM, NEARBY = (REGULAR, 1e-6, 1e-4), 1e-3
+"""Springs of Newton's method, in turn where a motion is longer: joints that slide at their limit may slide anywhere."""
+
+FARTHEST = 0.05
+"""Motion of a solid over its size, and rotation, that no direction of a step makes."""
+
+ROUNDS, NEAR = 4, (5e-3, 2e-7)
+"""Poses at which ever smaller products are gone through, one from the other, and unbalanced force of the law itself
+from which Newton's method goes on, at the first pose and at the others."""
+
+OVERLAP, WIDE, LATER, LEAST, DIRECTIONS = 0.1, 0.01, 1e-3, 1e-13, 25
+"""Products with which a step begins over mean force times elastic overlap, or times a share of the live displacement
+where that is more; at the poses that follow, and at last; directions at most."""
+
+LOOSE, REACHED, FEW, CLOSE, EVEN = 1e-3, 0.5, 5, 3.0, 30.0
+"""Unbalanced force with which a smoothed step is done, reach of its last direction, directions from the state before,
+mean product over σ from which it is smoothed as wanted, and greatest with which it is even."""
+
+
+@dataclass(frozen=True)
+class Smoothed:
+    """A smoothed step that is done: joints and state there, displacements since it began, directions it took."""
+
+    at: JointsAt
+    state: StepState
+    u: FloatArray
+    directions: int
+
+
+@dataclass(frozen=True)
+class Found:
+    """A pose and the forces of the law there.
+
+    u       : (n_rows,) displacements since the step began
+    factor  : of the program
+    work    : of the live load since the step began
+    off     : largest unbalanced force, in mean loads of a block
+    measure : that, or what is missing of the live work in the same measure
+    """
+
+    at: JointsAt
+    normal: FloatArray
+    shear: FloatArray
+    u: FloatArray
+    factor: float
+    work: float
+    off: float
+    measure: float
+
+    @property
+    def solved(self) -> bool:
+        """Whether the step is."""
+        return self.measure < BALANCED
+
+    @property
+    def fit(self) -> bool:
+        """Whether it is fit to be shown: joints in series that slide at one load, each a little, come to no more."""
+        return self.measure < SOLVED_RESIDUAL
+
+
+@dataclass
+class PoseStep:
+    """A step from a pose.
+
+    joints  : of what touches there
+    history : before it
+    start   : where it begins
+    factor  : of the program, there
+    work    : live work; nothing where the structure is at rest under a load factor
+    driven  : whether the live work is given
+    held    : (n_rows,) springs that hold solids where the step begins: their masses, where they move in time
+    spent   : factorisations
+    """
+
+    joints: MovedJoints
+    history: History
+    start: JointsAt
+    factor: float
+    work: float
+    driven: bool = True
+    held: FloatArray | float = 0.0
+    spent: int = 0
+
+    def smoothed(
+        self, twists: FloatArray, before: StepState | None, share: float, kappa: float, anew: bool = False
+    ) -> Smoothed | None:
+        """The step with products n₀ times the elastic overlap over κ; None where it is blocked.
+
+        twists : (n_solids, 6) that are expected
+        before : the state of the step before, of which this one is a share; None where there is none that leads on
+        anew   : whether the step begins at rest besides, where that state does not lead to its end
+        """
+        u = self.joints.displacements(twists)
+        pose = self.joints.after(self.start.pose, u)
+        at = self.joints.there(pose)
+        done = float(self.start.joints.program.live_load @ u)
+        step = self._from(at, u, done)
+        force, overlap = self._force(at), self._force(at) / self.joints.length
+        sigma = force * overlap / kappa
+        fresh = on_central_path(step, sigma, self.factor)
+        wide = OVERLAP * force * max(overlap, WIDE * self._moved(at))
+        starts = [(fresh, False), (on_central_path(step, max(sigma, wide), self.factor), True)]
+        if before is not None:
+            starts = [(gone_on(step, before, share, sigma), False), *starts[:1]][: 1 + anew]
+        for state, aimed in starts:
+            found = self._to(step, state, sigma, aimed=aimed)
+            if found is not None:
+                state, directions = found
+                return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
+        return None
+
+    def solved(self, near: Smoothed | None = None) -> Found | None:
+        """The best by the law as it is, from a smoothed step or from the beginning; None where there is none."""
+        at, u, factor, done = self.start, np.zeros(len(self.joints.reduced.dead_load)), self.factor, 0.0
+        best: Found | None = None
+        if near is not None:
+            at, u, factor = near.at, near.u, near.state.factor
+            done = float(self.start.joints.program.live_load @ u)
+            best = self._newton(at, u, factor, done)
+        for number in range(ROUNDS):
+            if best is not None and best.solved:
+                break
+            found = self._primal(at, u, factor, done, number)
+            if found is None:
+                break
+            best = found if best is None or found.measure < best.measure else best
+            at, u, factor, done = found.at, found.u, found.factor, found.work
+        return best
+
+    def memory(self, at: JointsAt) -> Memory:
+        """What the joints remember, for displacements from that pose on."""
+        k_n, k_t = at.joints.normal * self.joints.length, at.joints.shear * self.joints.length
+        slip = at.offsets[1:] - self.history.slips
+        return Memory(self.history.values[0] - k_n * at.offsets[0], self.history.values[1:] - k_t * slip)
+
+    def after(self, at: JointsAt, normal: FloatArray) -> History:
+        """What the joints remember once they are at a pose with normal forces, (n_points,)."""
+        joints, limits, memory = at.joints, at.joints.program.limits, self.memory(at)
+        k_n, k_t = joints.normal * self.joints.length, joints.shear * self.joints.length
+        shear, free = within(memory.shear, joints.limit(normal)), self.history.values[0].copy()
+        if joints.dilates:
+            free = free + joints.dilatancy * k_n / k_t * lengths(memory.shear - shear)
+        crushes = joints.crushable
+        there = np.minimum(free - k_n * at.offsets[0], limits.compression)
+        free[crushes] = (there + k_n * at.offsets[0])[crushes]
+        return History(np.vstack([free[None], shear]), at.offsets[1:])
+
+    def _from(self, at: JointsAt, u: FloatArray, done: float) -> JointStep:
+        """The rest of the step from a pose, to which displacements have led that did a work."""
+        joints, held = at.joints, self._held
+        if np.any(u) and np.any(held):
+            program = replace(joints.program, dead_load=joints.program.dead_load - held * u)
+            joints = replace(joints, program=program)
+        springs = held + self._springs
+        return JointStep(joints, self.memory(at), self.joints.length, self.driven, self.work - done, springs)
+
+    @property
+    def _held(self) -> FloatArray:
+        """Springs that are part of the balance, (n_rows,)."""
+        at_rest = 0.0 if self.driven else HELD * self.joints.length
+        return at_rest * self.joints.size + self.held
+
+    @property
+    def _springs(self) -> FloatArray:
+        """That hold what nothing holds, (n_rows,)."""
+        return REGULAR * self.joints.length * self.joints.size
+
+    def _force(self, at: JointsAt) -> float:
+        """n₀, the mean load of a point."""
+        program, n = at.joints.program, max(self.joints.n_points, 1)
+        dead, live = (float(np.abs(load).sum()) / n for load in (program.dead_load, program.live_load))
+        return dead or abs(self.factor) * live or 1.0
+
+    def _moved(self, at: JointsAt) -> float:
+        """Displacement that the live work stands for."""
+        return abs(self.work) / max(float(np.abs(at.joints.program.live_load).sum()), 1e-300)
+
+    def _size(self, u: FloatArray) -> float:
+        return greatest_motion(self.joints, self.joints.twists(u))
+
+    def _to(self, step: JointStep, state: StepState, sigma: float, *, aimed: bool) -> tuple[StepState, int] | None:
+        """A state with products σ, and directions to it; None where the way is blocked.
+
+        aimed : whether products are larger at first and choose by how much they fall
+        """
+        for number in range(1, (DIRECTIONS if aimed else FEW) + 1):
+            residual = residual_of(step, state)
+            last = not aimed or residual.products.mean(step.joints) < CLOSE * sigma
+            found = direction_of(step, state, residual, sigma) if last else aimed_direction(step, state, residual)
+            self.spent += 1
+            if found is None or found[1] < 1e-4:
+                return None
+            state = state.plus(found[0], length_of(found[1]))
+            if not self._size(state.u) < FARTHEST:
+                return None
+            if not last or found[1] < REACHED:
+                continue
+            balance, products = step.joints.unbalanced(state) - step.held * state.u, products_of(step.joints, state)
+            if float(np.abs(balance).max()) < LOOSE and float(products.normal.max(initial=0.0)) < EVEN * sigma:
+                return state, number
+        return None
+
+    def _measured(
+        self, at: JointsAt, u: FloatArray, factor: float, done: float
+    ) -> tuple[Found, FloatArray, FloatArray]:
+        """What a pose leaves without balance, with C."""
+        normal, shear, tangent = law(at, self.memory(at), self.joints.length)
+        program = at.joints.program
+        left = at.joints.carried(normal, shear) + program.dead_load + factor * program.live_load
+        left = left - self._held * u
+        off = float(np.abs(left).max(initial=0.0))
+        missing = 0.0
+        if self.driven:  # of a support that is held, over what its joints store
+            size = max(abs(self.work), self._force(at) ** 2 / self.joints.length)
+            missing = BALANCED * abs(self.work - done) / (WORKS * size)
+        measure = max(off, missing)
+        measure = measure if np.isfinite(measure) else np.inf
+        return Found(at, normal, shear, u, factor, done, off, measure), left, tangent
+
+    def _newton(self, at: JointsAt, u: FloatArray, factor: float, done: float) -> Found | None:
+        """The best that Newton's method comes to from a pose; None where there are no numbers."""
+        best: Found | None = None
+        for number in range(NEWTON + 1):
+            found, left, tangent = self._measured(at, u, factor, done)
+            if not np.isfinite(found.measure):
+                return best
+            worse = best is not None and number >= 2 and found.measure > WORSE * best.measure
+            best = found if best is None or found.measure < best.measure else best
+            if best.solved or worse or number == NEWTON:
+                return best
+            further = geometric(self.joints, at, found.normal, found.shear)
+            fixed = not self.driven
+            for firm in FIRM:
+                springs = firm * self.joints.length * self.joints.size + self._held
+                stiffness = at.joints.matrix.factorized(tangent, springs, fixed_load=fixed, further=further)
+                self.spent += 1
+                if stiffness is None:
+                    return best
+                change = stiffness(np.append(-left, 0.0 if fixed else self.work - done))
+                du, by = change[:-1], 0.0 if fixed else float(change[-1])
+                if self._size(du) < NEARBY:
+                    break
+            else:
+                return best
+            done += 0.0 if fixed else float(at.joints.program.live_load @ du)
+            at, u, factor = self.joints.there(self.joints.after(at.pose, du)), u + du, factor + by
+        return best
+
+    def _primal(self, at: JointsAt, u: FloatArray, factor: float, done: float, number: int) -> Found | None:
+        """Ever smaller products at a pose, and Newton's method from where they lead."""
+        step, force = self._from(at, u, done), self._force(at)
+        overlap = force / self.joints.length
+        sigma = LATER * force * overlap if number else OVERLAP * force * max(overlap, OVERLAP * self._moved(at))
+        if not self.driven and not number:
+            sigma = force * overlap
+        state = on_central_path(step, sigma, factor)
+        for count in range(DIRECTIONS):
+            residual = residual_of(step, state)
+            if residual.products.mean(step.joints) < LEAST * force * overlap:
+                break
+            if count and self._left(step, state) < NEAR[min(number, 1)]:
+                break
+            found = aimed_direction(step, state, residual)
+            self.spent += 1
+            if found is None or found[1] < 1e-6:
+                break
+            state = state.plus(found[0], length_of(found[1]))
+        if not self._size(state.u) < 4.0 * FARTHEST:
+            return None
+        done += float(at.joints.program.live_load @ state.u) if self.driven else 0.0
+        there = self.joints.there(self.joints.after(at.pose, state.u))
+        return self._newton(there, u + state.u, state.factor, done)
+
+    def _left(self, step: JointStep, state: StepState) -> float:
+        """Largest unbalanced force of the law itself for the motion of a state."""
+        joints, limits = step.joints, step.joints.program.limits
+        v = joints.velocities(state.u)
+        normal = np.clip(step.memory.normal - v[0] / step.normal_compliance, -limits.tension, limits.compression)
+        shear = within(step.memory.shear - v[1:] / step.shear_compliance, joints.limit(normal))
+        program = joints.program
+        left = joints.carried(normal, shear) + program.dead_load + state.factor * program.live_load
+        return float(np.abs(left - step.held * state.u).max(initial=0.0))
+
+
+def greatest_motion(joints: MovedJoints, twists: FloatArray) -> float:
+    """Of twists, (n_solids, 6): greatest motion over the size of the solid, and rotation."""
+    moved = np.linalg.norm(twists[:, :3], axis=1) / joints.structure.solids.model.blocks.sizes
+    return float(max(moved.max(initial=0.0), np.linalg.norm(twists[:, 3:], axis=1).max(initial=0.0)))
+
+
+def turned_on(twists: FloatArray, share: float) -> FloatArray:
+    """Twists of a step that goes on as the one before, (n_solids, 6): velocities turn with their solids."""
+    turn, _ = paths_of(twists[:, 3:])
+    return np.hstack([np.einsum("nij,nj->ni", turn, twists[:, :3]), twists[:, 3:]]) * share

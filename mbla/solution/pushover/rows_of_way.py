@@ -1,0 +1,153 @@
+"""Rows of the way of a structure that is pushed: steps that are solved at multiples of the step that is asked for.
+
+Besides, there is one at a peak between them, where nothing is left of the load factor, and where a jump ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from mbla.solution.pushover.place import Place, Row
+from mbla.solution.pushover.pose_step import PoseStep, Smoothed
+from mbla.solution.pushover.pushed import CurveEnd
+
+if TYPE_CHECKING:
+    from mbla.solution.pushover.way import Way
+
+AT_END, SEARCHES, FURTHER = 1e-6, 12, 1.5
+"""Where a row is: distance from it over what it is, steps made to find it, and share of a step that they go at most."""
+
+SUDDEN, NOTHING, BLOCKED = 0.2, 1e-6, 100.0
+"""Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there; over the
+one at which the structure starts to move, that is nothing; and from which something blocks its way."""
+
+HIGHER = 1.001
+"""Load factor over those of two rows from which there is one between them."""
+
+
+@dataclass
+class RowsOfWay:
+    """Rows of a way, at multiples of its step, and one at a peak between them.
+
+    unit     : of live work; ``way`` so far
+    last     : load factor of the last row
+    target   : displacement of the next
+    peak     : the step with the greatest load factor since the last row
+    highest  : load factor so far
+    """
+
+    of: Way
+    unit: float
+    last: float
+    way: float = 0.0
+    target: float = 0.0
+    count: int = 0
+    peak: tuple[PoseStep, Smoothed, Place] | None = None
+    greatest: float = 0.0
+    highest: float = 0.0
+
+    def of_step(
+        self, step: PoseStep, found: Smoothed, place: Place, after: Place
+    ) -> Generator[Row, None, CurveEnd | None]:
+        """Rows within a step; returns why the curve ends there, or None."""
+        way, moved = self.of, self.of.displacement(after.pose)
+        self.way += step.work
+        self.target = self.target or way.step
+        if after.factor > BLOCKED * abs(way.first.load_factor) and not way.settles:
+            highest = None if self.peak is None else way.row(*self.peak)
+            if highest is not None and highest.load_factor > HIGHER * self.last and self.count < way.steps:
+                self.count += 1
+                yield highest
+            return CurveEnd.BLOCKED
+        if after.factor > self.greatest:
+            self.peak, self.greatest = (step, found, place), after.factor
+        self.highest = max(self.highest, after.factor)
+        nothing = self._is_nothing(after.factor)
+        if nothing and place.factor > SUDDEN * self.highest:
+            return way.fall
+        broken = after.ties.broken(way.structure.model.ties)[after.joints.ties]
+        begun = way.displacement(place.pose)
+        for goal in [] if broken.any() else self._goals(begun, moved, nothing=nothing):
+            row = self._at(step, found, place, goal)
+            if row is not None and goal is not None and self._is_nothing(row.load_factor):
+                row = self._at(step, found, place, None)
+            if row is None:
+                way.missed += 1
+                continue
+            top = self._top(row)
+            if top is not None:
+                self.count += 1
+                yield top
+            self.peak, self.greatest, self.last = None, row.load_factor, row.load_factor
+            if self.count < way.steps:
+                self.count += 1
+                yield row
+            end = self._end(row)
+            if end is not None or self.count >= way.steps:
+                return end or CurveEnd.STEPS_DONE
+        return None
+
+    def _goals(self, begun: float, moved: float, *, nothing: bool) -> list[float | None]:
+        """Displacements of rows within a step, None where nothing is left of the load factor.
+
+        Where a jump has passed some by, the end of the step stands for these.
+        """
+        goals, until = list[float | None](), self.of.until
+        if self.target < min(begun, moved, until) * (1.0 - AT_END):
+            goals.append(min(moved, until))
+        while self.target < min(begun, until) * (1.0 - AT_END):
+            self.target += self.of.step
+        while self.target <= moved * (1.0 + AT_END) and self.target < until * (1.0 - AT_END):
+            goals.append(self.target)
+            self.target += self.of.step
+        goals += [until] if moved >= until * (1.0 - AT_END) else []
+        return goals + ([None] if nothing else [])
+
+    def _top(self, row: Row) -> Row | None:
+        """The row of a peak before a row, where there is one."""
+        if self.peak is None or self.greatest <= HIGHER * max(self.last, row.load_factor):
+            return None
+        top = self.of.row(*self.peak)
+        before = top is not None and self.of.displacement(top.pose) < self.of.displacement(row.pose)
+        return top if before else None
+
+    def _end(self, row: Row) -> CurveEnd | None:
+        if self.of.displacement(row.pose) >= self.of.until * (1.0 - 2.0 * AT_END):
+            return CurveEnd.REACHED
+        return CurveEnd.NOTHING_LEFT if self._is_nothing(row.load_factor) else None
+
+    def _is_nothing(self, factor: float) -> bool:
+        """Whether nothing is left of a load factor; of a reaction that is no end."""
+        start = NOTHING * abs(self.of.first.load_factor)
+        return factor <= start and self.way > 2.0 * self.unit and not self.of.settles
+
+    def _at(self, step: PoseStep, found: Smoothed, place: Place, goal: float | None) -> Row | None:
+        """The row of a part of a step at a displacement of the control point; without one where nothing is left of the
+        load factor. None where no row is found.
+        """
+        way, best = self.of, self.of.row(step, found, place)
+        if best is None:
+            return None
+        size = max(abs(place.factor), 1e-300) if goal is None else goal
+
+        def value(row: Row) -> float:
+            return row.load_factor if goal is None else way.displacement(row.pose) - goal
+
+        begun = place.factor if goal is None else way.displacement(place.pose) - goal
+        low, high = (0.0, begun), (1.0, value(best))
+        for _ in range(SEARCHES):
+            if abs(value(best)) <= AT_END * size or high[1] == low[1]:
+                break
+            share = low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1])
+            if not 0.0 < share < FURTHER:
+                break
+            part, u = replace(step, work=share * step.work), share * found.u
+            there = step.joints.there(step.joints.after(step.start.pose, u))
+            row = way.row(part, replace(found, at=there, u=u), place)
+            if row is None:
+                break
+            best, now = row, value(row)
+            low, high = ((share, now), high) if now * high[1] < 0.0 else (low, (share, now))
+        return best

@@ -1,0 +1,144 @@
+"""The structure that is pushed: its solids as built and at a pose, what acts on them there, and where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.carried import Touching
+from mbla.contacts.contacts import Contacts
+from mbla.contacts.glue import Solids, solids_of
+from mbla.contacts.moved import MovedSearch
+from mbla.deck.sections.contacts import ContactsSection
+from mbla.model.model import LoadCase, Model
+from mbla.model.pose import Pose, moved_case, moved_model
+from mbla.model.ties.moved import moved_ties
+from mbla.model.ties.ties import NO_TIES, Ties
+
+SAG = 1e-6
+"""Overlap of two blocks under the weight of one, over the size of a block: 1e10 Pa/m for blocks of half a metre."""
+
+
+@dataclass(frozen=True)
+class PushedStructure:
+    """A model that moves under a load case; solids are its blocks, those that glue joins one.
+
+    model     : as it may move, blocks as built
+    case      : on the blocks
+    solids    : as built, without ties
+    search    : of contacts wherever the blocks are
+    areas     : (n_pairs,) m² of the solids that touch as built, by ``pairs``, (n_pairs,) numbers of their bodies
+    stiffness : of joints, force per volume
+    flow_rule : of the analysis
+    """
+
+    model: Model
+    case: LoadCase
+    solids: Solids
+    search: MovedSearch
+    pairs: IntArray
+    areas: FloatArray
+    stiffness: float
+    flow_rule: str
+
+    @staticmethod
+    def of(
+        model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, flow_rule: str
+    ) -> PushedStructure:
+        """From contacts as built."""
+        solids = solids_of(replace(model, ties=NO_TIES), contacts)
+        numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
+        pairs, place = np.unique(numbers, return_inverse=True)
+        areas = np.asarray(np.bincount(place.ravel(), solids.contacts.areas, len(pairs)), dtype=np.float64)
+        free = ~solids.model.fixed
+        loads = np.linalg.norm(case.dead_load[:, :3], axis=1)[~model.fixed]
+        loads = loads if loads.any() else np.linalg.norm(case.live_load[:, :3], axis=1)[~model.fixed]
+        weight, size = float(loads[loads > 0.0].mean()), float(solids.model.blocks.sizes[free].mean())
+        return PushedStructure(
+            model=model,
+            case=case,
+            solids=solids,
+            search=MovedSearch(model, contacts, section),
+            pairs=pairs,
+            areas=areas,
+            stiffness=weight / (float(areas.mean()) * SAG * size),
+            flow_rule=flow_rule,
+        )
+
+    @property
+    def n_solids(self) -> int:
+        """Number of bodies that may move, and of fixed blocks."""
+        return len(self.solids.model.blocks)
+
+    def blocks_at(self, pose: Pose) -> Pose:
+        """Poses of the blocks from those of the solids."""
+        if self.solids.solid_of_block is None:
+            return pose
+        turn = pose.rotation[self.solids.label]
+        arms = self.solids.arms
+        return Pose(pose.shift[self.solids.label] + np.einsum("nij,nj->ni", turn, arms) - arms, turn)
+
+    def solids_at(self, pose: Pose, contacts: Contacts) -> Solids:
+        """The solids there with contacts between them, without ties."""
+        arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
+        return replace(self.solids, model=moved_model(self.solids.model, pose), contacts=contacts, arms=arms)
+
+    def loads_at(self, pose: Pose, fallen: BoolArray) -> tuple[FloatArray, FloatArray]:
+        """Dead and live load on the solids there, (n_solids, 6) each, without those of debris, (n_solids,)."""
+        case = moved_case(self.case, self.blocks_at(pose))
+        arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
+        solids = replace(self.solids, arms=arms)
+        dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
+        dead[fallen], live[fallen] = 0.0, 0.0
+        return dead, live
+
+    def ties_at(self, pose: Pose) -> Ties:
+        """Ties there."""
+        return moved_ties(self.model.ties, self.model.blocks, self.blocks_at(pose))
+
+    def touching(self, pose: Pose, fallen: BoolArray, before: Touching | None, opened: float = 0.0) -> Touching:
+        """Contacts of the solids there; points of interfaces that have not slid are those before.
+
+        opened : gap over the size of blocks, that joints which dilate have at most and touch all the same
+        """
+        blocks = self.blocks_at(pose)
+        found = self.search.at(blocks, fallen[self.solids.label], opened)
+        n_blocks = len(self.model.blocks)
+        body = np.concatenate([self.solids.label, self.n_solids + np.arange(len(self.model.grounds))])
+        contacts = replace(found.contacts, bodies=body[found.contacts.bodies], solid_of_block=None)
+        facets = self.search.facets
+        normals = np.einsum("fij,fj->fi", blocks.rotation[facets.blocks], facets.normals)
+        normals = np.vstack([normals, np.zeros((1, 3))])  # −1, of grounds
+        assert n_blocks == len(self.solids.label)
+        there = self.solids.model.blocks
+        corners = self.search.to_corners(found, blocks)
+        new = Touching.found(there.centroids, there.sizes, normals, corners, replace(found, contacts=contacts), pose)
+        return new if before is None else before.renewed(new, pose)
+
+    def areas_of(self, touching: Touching) -> FloatArray:
+        """Area that each contact point is as stiff as, (n_points,) m²: what two solids share as built, by their points.
+
+        Two solids that meet only later are as stiff as others in the mean.
+        """
+        contacts = touching.contacts
+        numbers = _numbers(contacts.bodies, _n_bodies(self.solids.model))
+        row = np.minimum(np.searchsorted(self.pairs, numbers), len(self.pairs) - 1)
+        of_pair = np.where(self.pairs[row] == numbers, self.areas[row], self.areas.mean())
+        pair, place = np.unique(numbers, return_inverse=True)
+        of_point = place.ravel()[contacts.interface_of_point]
+        count = np.bincount(of_point, minlength=len(pair))
+        return np.asarray(of_pair[contacts.interface_of_point] / np.maximum(count, FEWEST)[of_point])
+
+
+FEWEST = 4
+"""Points over which the stiffness of two solids is spread at least: an edge is no stiffer than half a face."""
+
+
+def _n_bodies(model: Model) -> int:
+    return len(model.blocks) + len(model.grounds)
+
+
+def _numbers(bodies: IntArray, n_bodies: int) -> IntArray:
+    return np.asarray(bodies[:, 0] * n_bodies + bodies[:, 1])

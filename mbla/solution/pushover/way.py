@@ -1,0 +1,252 @@
+"""The way of a structure that is pushed: rest, peak, and on, by smoothed steps, and rows that are solved from them.
+
+It begins at rest under the dead load. Steps are measured by the work of the live load, in units of what its elastic
+joints take at a tenth of the dead load: the first are those of the path of elastic joints. Then they grow to the step
+that is asked of the control point, as long as no solid moves or turns far in one. A row of the curve is a step that is
+solved from where its smoothed one has led; the way goes on from the smoothed one.
+
+Where a step is blocked it is made shorter, then with larger products, which let the structure slip past; then it jumps
+(:mod:`mbla.solution.pushover.jump`).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.model.pose import Pose
+from mbla.model.ties.moved import TieHistory
+from mbla.solution.flow.unit_of_displacement import elastic_motion
+from mbla.solution.pushover.control import MOVES, Control
+from mbla.solution.pushover.jump import jump
+from mbla.solution.pushover.moved_joints import History, MovedJoints
+from mbla.solution.pushover.place import Energy, Place, Row, place_after, row_after
+from mbla.solution.pushover.pose_step import PoseStep, Smoothed, greatest_motion, turned_on
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.renewal import renewed
+from mbla.solution.pushover.rows_of_way import RowsOfWay
+from mbla.solution.pushover.structure import PushedStructure
+from mbla.solution.solution import Mechanics
+
+RATIO = 0.4
+"""Stiffness of joints along over that across."""
+
+FIRST, UNIT = 0.2, 0.1
+"""Live work of the first step, in units; load factor of the unit over that at which live and dead load are alike."""
+
+LONGER, LONG, OF_WAY = {1: 2.0, 2: 2.0, 3: 1.4, 4: 1.4}, 1.0, 0.25
+"""A step over the one before, by directions that took, and with more; and over the whole way so far, at most."""
+
+LARGEST = 0.02
+"""Greatest motion of a solid over its size in a step, and rotation."""
+
+SMOOTHING, SOFT, SHORTER, TRIES, LEVELS, EASY, EASIER = 50.0, 10.0, 0.5, 6, 3, 3, 1.2
+"""κ, and that of a step after ones that are blocked; a step over one that is blocked, such steps with the state before
+and without it, before the structure jumps; directions of a step after which κ rises, and by how much."""
+
+SOFTEST = 0.1
+"""Least κ."""
+
+WARM = 1
+"""Shorter steps from the state before, before they begin at rest besides."""
+
+AT_BREAK = 0.05
+"""Step in which a tie breaks over the one before, at most."""
+
+KEPT = 0.9
+"""Load factor after a jump over that before, from which the structure is pushed on: with less it goes on by itself."""
+
+OTHERS = (0.7, 0.3, 1.5)
+"""Steps over the last one that was made, tried in turn where a jump comes to nothing either."""
+
+TAKEN = 0.2
+"""Weight of falling blocks over that of the control point, or of what moves at first with a support that gives way,
+from which the curve is at its end."""
+
+
+@dataclass
+class Way:
+    """Steps of a load case.
+
+    control : of the displacement
+    first   : the structure as it starts to move
+    step    : m, of the control point
+    until   : m, at which it ends
+    steps   : rows at most
+    most    : multiple of the greatest motion and rotation of solids in a step
+    watch   : told of each step the row that it leads to, the load factor, and whether it is made
+    kappa   : smoothing of the next step
+    spent, missed, jumps : factorisations, rows that were not solved, and jumps so far
+    """
+
+    structure: PushedStructure
+    control: Control
+    first: Mechanics
+    step: float
+    until: float
+    steps: int
+    deadline: float | None = None
+    most: float = 1.0
+    watch: Callable[[int, float, bool], None] = lambda row, factor, made: None
+    kappa: float = SMOOTHING
+    spent: int = 0
+    missed: int = 0
+    jumps: int = 0
+
+    @property
+    def stiffness(self) -> tuple[float, float]:
+        """Of joints, across and along, force per volume."""
+        return self.structure.stiffness, RATIO * self.structure.stiffness
+
+    def rows(self) -> Iterator[Row | CurveEnd]:
+        """Rows from the peak on, then why the curve ends."""
+        place = self.at_rest()
+        if place is None:
+            yield CurveEnd.STUCK
+            return
+        rows = RowsOfWay(self, self._unit(place), self.first.load_factor)
+        work, tries, again = FIRST * rows.unit, 0, 0
+        while True:
+            if self.deadline is not None and time.monotonic() > self.deadline:
+                yield CurveEnd.LATE
+                return
+            place = renewed(place, self.is_over)
+            if self.is_over(place.joints.fallen):
+                yield self.fall
+                return
+            step, found = self._stepped(place, work, tries)
+            factor = place.factor if found is None else step.joints.full.scaling.load_factor(found.state.factor)
+            self.watch(rows.count + 1, factor, found is not None)
+            if found is None:
+                tries, work = tries + 1, SHORTER * work
+                self.kappa = max(SHORTER * self.kappa, min(self.kappa, SOFT))
+                if tries % TRIES == 0:
+                    work, place = work / SHORTER**TRIES, replace(place, state=None)
+                    self.kappa = max(self.kappa / SOFT, SOFTEST)
+                if tries == TRIES * LEVELS:
+                    tries, before = 0, place
+                    jumped = self._jumped(place, work)
+                    if isinstance(jumped, Place):
+                        place, again = jumped, 0
+                    elif again == len(OTHERS) or jumped is not None:
+                        yield jumped or CurveEnd.STUCK
+                        return
+                    else:
+                        work, again = OTHERS[again] * before.work, again + 1
+                continue
+            after = place_after(step, found, place)
+            if self._breaks(place, after) and work > AT_BREAK * place.work:
+                work *= SHORTER
+                continue
+            tries, again = 0, 0
+            ended = yield from rows.of_step(step, found, place, after)
+            if ended is not None:
+                yield ended
+                return
+            work = self._next(place, after, found, work, rows)
+            if found.directions <= EASY:
+                self.kappa = min(SMOOTHING, (EASIER if self.kappa > SOFT else 2.0) * self.kappa)
+            place = after
+
+    def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
+        """Where the structure rests again, or why it does not; None where that is not found."""
+        self.jumps += 1
+        jumped = jump(place, work, SMOOTHING, self.is_over)
+        self.spent, self.kappa = self.spent + jumped.spent, SMOOTHING
+        there = jumped.place
+        lost = there is not None and there.factor < KEPT * place.factor and not self.settles
+        return self.fall if lost else there
+
+    def _breaks(self, place: Place, after: Place) -> bool:
+        """Whether a tie breaks on the way from one place to another."""
+        ties = self.structure.model.ties
+        return bool((after.ties.broken(ties) & ~place.ties.broken(ties)).any())
+
+    def at_rest(self) -> Place | None:
+        """Under the dead load, or on its support; None where that is not found."""
+        structure = self.structure
+        none = np.zeros(structure.n_solids, dtype=np.bool_)
+        ties, pose = TieHistory.at_rest(structure.model.ties), Pose.at_rest(structure.n_solids)
+        joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), RATIO)
+        slips = np.zeros((joints.components - 1, joints.n_points))
+        history = History(np.zeros((joints.components, joints.n_points)), slips)
+        at = joints.there(pose)
+        step = PoseStep(joints, history, at, 0.0, 0.0, driven=self.settles)
+        found = step.solved()
+        self.spent += step.spent
+        if found is None or not found.solved:
+            return None
+        after, factor = step.after(found.at, found.normal), joints.full.scaling.load_factor(found.factor)
+        return Place(found.at, joints, after, None, factor, np.zeros((len(none), 6)), 0.0, ties, Energy())
+
+    def displacement(self, pose: Pose) -> float:
+        """Of the control point, m."""
+        return self.control.displacement(self.structure.model, self.structure.blocks_at(pose))
+
+    @property
+    def settles(self) -> bool:
+        """Whether a support gives way."""
+        return self.structure.case.settlement is not None
+
+    @property
+    def fall(self) -> CurveEnd:
+        """The end of what falls."""
+        return CurveEnd.NOT_CARRIED if self.settles else CurveEnd.FALLS
+
+    def row(self, step: PoseStep, found: Smoothed, place: Place) -> Row | None:
+        """The step from a place solved from a smoothed one; None where that is not found."""
+        sharp = replace(step, spent=0)
+        solved = sharp.solved(found)
+        self.spent += sharp.spent
+        return None if solved is None or not solved.fit else row_after(sharp, solved, place)
+
+    def is_over(self, fallen: BoolArray) -> bool:
+        """Whether too much has fallen, (n_solids,): of the control point, or of what is carried by what gives way."""
+        blocks = fallen[self.structure.solids.label]
+        if not self.settles:
+            return float(self.control.weights[blocks[self.control.blocks]].sum()) > TAKEN
+        return float(self._carried[blocks].sum()) > TAKEN * float(self._carried.sum())
+
+    @cached_property
+    def _carried(self) -> FloatArray:
+        """Masses of what moves at first with a support that gives way, without it, (n_blocks,)."""
+        speed = np.linalg.norm(self.first.mechanism[:, :3], axis=1)
+        masses = np.where(speed > MOVES * speed.max(), self.structure.model.blocks.masses, 0.0)
+        masses[self.control.blocks] = 0.0
+        if self.structure.case.settlement is not None:
+            masses[self.structure.case.settlement.blocks] = 0.0
+        return masses
+
+    def _unit(self, place: Place) -> float:
+        """Live work of elastic joints, at a tenth of the dead load."""
+        at, length = place.at.joints, place.joints.length
+        joints = replace(at, normal=at.normal * length, shear=at.shear * length)
+        program = joints.program
+        motion = elastic_motion(joints, np.ones(program.n_points, dtype=np.bool_))
+        dead, live = (float(np.abs(load).sum()) for load in (program.dead_load, program.live_load))
+        return abs(float(program.live_load @ motion)) * UNIT * (dead or live) / live
+
+    def _stepped(self, place: Place, work: float, tries: int) -> tuple[PoseStep, Smoothed | None]:
+        """A smoothed step of a live work from a place, as the one before led there."""
+        joints = place.joints
+        step = PoseStep(joints, place.history, place.at, place.factor / joints.full.scaling.live, work)
+        share = work / place.work if place.work else 0.0
+        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=tries % TRIES > WARM)
+        self.spent += step.spent
+        return step, found
+
+    def _next(self, before: Place, after: Place, found: Smoothed, work: float, rows: RowsOfWay) -> float:
+        """Live work of the next step."""
+        wanted = min(LONGER.get(found.directions, LONG) * work, max(FIRST * rows.unit, OF_WAY * rows.way))
+        moved = self.displacement(after.pose) - self.displacement(before.pose)
+        if moved > 0.0:
+            wanted = min(wanted, work * self.step / moved)
+        far = greatest_motion(after.joints, after.twists)
+        wanted = min(wanted, work * self.most * LARGEST / max(far, 1e-300))
+        left = self.until - self.displacement(after.pose)
+        return work * left / moved if moved > 0.0 and 0.0 < left < wanted / work * moved else wanted
