@@ -139,12 +139,15 @@ class Touching:
         corners: FloatArray,
         found: MovedContacts,
         pose: Pose,
+        *,
+        dilates: bool,
     ) -> Touching:
         """New points: those of the body whose corner they are, on a face of the other.
 
         centroids, sizes : of the bodies that move, as built; of these the contacts are
         normals : (n_facets + 1, 3) there
         corners : (n_points, 2) m, distance from the nearest corner of both faces
+        dilates : whether joints have opened by their slip: their points are then half of it from each face
         """
         contacts, of_point = found.contacts, found.contacts.interface_of_point
         bodies, frames = contacts.bodies[of_point], contacts.frames
@@ -158,7 +161,9 @@ class Touching:
         )
         offsets = np.zeros((len(bodies), 3))
         offsets[:, 0] = found.gaps
-        half = np.where(host, -0.5, 0.5) * found.gaps  # from the plane between both faces to that of the slave
+        half = np.where(host, -0.5, 0.5) * (
+            found.gaps if dilates else 0.0
+        )  # from between both faces to that of the slave
         placed = Placed(contacts.points + half[:, None] * frames[:, 0], frames, offsets)
         points = CarriedPoints.at_pose(centroids, bodies, host, placed, pose)
         new = np.full(len(bodies), -1)

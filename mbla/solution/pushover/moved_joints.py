@@ -110,9 +110,9 @@ class MovedJoints:
         before : whose points stay where nothing has slid
         """
         old = None if before is None else before[0]
-        opened = (
-            0.0 if before is None else float((before[0].opened(before[1]) / before[0].touching.sizes).max(initial=0.0))
-        )
+        opened = 0.0
+        if before is not None and before[0]._joints.dilates:
+            opened = float((before[0].opened(before[1]) / before[0].touching.sizes).max(initial=0.0))
         touching = structure.touching(pose, fallen, None if old is None else old.touching, opened)
         solids = structure.solids_at(pose, touching.contacts)
         there = structure.ties_at(pose)

@@ -112,9 +112,9 @@ class PushedStructure:
         normals = np.einsum("fij,fj->fi", blocks.rotation[facets.blocks], facets.normals)
         normals = np.vstack([normals, np.zeros((1, 3))])  # −1, of grounds
         assert n_blocks == len(self.solids.label)
-        there = self.solids.model.blocks
         corners = self.search.to_corners(found, blocks)
-        new = Touching.found(there.centroids, there.sizes, normals, corners, replace(found, contacts=contacts), pose)
+        there, found = self.solids.model.blocks, replace(found, contacts=contacts)
+        new = Touching.found(there.centroids, there.sizes, normals, corners, found, pose, dilates=opened > 0.0)
         return new if before is None else before.renewed(new, pose)
 
     def areas_of(self, touching: Touching) -> FloatArray:
